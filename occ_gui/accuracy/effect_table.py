@@ -245,7 +245,7 @@ class EffectTable(QTableView):
         switch = next(iter(self.switches.values()))
         for column, width in (
             (STAGE, metrics.horizontalAdvance("Sensor") + 8),
-            (PICTURE, _PICTURE_WIDTH),
+            (PICTURE, max(_PICTURE_WIDTH, header.sectionSizeHint(PICTURE))),
             (ERROR, metrics.horizontalAdvance("Error without") + 12),
             (TIME, _TIME_WIDTH),
             (SWITCH, switch.minimumSizeHint().width() + 4),

@@ -39,6 +39,7 @@ from occ_gui.window.cursor_readout import CursorReadout
 from occ_gui.window.dock_layout import DockLayout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.shortcut_sheet import ShortcutSheet
+from occ_gui.window.text_size import TextSize
 from occ_gui.window.theme import ThemeController
 from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import QUICK_DECODERS
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     from occ_gui.transmitter.transmitter_controller import TransmitterController
 
 _THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
+_TEXT = "view/text_percent"
 _HOLD, _YES = "edit/hold_brightness", "yes"
 
 
@@ -123,6 +125,7 @@ class Desktop(QObject):
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()
+        self.text_size = TextSize()
         window.dress()
         self.layout = DockLayout(window, window.modes, preferences)
         lamps = parts.photo_wiring.lamps
@@ -156,6 +159,7 @@ class Desktop(QObject):
         window.closing.connect(self.end)
         self.theme.chosen.connect(self._on_theme)
         self.theme.coloured.connect(window.dress)
+        self.text_size.chosen.connect(self._on_text_size)
         actions = window.actions_by_name
         self.brightness.switched.connect(self._on_hold)
         parts.controls.player.film_asked.connect(self.animation.ask)
@@ -171,6 +175,9 @@ class Desktop(QObject):
             "reset_layout": window.modes.reset,
             "shortcuts": self.show_shortcuts,
             "palette": self.show_palette,
+            "text_larger": self.text_size.larger,
+            "text_smaller": self.text_size.smaller,
+            "text_normal": self.text_size.normal,
         }.items():
             actions[name].triggered.connect(slot)
         before = parts.image.before.chosen
@@ -226,6 +233,8 @@ class Desktop(QObject):
         if not fresh:
             self.layout.restore()
             self.theme.choose(preferences.recall(_THEME))
+            if (percent := preferences.recall(_TEXT)).isdecimal():
+                self.text_size.choose(int(percent))
             if (mode := preferences.recall(_OVERLAY)) in MODES:
                 self._parts.show_mode(mode)
             if (whose := preferences.recall(_PICTURE)) in PICTURES:
@@ -246,6 +255,10 @@ class Desktop(QObject):
         self._parts.preferences.keep(_THEME, theme)
         menus = self._parts.window.menus
         menus.show_choice(menus.themes, theme)
+
+    def _on_text_size(self, percent: int) -> None:
+        self._parts.preferences.keep(_TEXT, str(percent))
+        self._parts.window.say(self.tr("Text at {percent} %").format(percent=percent))
 
     def _on_hold(self, on: bool) -> None:
         self._parts.preferences.keep(_HOLD, _YES if on else "")

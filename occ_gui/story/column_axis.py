@@ -4,7 +4,7 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.story.measure_cursors import MeasureCursors
 
-GUTTER = 96
+GUTTER = 104
 """Pixels at the left of each row, for its name and its levels."""
 
 MARGIN = 12

@@ -238,6 +238,11 @@ class Menus(QObject):
         self.themes = QActionGroup(self)
         for key in THEMES:
             self._add_choice(theme, self.themes, f"theme_{key}", words[key], key)
+        keys = QKeySequence.StandardKey
+        larger = self._add(menu, "text_larger", self.tr("Lar&ger text"), keys.ZoomIn)
+        larger.setToolTip(self.tr("As for a projector: all text of the window."))
+        self._add(menu, "text_smaller", self.tr("Smaller te&xt"), keys.ZoomOut)
+        self._add(menu, "text_normal", self.tr("&Normal text size"), self.tr("Ctrl+Alt+0"))
         full = self._add(menu, "full_screen", self.tr("Fu&ll screen"), self.tr("F11"))
         full.setToolTip(self.tr("The window as large as the screen, as for a projector."))
         FullScreen(window, full)

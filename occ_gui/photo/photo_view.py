@@ -1,6 +1,6 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
@@ -255,6 +255,13 @@ class PhotoView(QWidget):
         """Show that the match was cancelled; the previous one stays."""
         self.form.show_running(False)
         self.verdict.show_ended()
+
+    def keep_in_view(self, show: Callable[[], None]) -> None:
+        """Show something, and leave the page where it is: the table stays at hand."""
+        bar = self._scroll.verticalScrollBar()
+        place = bar.value()
+        show()
+        bar.setValue(place)
 
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, after the page has been laid out again."""

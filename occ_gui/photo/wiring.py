@@ -1,5 +1,7 @@
 """Controllers of the photo, connected with the panes: reading, placing, comparing, matching."""
 
+from functools import partial
+
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QObject
 
@@ -81,8 +83,9 @@ class PhotoWiring(QObject):
         """Show what the table of several photos has found in this one, if it was read alike."""
         row = None if photo is None else self._pane.many.rows.row_of(photo.path)
         alike = self.many.reading in (None, self.photos.reading)
-        if row is not None and row.match is not None and alike and self.lamps.region is None:
-            self.matching.take_over(row.match)
+        found = None if row is None else row.match
+        if found is not None and alike and self.lamps.region is None:
+            self._pane.keep_in_view(partial(self.matching.take_over, found))
 
     def _take_listed_now(self) -> None:
         """Show what the table has just found in the open photo, unless it is matched by itself."""

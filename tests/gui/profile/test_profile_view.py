@@ -316,18 +316,22 @@ def test_the_columns_in_view_are_some_of_the_picture(
     assert not whole or (whole[0], whole[-1] + 1) == (first, end)
 
 
-def test_the_region_that_is_read_is_marked_where_there_is_one(
+def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of()
-    region = view._region
+    before, after = view._outside
     view.show_reading(snapshot)
     read = snapshot.decoded.region
     assert read is not None
-    assert region.isVisible()
-    assert region.getRegion() == (read.first_column, read.last_column)
+    assert before.isVisible()
+    assert after.isVisible()
+    assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column
+    assert after.getRegion()[0] == read.last_column
+    assert after.getRegion()[1] >= len(snapshot.frame.profile)
     view.show_reading(replace(snapshot, decoded=DecodeResult("threshold", failure="None.")))
-    assert not region.isVisible()
+    assert not before.isVisible()
+    assert not after.isVisible()
 
 
 def test_before_any_result_the_legend_is_empty_but_for_its_lines(view: ProfileView) -> None:

@@ -47,6 +47,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     application.open_photo(listed[1])
     user.wait_until_idle()
     assert matching.match is row.match
+    assert application.photo._scroll.verticalScrollBar().value() == 0  # the table is at hand
     assert application.photo.verdict.heading.startswith(f"Photo: the match is {row.verdict}")
     user.choose("&Apply to the scene")
     assert application.store.scene == row.match.scene

@@ -203,7 +203,7 @@ class LimitCard(QFrame):
         self.name.set_full_text(
             self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
             if outdated
-            else self.tr("Decoder {name} reads up to").format(name=self._decoder)
+            else self.tr("{name} reads up to").format(name=self._decoder.capitalize())
         )
         if outdated:
             self.go.setEnabled(False)

@@ -63,6 +63,7 @@ def test_the_verdict_on_a_photo_looks_as_stored(
     bar.show_match(match_of(small_scene, *reasons))
     bar.show_applied(name == "sure")
     bar.show_simulation(State.BAD, "Simulation: no code: no header found")
+    bar.resize(820, bar.sizeHint().height())  # as high as its lines, as a layout makes it
     matches_its_picture(bar, f"photo-verdict-{name}-{theme}")
 
 

@@ -39,16 +39,20 @@ class TextSize(QObject):
         self.choose(SIZES[0])
 
     def choose(self, percent: int) -> None:
-        """Change to a size; one that is not among SIZES changes nothing."""
-        if percent == self.percent or percent not in SIZES:
+        """Change to a size, and tell which one it is; one not among SIZES changes nothing."""
+        if percent not in SIZES:
             return
+        if percent != self.percent:
+            self._scale_to(percent)
+        self.chosen.emit(percent)
+
+    def _scale_to(self, percent: int) -> None:
         factor = percent / self.percent
         self.percent = percent
         own = [(widget, _scaled(widget.font(), factor)) for widget in _with_own_size()]
         QApplication.setFont(_scaled(QApplication.font(), factor))
         for widget, font in own:
             widget.setFont(font)
-        self.chosen.emit(percent)
 
 
 def _with_own_size() -> list[QWidget]:

@@ -128,6 +128,7 @@ class CurveLegend(QWidget):
                 pen, name = self._lines[key]
                 thick = QPen(pen_on(self.palette(), pen))
                 thick.setWidth(2)
+                thick.setCosmetic(False)  # as wide as the curve at any scale of the screen
                 painter.setPen(thick)
                 middle = place.center().y()
                 painter.drawLine(QPointF(left, middle), QPointF(left + _SAMPLE, middle))

@@ -29,6 +29,7 @@ class LineLegend(QWidget):
         """Add an entry, shown until :meth:`show_line` hides it."""
         thick = QPen(pen)
         thick.setWidth(max(2, pen.width()))
+        thick.setCosmetic(False)  # as wide as the curve at any scale of the screen
 
         def draw(painter: QPainter, place: QRectF, palette: QPalette) -> None:
             middle = place.center().y()

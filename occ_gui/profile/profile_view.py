@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QPalette, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -37,6 +37,8 @@ _LEAST_HEIGHT = 76
 """Pixels: in a low window all panes share the height."""
 
 _AXIS_WIDTH = 52
+_LONGEST_LEVEL, _AXIS_GAPS = "-200", 14
+"""Pixels: the least width of an axis, and what lies between its name, numbers and ticks."""
 
 _SHADE = 20
 """Opacity of the text's colour over the columns that are not read, of 255."""
@@ -81,7 +83,7 @@ class ProfileView(QWidget):
         self.reason.setTextFormat(Qt.TextFormat.PlainText)
         self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
         self._make_controls()
-        self.plot.getAxis("left").setWidth(_AXIS_WIDTH)
+        self.plot.getAxis("left").setWidth(self._axis_width())
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
         self._lay_out()
 
@@ -155,19 +157,34 @@ class ProfileView(QWidget):
         layout.addLayout(row)
         layout.addWidget(self.reason)
         layout.addWidget(self.plot, 3)
-        self.chips = ChipStrip(self.plot, _AXIS_WIDTH)
+        self.chips = ChipStrip(self.plot, self._axis_width())
         layout.addWidget(self.chips)
+
+    def _axis_width(self) -> int:
+        """Return the width of the axes at the left: a name upright beside the longest number."""
+        metrics = self.fontMetrics()
+        needed = metrics.height() + metrics.horizontalAdvance(_LONGEST_LEVEL) + _AXIS_GAPS
+        return max(_AXIS_WIDTH, needed)
 
     @cached_property
     def residual(self) -> ResidualPlot:
         """The plot of photo minus simulation, made with the first photo."""
         residual = ResidualPlot(self.plot)
-        residual.plot.getAxis("left").setWidth(
-            _AXIS_WIDTH
-        )  # so that the columns of both plots are aligned
+        # So that the columns of both plots are aligned.
+        residual.plot.getAxis("left").setWidth(self._axis_width())
         residual.hide()
         self._rows.addWidget(residual, 2)
         return residual
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Keep room for the numbers in a larger font."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and "chips" in vars(self):
+            width = self._axis_width()
+            self.plot.getAxis("left").setWidth(width)
+            self.chips.copy.setFixedWidth(width)
+            if "residual" in vars(self):
+                self.residual.plot.getAxis("left").setWidth(width)
 
     def _arrange_plots(self) -> None:
         """Show the residual below the profile of a photo, and label the columns once."""

@@ -83,6 +83,6 @@ class ResidualPlot(QWidget):
 
     def _in_words(self, comparison: Comparison) -> str:
         return self.tr(
-            "Residual, photo minus simulation: correlation {correlation:.4f} of photo and "
-            "simulation as they lie here, RMSE {rmse:.2f} grey levels"
+            "Residual, photo minus the present scene's simulation: correlation {correlation:.4f} "
+            "as they lie here, RMSE {rmse:.2f} grey levels"
         ).format(correlation=comparison.correlation, rmse=comparison.rmse)

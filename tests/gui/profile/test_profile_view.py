@@ -8,6 +8,7 @@ import numpy as np
 import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
@@ -359,3 +360,17 @@ def test_the_whole_residual_is_in_view(
     low, high = view.residual.plot.getViewBox().viewRange()[1]
     assert low < min(0.0, largest)
     assert high > max(0.0, largest)
+
+
+@pytest.mark.parametrize("points", [9.0, 12.0, 16.0])
+def test_the_axes_hold_the_longest_level_in_any_font(qtbot: QtBot, points: float) -> None:
+    font = QFont()
+    font.setPointSizeF(points)
+    view = ProfileView()
+    qtbot.addWidget(view)
+    axes = [plot.getAxis("left") for plot in (view.plot, view.residual.plot)]
+    view.setFont(font)
+    metrics = QFontMetrics(font)
+    needed = metrics.height() + metrics.horizontalAdvance("-200")
+    assert [axis.minimumWidth() > needed for axis in axes] == [True, True]
+    assert view.chips.copy.minimumWidth() == axes[0].minimumWidth(), "its chips lie under the plot"

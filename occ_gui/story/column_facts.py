@@ -1,8 +1,9 @@
-"""What the model gives for the rows over the columns: light, packets and threshold.
+"""What the model gives for the story: light, packets, threshold, and who reads every picture.
 
 The rows draw it; they compute nothing themselves.
 """
 
+from occ_model.receiver.decoders import QUICK_DECODERS as READ_BY_ALL
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 from occ_model.teaching.packet_fields import (
     PacketField,
@@ -13,6 +14,7 @@ from occ_model.teaching.packet_fields import (
 )
 
 __all__ = [
+    "READ_BY_ALL",
     "PacketField",
     "chips_in_exposure",
     "light_over_columns",

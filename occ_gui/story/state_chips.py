@@ -5,9 +5,9 @@ from PySide6.QtCore import QCoreApplication
 from occ_gui.decoding.verdict import is_right
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
+from occ_gui.story.column_facts import READ_BY_ALL
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State
-from occ_model.receiver.decoders import QUICK_DECODERS
 
 _COMPUTING = "computing"
 """The chip of results that are still to come."""
@@ -76,7 +76,7 @@ def _band_model(reading: Reading) -> list[Chip]:
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     # Others have read it only where they were chosen before.
     results = {result.decoder: result for result in reading.results}
-    tried = [name for name in (*QUICK_DECODERS, decoder) if name in results]
+    tried = [name for name in (*READ_BY_ALL, decoder) if name in results]
     right = [name for name in tried if is_right(results[name], reading.sent)]
     others = [name for name in right if name != decoder]
     if not reading.sent or not others:
@@ -86,7 +86,7 @@ def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     meaning = _tr(
         "Of the decoders that every picture is read with ({tried}), these too read the code from "
         "the same signal, all bits right: {names}. The others read it where they are chosen."
-    ).format(tried=", ".join(QUICK_DECODERS), names=names)
+    ).format(tried=", ".join(READ_BY_ALL), names=names)
     chip = Chip("others", text.format(names=names), meaning, State.GOOD)
     return [chip]
 

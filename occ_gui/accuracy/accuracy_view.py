@@ -97,6 +97,8 @@ class AccuracyView(QWidget):
         )
         self.noise.activated.connect(lambda: self.noise_chosen.emit(self.noise.currentData()))
         self.summary = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.ends = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.ends.hide()
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
         self.table.switched.connect(self.effect_switched)
         self.table.chosen.connect(self._select)
@@ -123,6 +125,7 @@ class AccuracyView(QWidget):
         layout.setSpacing(2)
         layout.addLayout(controls)
         layout.addLayout(second)
+        layout.addWidget(self.ends)
         layout.addWidget(self.panels, 1)
 
     @property
@@ -205,19 +208,21 @@ class AccuracyView(QWidget):
         snapshot = self._snapshot
         if snapshot is None or not self._seen:
             return
-        frame, costs, pending = snapshot.frame, self._known_costs(snapshot), None
+        frame, costs, pending, ends = snapshot.frame, self._known_costs(snapshot), None, ""
         if self._forecast is not None and self._forecast[0].scene == snapshot.request.scene:
             pending = self._forecast[1]
         same = pending is None or pending.plan.included == frame.plan.included
         self.table.show_rows(rows_of(frame, costs, self._new, None if same else pending))
         if same or pending is None:
-            stated = picture_sentence(costs, snapshot.simulation_seconds, pending)
-            sentence = f"{stated} {ends_sentence(costs)}".strip()
+            sentence = picture_sentence(costs, snapshot.simulation_seconds, pending)
+            ends = ends_sentence(costs)
         else:
             sentence = forecast_sentence(frame, costs.picture, pending)
         if self._changes.switched:
             sentence += " " + switch_sentence(self._changes.switched) + "."
         self.summary.set_full_text(sentence)
+        self.ends.set_full_text(ends)
+        self.ends.setVisible(bool(ends))
         self._show_detail(costs)
 
     def _known_costs(self, snapshot: Snapshot) -> MeasuredCosts:

@@ -245,13 +245,17 @@ class EffectTable(QTableView):
         switch = next(iter(self.switches.values()))
         for column, width in (
             (STAGE, metrics.horizontalAdvance("Sensor") + 8),
-            (PICTURE, max(_PICTURE_WIDTH, header.sectionSizeHint(PICTURE))),
-            (ERROR, metrics.horizontalAdvance("Error without") + 12),
-            (TIME, _TIME_WIDTH),
-            (SWITCH, switch.minimumSizeHint().width() + 4),
+            (PICTURE, max(_PICTURE_WIDTH, self._title_width(PICTURE))),
+            (ERROR, self._title_width(ERROR)),
+            (TIME, max(_TIME_WIDTH, self._title_width(TIME))),
+            (SWITCH, max(switch.minimumSizeHint().width() + 4, self._title_width(SWITCH))),
         ):
             header.resizeSection(column, width)
         header.setSectionResizeMode(EFFECT, QHeaderView.ResizeMode.Stretch)
+
+    def _title_width(self, column: int) -> int:
+        """Return the width at which the title of a column is shown whole."""
+        return self.horizontalHeader().sectionSizeHint(column)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Use the height for higher rows."""

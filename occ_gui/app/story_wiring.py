@@ -54,6 +54,7 @@ def tell_story(parts: Parts) -> None:
     image.picture_chosen.connect(story.choose_picture)
     story.picture_chosen.connect(image.choose_picture)
     _link_profiles(story, parts.profile)
+    parts.learning.columns_held.connect(story.hold_columns)
     _tell_verdicts_apart(parts)
     crosshair = story.rows.crosshair
     parts.learning.exposure_chooser_made.connect(lambda made: _share_column(crosshair, made))

@@ -35,6 +35,7 @@ class AnswerField(QWidget):
         self.field.textEdited.connect(self._forget)
         self.sentence = paragraph()
         self.sentence.setAccessibleName(self.tr("What the check says"))
+        self._said, self._is_outdated = "", False
         row = QHBoxLayout()
         row.setSpacing(8)
         row.addWidget(self.field, 1)
@@ -63,12 +64,26 @@ class AnswerField(QWidget):
     def show_checked(self, answer: CheckedAnswer) -> None:
         """Show what the check says."""
         self.check.setEnabled(True)
-        self.sentence.setText(f"{_SIGNS[answer.outcome]}  {answer.sentence}")
+        self._said = f"{_SIGNS[answer.outcome]}  {answer.sentence}"
+        self._write()
+
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether what the check says is of another scene than the one that is shown."""
+        if outdated != self._is_outdated:
+            self._is_outdated = outdated
+            self._write()
+
+    def _write(self) -> None:
+        if not self._said:
+            return
+        after = self.tr("The scene has changed since: check again.")
+        self.sentence.setText(f"{self._said} {after}" if self._is_outdated else self._said)
         self.sentence.show()
 
     def show_waiting(self) -> None:
         """Show that the model computes the answer."""
         self.check.setEnabled(False)
+        self._said = ""
         self.sentence.setForegroundRole(QPalette.ColorRole.WindowText)
         self.sentence.setText(self.tr("The model computes…"))
         self.sentence.show()
@@ -79,5 +94,6 @@ class AnswerField(QWidget):
 
     def _forget(self) -> None:
         self.check.setEnabled(True)
+        self._said = ""
         self.sentence.clear()
         self.sentence.hide()

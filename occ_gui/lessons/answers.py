@@ -65,12 +65,17 @@ class LessonAnswers(QObject):
         given = self._given.get((lesson.name, place))
         return None if given is None else given[0]
 
+    def is_at(self, lesson: Lesson, place: int, scene: Scene) -> bool:
+        """Return whether an answer holds beside a scene: it was checked there, or judges none."""
+        given, step = self._given.get((lesson.name, place)), lesson.steps[place]
+        return given is None or step.check is None or step.own_photo or given[1] == scene
+
     def all_of(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
         """Return the steps of a lesson with their answers."""
         found = []
         for place, step in enumerate(lesson.steps):
             answer, scene, photo = self._given.get(
-                (lesson.name, place), (None, step.scene, MatchedPhoto())
+                (lesson.name, place), (None, step.asked, MatchedPhoto())
             )
             found.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
         return tuple(found)
@@ -83,4 +88,4 @@ class LessonAnswers(QObject):
 
 def _check(asked: _Asked) -> tuple[_Asked, CheckedAnswer]:
     step = asked.lesson.steps[asked.place]
-    return asked, check_answer(step, asked.text, asked.photo.match)
+    return asked, check_answer(step, asked.text, asked.photo.match, asked.scene)

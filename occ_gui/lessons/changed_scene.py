@@ -11,7 +11,7 @@ _MOST_NAMED = 2
 
 
 def changed_sentence(step: Step, scene: Scene) -> str:
-    """Say what differs from the step's scene, and which panes show which.
+    """Say what differs from the step's scene, and what is about which.
 
     Parameters
     ----------
@@ -26,8 +26,7 @@ def changed_sentence(step: Step, scene: Scene) -> str:
         One or two sentences; empty where the scene is that of the step or of its check, and where
         the step is about a photo of the student's, whose match is not of the scene.
     """
-    asked = step.scene if step.check is None else step.check.scene
-    if step.own_photo or scene in {step.scene, asked}:
+    if step.own_photo or scene in {step.scene, step.asked}:
         return ""
     changes = []
     for name in (name for names in GROUPS.values() for name in names):
@@ -43,8 +42,8 @@ def changed_sentence(step: Step, scene: Scene) -> str:
     if len(changes) > _MOST_NAMED:
         named.append(_tr("{more} more").format(more=len(changes) - _MOST_NAMED))
     return _tr(
-        "You have changed the scene: {changes}. The picture and the formula show your scene; the "
-        "text, the check and the explanation keep to the lesson's values."
+        "You have changed the scene: {changes}. Picture, formula, check and report are of your "
+        "scene; the numbers in the text are of the lesson's own."
     ).format(changes=_tr(" and ").join(named))
 
 

@@ -16,11 +16,14 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.widgets.plain_text import LONGEST
+from occ_gui.widgets.plot import PACKETS_IN_VIEW
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
 from occ_model.results.lessons import CheckedAnswer, Lesson, LessonList, Step
+from occ_model.teaching.explanations import explanation
 from occ_model.teaching.lessons import lessons
+from occ_model.teaching.quantities import QUANTITIES
 from occ_model.teaching.rolling_shutter import rolling_shutter
 
 
@@ -50,6 +53,10 @@ class LessonController(QObject):
 
     control_wanted = Signal(str)
     """The name of the parameter that a step is about; empty for none."""
+
+    columns_held = Signal(object)
+    """How many columns a step keeps in view, so that a change of the scene is seen as such; None
+    for as many as usual."""
 
     equation_wanted = Signal(str)
     """The name of the equation that explains a step; empty for none."""
@@ -185,6 +192,7 @@ class LessonController(QObject):
     def restore_user(self) -> None:
         """Restore what the user was working on; the scene in one step that can be undone."""
         user, self._user = self.users_own(), None
+        self.columns_held.emit(None)
         if user is None:
             return
         self._scenes.settings.restore(user.settings)
@@ -219,6 +227,8 @@ class LessonController(QObject):
         step = lesson.steps[place]
         title = self.tr("step {number} of “{title}”").format(number=place + 1, title=lesson.title)
         self._scenes.put(step.scene, title, new_gesture(), force={})
+        packet = QUANTITIES["packet-columns"].compute(step.scene, "")
+        self.columns_held.emit(PACKETS_IN_VIEW * packet)
         self._open_photo(step)
         if step.pane:
             self.pane_wanted.emit(step.pane)
@@ -258,9 +268,21 @@ class LessonController(QObject):
         step = self._step()
         if step is None:
             return
-        self._pane.step.show_changed(changed_sentence(step, self._scenes.scene))
+        scene = self._scenes.scene
+        self._pane.step.show_changed(changed_sentence(step, scene))
+        self._pane.step.show_explanation(explanation(step, scene))
+        self._mark_answer()
         if step.animation:
             self._pane.step.animation.show_shutter(rolling_shutter(self._scenes.scene))
+
+    def _mark_answer(self) -> None:
+        """Say of an answer that was checked at another scene that it was."""
+        lesson = self._current
+        if lesson is not None:
+            place = self._places[lesson.name]
+            self._pane.step.answer_field.show_outdated(
+                not self._answers.is_at(lesson, place, self._scenes.scene)
+            )
 
     def _check(self, text: str) -> None:
         lesson = self._current
@@ -274,6 +296,7 @@ class LessonController(QObject):
         answer = self._answers.of(lesson, place)
         if lesson is self._current and place == self._places[lesson.name] and answer is not None:
             self._pane.step.answer_field.show_checked(answer)
+            self._mark_answer()
 
     def _show_failed(self, sentence: str) -> None:
         self._pane.step.answer_field.show_checked(CheckedAnswer("", None, sentence))

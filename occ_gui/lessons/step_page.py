@@ -18,6 +18,10 @@ LEAST = QSize(200, 160)
 """Smallest size in pixels: then a question with its text scrolls."""
 
 _EQUATION_HEIGHT = 112
+
+_REVEALING_MS = 100
+"""How long the explanation is being laid out at most."""
+
 _ANIMATION_HEIGHT = 200
 
 
@@ -84,7 +88,7 @@ class StepPage(QWidget):
         self.reveal.toggled.connect(self._show_answer)
         self.answer.hide()
         self.equation.hide()
-        self._has_equation = False
+        self._has_equation = self._is_revealing = False
 
     def _make_buttons(self) -> None:
         self.all = button(
@@ -108,16 +112,25 @@ class StepPage(QWidget):
         column.setSpacing(8)
         for widget in (
             self.place, self.progress, self.goal, self.animation, self.text, self.control,
-            self.action, self.question, self.changed, self.answer_field,
-            self.reveal, self.answer, self.equation,
+            self.action, self.changed, self.reveal, self.answer, self.equation,
         ):  # fmt: skip
             column.addWidget(widget)
         column.addStretch()
         self._scroll = ScrollPane(content, LEAST)
+        # The text is laid out in several passes: the end lies lower after each.
+        self._scroll.verticalScrollBar().rangeChanged.connect(self._follow_end)
+        # What is asked stays in view, however long the text above it is.
+        self.asked = QWidget()
+        fixed = QVBoxLayout(self.asked)
+        fixed.setContentsMargins(8, 0, 8, 4)
+        fixed.setSpacing(4)
+        fixed.addWidget(self.question)
+        fixed.addWidget(self.answer_field)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         layout.addWidget(self._scroll, 1)
+        layout.addWidget(self.asked)
         for buttons in ((self.all, self.again), (self.back, self.next)):
             layout.addLayout(_row(buttons))
 
@@ -136,7 +149,6 @@ class StepPage(QWidget):
         self.animation.setVisible(step.animation)
         self.text.setText(typeset(step.text))
         self.question.setText(typeset(step.question))
-        self.answer.setText(typeset(step.answer))
         label = PARAMETERS[step.control].label if step.control else ""
         self.control.setText(self.tr("Change: {control}").format(control=label))
         self.control.setVisible(bool(step.control))
@@ -154,6 +166,10 @@ class StepPage(QWidget):
         """Say what the student has changed; an empty sentence for nothing."""
         self.changed.setText(sentence)
         self.changed.setVisible(bool(sentence))
+
+    def show_explanation(self, text: str) -> None:
+        """Put this explanation where it is shown on demand."""
+        self.answer.setText(typeset(text))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
         """Show the equation that explains the answer, with its present numbers."""
@@ -180,12 +196,22 @@ class StepPage(QWidget):
         )
         self.explained.emit(shown and self._has_equation)
         if shown:
-            # After the layout has changed.
-            QTimer.singleShot(0, self._scroll, self._show_end)
+            self._is_revealing = True
+            QTimer.singleShot(_REVEALING_MS, self, self._end_revealing)
+            self._show_end()
+
+    def _follow_end(self) -> None:
+        if self._is_revealing:
+            self._show_end()
+
+    def _end_revealing(self) -> None:
+        self._show_end()
+        self._is_revealing = False
 
     def _show_end(self) -> None:
         last = self.equation if self._has_equation else self.answer
-        self._scroll.ensureWidgetVisible(last, 0, 8)
+        # Of a widget with text, ensureWidgetVisible shows no more than its cursor.
+        self._scroll.ensureVisible(0, last.geometry().bottom(), 0, 8)
 
 
 def _row(buttons: Sequence[QWidget]) -> QHBoxLayout:

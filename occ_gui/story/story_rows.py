@@ -54,6 +54,7 @@ class StoryRows(QWidget):
         self._decoder = ""
         self._whose = PICTURES[0]
         self.range = RANGES[0]
+        self._held: float | None = None
         self.time, self.columns = TimeScale(self.axis), ColumnScale(self.axis)
         self.light = LightRow(self.axis, self.crosshair)
         self.stripes = StripesRow(self.axis, self.crosshair)
@@ -154,6 +155,14 @@ class StoryRows(QWidget):
         self._set_range()
         self.axis.fit()
 
+    def hold_columns(self, columns: float | None) -> None:
+        """Keep so many columns in view in place of the first packets; None for the packets again.
+
+        The columns that a user has moved to are left.
+        """
+        self._held = columns
+        self._set_range()
+
     @property
     def decoded(self) -> DecodeResult | None:
         """The result of the chosen decoder."""
@@ -184,7 +193,8 @@ class StoryRows(QWidget):
         if last - first < 1.0:  # the panel is out of the picture
             first, last = 0.0, float(last_column)
         if self.range == RANGES[0]:
-            last = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
+            wanted = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
+            last = wanted if self._held is None else min(first + self._held, last_column)
         last = max(last, first + 4.0)
         beside = _BESIDE * (last - first)
         self.axis.set_home(first - beside, last + beside, last_column + 1)

@@ -89,6 +89,8 @@ class StoryView(QWidget):
         self.measured.setContentsMargins(4, 0, 0, 0)
         self.measured.hide()
         self.rows.measured_changed.connect(self._show_measured)
+        self._held: float | None = None
+        self._has_packets = True
         self._make_controls(decoders)
         self._pages = QStackedWidget()
         for page in (self.rows, picture):
@@ -137,21 +139,15 @@ class StoryView(QWidget):
         self.whose.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.whose.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.whose.chosen.connect(self.picture_chosen)
-        texts = (
-            (
-                self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW),
-                self.tr("Show the panel's first packets, and follow them."),
-            ),
-            (self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")),
-        )
         self.ranges = {}
-        for name, (text, tip) in zip(RANGES, texts, strict=True):
-            button = QPushButton(text)
+        for name in RANGES:
+            button = QPushButton(self.tr("Panel"))
             button.setCheckable(True)
-            button.setToolTip(tip)
+            button.setToolTip(self.tr("Show all columns of the panel, and follow it."))
             button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
             self.ranges[name] = button
         self.ranges[RANGES[0]].setChecked(True)
+        self._name_first()
         self.whole = QPushButton(self.tr("Whole picture"))
         self.whole.setCheckable(True)
         self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
@@ -210,6 +206,8 @@ class StoryView(QWidget):
         """Show this reading in place of the previous one."""
         self.verdict.show_reading(reading)
         self.rows.show_reading(reading)
+        self._has_packets = not reading.scene.transmitter.pattern
+        self._name_first()
 
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
         """Show this profile of a photo in place of the previous one, or none."""
@@ -230,6 +228,26 @@ class StoryView(QWidget):
         """Show the first packets or the whole panel, one of RANGES."""
         self.rows.choose_range(name)
         self._mark_range(name)
+
+    def hold_columns(self, columns: float | None) -> None:
+        """Keep so many columns in view whatever is sent; None for the first packets again."""
+        self._held = columns
+        self.rows.hold_columns(columns)
+        self._name_first()
+
+    def _name_first(self) -> None:
+        """Name on the button of the first packets what it shows."""
+        button = self.ranges[RANGES[0]]
+        text = self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW)
+        tip = self.tr("Show the panel's first packets, and follow them.")
+        if self._held is not None:
+            text = self.tr("{columns:.0f} columns").format(columns=self._held)
+            tip = self.tr("Show so many columns from the panel's first on, whatever is sent.")
+        elif not self._has_packets:
+            text = self.tr("{cycles} cycles").format(cycles=PACKETS_IN_VIEW)
+            tip = self.tr("Show the pattern's first cycles, and follow them.")
+        button.setText(text)
+        button.setToolTip(tip)
 
     def fit(self) -> None:
         """Return to the range of columns that was chosen last."""

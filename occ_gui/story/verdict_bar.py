@@ -106,7 +106,9 @@ class VerdictBar(StateBar):
 
     def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
         if verdict.explanation:
-            return [verdict.explanation]
+            # What follows a semicolon is left out where it does not fit.
+            first, more, _ = verdict.explanation.partition(";")
+            return [verdict.explanation, f"{first}."] if more else [verdict.explanation]
         scene = reading.scene
         fewest = chips_in_exposure(scene)
         texts = [

@@ -20,7 +20,9 @@ from occ_gui.video.marks import Marks, MarkState
 from occ_gui.video.timeline_scale import TimelineScale, tick_step
 from occ_gui.widgets.guarded_paint import guarded
 
-_GUTTER, _MARGIN = 64, 10
+_LEAST_GUTTER, _BESIDE, _MARGIN = 64, 6, 10
+"""Pixels at the left at least, around the names of the rows, and at the right."""
+
 _FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
 _LEAST_MARK = 3.0
 """Fewest pixels of a mark that is drawn by itself; narrower ones are counted in bins."""
@@ -113,9 +115,16 @@ class Timeline(QWidget):
 
     # Where things are.
 
+    def _gutter(self) -> int:
+        """Return the room that the names of the rows need."""
+        names = self.tr("frames"), self.tr("packets")
+        widest = max(map(self.fontMetrics().horizontalAdvance, names))
+        return max(widest + 2 * _BESIDE, _LEAST_GUTTER)
+
     def _area(self) -> QRectF:
-        width = max(1.0, self.width() - _GUTTER - _MARGIN)
-        return QRectF(_GUTTER, _GAP, width, _FRAMES + _GAP + _PACKETS)
+        gutter = self._gutter()
+        width = max(1.0, self.width() - gutter - _MARGIN)
+        return QRectF(gutter, _GAP, width, _FRAMES + _GAP + _PACKETS)
 
     def x_of(self, time: float) -> float:
         """Return where a time lies, in pixels from the left."""
@@ -159,7 +168,7 @@ class Timeline(QWidget):
         ):
             place = QRectF(area.left(), top, area.width(), height)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
-            beside = QRectF(0, place.top(), _GUTTER - 6, place.height())
+            beside = QRectF(0, place.top(), area.left() - _BESIDE, place.height())
             flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
             painter.drawText(beside, flags, name)
             painter.fillRect(place, self.palette().color(QPalette.ColorRole.Base))

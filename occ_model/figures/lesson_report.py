@@ -20,6 +20,7 @@ from occ_model.figures.lesson_steps import (
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.results.lessons import AnsweredStep, Lesson
 from occ_model.scene.provenance import Provenance
+from occ_model.teaching.explanations import explanation
 from occ_model.version import __version__
 
 _FIGURE = (7.0, 2.6)
@@ -110,7 +111,7 @@ def _write_markdown(path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], a
         if each.match is not None:
             lines += [*(f"* {_plain(line)}" for line in match_lines(each.match, each.photo)), ""]
         lines += [f"![What was seen]({quote(folder.name)}/{figure.name})", ""]
-        lines += [f"> {_plain(each.step.answer)}", ""]
+        lines += [f"> {_plain(explanation(each.step, each.scene))}", ""]
     scene = steps[-1].scene.to_toml()
     lines += [f"Scene of the last step, occ-explorer {__version__}:", "", "```toml", scene, "```"]
     write_whole(path, ("\n".join(lines) + "\n").encode())

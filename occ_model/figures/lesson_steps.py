@@ -14,6 +14,7 @@ from occ_model.results.lessons import AnsweredStep
 from occ_model.results.match import Match
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.teaching.explanations import explanation
 
 _PAGE = (8.27, 11.69)
 """Inches of a page of A4."""
@@ -89,7 +90,7 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
         (f"Answer: {given}", 10, "normal", "0.0"),
         (told, 9, "normal", "0.3"),
         (matched, 9, "normal", "0.0"),
-        (each.step.answer, 8.5, "normal", "0.3"),
+        (explanation(each.step, each.scene), 8.5, "normal", "0.3"),
     )
     line = 0.0145
     for text, size, weight, colour in texts:

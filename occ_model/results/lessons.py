@@ -28,12 +28,15 @@ class Check:
         Largest difference that is right, as a fraction of the model's value.
     scene
         The scene that the question is about, which may differ from the one that the step sets.
+    named
+        The parameters whose values the question names: an answer is checked only at these.
     """
 
     quantity: str
     asked_in: str
     tolerance: float
     scene: Scene
+    named: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,6 +88,11 @@ class Step:
     animation: bool = False
     action: str = ""
     own_photo: bool = False
+
+    @property
+    def asked(self) -> Scene:
+        """The scene that the question and the explanation are about."""
+        return self.scene if self.check is None else self.check.scene
 
     def with_unit(self, given: str) -> str:
         """Return a given answer with the unit that it was asked in, where it is a number alone."""
@@ -164,7 +172,8 @@ class AnsweredStep:
     answer
         The answer; None where there is none.
     scene
-        The scene at which it was given, which the report draws.
+        The scene at which it was given and checked, which the report draws; that of the question
+        where there is no answer.
     match
         The match of the photo that was open, where the step is about one; the report draws it.
     photo

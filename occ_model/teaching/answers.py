@@ -3,10 +3,12 @@
 import math
 
 from occ_model.errors import OccError, one_line
-from occ_model.results.lessons import CheckedAnswer, Step
+from occ_model.results.lessons import Check, CheckedAnswer, Step
 from occ_model.results.match import Match
-from occ_model.scene.units import Unit
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
 from occ_model.teaching.quantities import QUANTITIES
+from occ_model.teaching.result_text import result_text
 
 _NEAR = 3.0
 """An answer within so many tolerances is near."""
@@ -14,15 +16,19 @@ _NEAR = 3.0
 _LEAST_NEAR = 0.02
 """Relative difference that is near however small the tolerance is."""
 
-_DIGITS = 3
+_ROUNDING = 1e-9
+"""Relative difference of two values that are the same."""
 
 
-def check_answer(step: Step, text: str, match: Match | None = None) -> CheckedAnswer:
+def check_answer(
+    step: Step, text: str, match: Match | None = None, scene: Scene | None = None
+) -> CheckedAnswer:
     """Check what a student typed.
 
-    The model's value is computed from the step's own scene, not from the one that the student has
-    set meanwhile. Where the step is about a photo of the student's, it is that of the photo's
-    match. A wrong answer does not give it away.
+    The model's value is that of the scene which the student sees. Where the question names values
+    and that scene has others, nothing is judged: they are to be set first. Where the step is about
+    a photo of the student's, the value is that of the photo's match. A wrong answer does not give
+    it away.
 
     Parameters
     ----------
@@ -32,6 +38,8 @@ def check_answer(step: Step, text: str, match: Match | None = None) -> CheckedAn
         The answer; a number without a unit is in the quantity's ``asked_in``.
     match
         The match of the photo that is open, None where there is none.
+    scene
+        The scene that is shown; None: the one that the question is about.
 
     Returns
     -------
@@ -46,8 +54,12 @@ def check_answer(step: Step, text: str, match: Match | None = None) -> CheckedAn
     if step.own_photo and match is None:
         return CheckedAnswer(text, None, "Match the photo first: your answer is compared with it.")
     own = match if step.own_photo else None
+    scene = check.scene if scene is None else scene
+    first = "" if own else _to_set_first(check, scene)
+    if first:
+        return CheckedAnswer(text, None, first)
     try:
-        expected = quantity.compute(check.scene, own or step.photo)
+        expected = quantity.compute(scene, own or step.photo)
     except OccError as error:
         return CheckedAnswer(text, None, f"This cannot be checked. {error}")
     plain = quantity.unit.factor(quantity.asked_in) or 1.0
@@ -56,8 +68,8 @@ def check_answer(step: Step, text: str, match: Match | None = None) -> CheckedAn
         hint = f" in {quantity.asked_in}" if quantity.asked_in else ""
         return CheckedAnswer(text, "unreadable", f"“{one_line(text, 40)}” is no number{hint}.")
     difference = abs(given - expected) / abs(expected) if expected else abs(given)
-    if difference <= check.tolerance * (1.0 + 1e-9):
-        value = format_value(quantity.unit, expected)
+    if difference <= check.tolerance * (1.0 + _ROUNDING):
+        value = result_text(quantity.unit, expected)
         source = "The match" if own else "The model"
         return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
     side = "high" if given > expected else "low"
@@ -66,8 +78,21 @@ def check_answer(step: Step, text: str, match: Match | None = None) -> CheckedAn
     return CheckedAnswer(text, "wrong", f"Not yet: that is too {side}. Try again.")
 
 
-def format_value(unit: Unit, value: float) -> str:
-    """Write a value with as many digits as a student can read off; whole numbers in full."""
-    if not unit.symbol and value == round(value):
-        return f"{value:.0f}"
-    return unit.format(value, _DIGITS)
+def _to_set_first(check: Check, scene: Scene) -> str:
+    """Say which values the question names that a scene does not have; empty where it has all."""
+    differing = []
+    for name in check.named:
+        now, asked = scene.value(name), check.scene.value(name)
+        if isinstance(now, float) and isinstance(asked, float):
+            allowed = max(check.tolerance, _ROUNDING) * abs(asked)
+            is_set = abs(now - asked) <= allowed
+        else:
+            is_set = now == asked
+        if not is_set:
+            declared = PARAMETERS[name]
+            differing.append(
+                f"{declared.label} to {declared.format(asked)} (it is {declared.format(now)})"  # type: ignore[arg-type]
+            )
+    if not differing:
+        return ""
+    return f"First set {' and '.join(differing)}: the question is about that."

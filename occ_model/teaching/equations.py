@@ -9,6 +9,8 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, NIT, SECOND
 from occ_model.simulation.band_model import band_lengths
+from occ_model.teaching.quantities import COLUMN
+from occ_model.teaching.result_text import result_text
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 
@@ -20,9 +22,6 @@ _ON = (
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign
 
 _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
-
-_DIGITS = 4
-"""Significant digits of a time that follows from others."""
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
@@ -132,7 +131,7 @@ def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
     period = Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
     exposure, readout = _shown(scene, "exposure_time"), _shown(scene, "readout_time")
     try:
-        complete, transition = (f"{length:.2f} columns" for length in band_lengths(scene))
+        complete, transition = (result_text(COLUMN, length) for length in band_lengths(scene))
     except BandModelUndefined:
         complete = transition = (
             "undefined: the exposure is longer than the switching period; the simulation goes on"
@@ -168,7 +167,7 @@ def _chip_columns(scene: Scene) -> Equation:
             Term("/"),
             _shown(scene, "readout_time"),
         ),
-        f"{period / readout:.2f} columns",
+        result_text(COLUMN, period / readout),
     )
 
 
@@ -181,7 +180,7 @@ def _frame_time(scene: Scene) -> Equation:
         "Time to read out a whole picture",
         (Term("columns", ("columns",)), _TIMES, Term("t<sub>r</sub>", ("readout_time",))),
         (columns, _TIMES, _shown(scene, "readout_time")),
-        SECOND.format(camera.columns * camera.readout_time, _DIGITS),
+        result_text(SECOND, camera.columns * camera.readout_time),
     )
 
 
@@ -195,6 +194,6 @@ def _null(scene: Scene) -> Equation:
         "Frequency at which an alternating pattern has no stripes",
         (Term("2 /"), Term("t", ("exposure_time",))),
         (Term("2 /"), _shown(scene, "exposure_time")),
-        f"{HERTZ.format(2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
+        f"{result_text(HERTZ, 2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
         f"{100.0 * contrast:.0f} % of its contrast are left",
     )

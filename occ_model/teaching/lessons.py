@@ -198,9 +198,8 @@ def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
             raise _MistakeError(
                 f"tolerance is {shown(percent)}; allowed: 0 to {_MOST_TOLERANCE:g}, in percent."
             )
-        return Check(
-            quantity, QUANTITIES[quantity].asked_in, percent / 100.0, _changed(scene, asked)
-        )
+        unit, about = QUANTITIES[quantity].asked_in, _changed(scene, asked)
+        return Check(quantity, unit, percent / 100.0, about, tuple(asked.get("set", ())))
     except OccError as error:
         raise _MistakeError(str(error), "check") from None
 

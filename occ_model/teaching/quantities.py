@@ -16,7 +16,7 @@ FRAME_RATE = 30.0
 
 _BITS_A_SECOND = Unit("bit/s", ("", "k", "M"), spellings=(("bits/s", 1.0), ("bps", 1.0)))
 _PERCENT = Unit("%", shown=("%", 0.01))
-_COLUMN = Unit("columns", spellings=(("column", 1.0), ("px", 1.0)))
+COLUMN = Unit("columns", spellings=(("column", 1.0), ("px", 1.0)))
 _CHIP = Unit("chips", spellings=(("chip", 1.0),))
 
 
@@ -92,13 +92,13 @@ def _share_seen(scene: Scene, _photo: str | Match = "") -> float:
 QUANTITIES: dict[str, LessonQuantity] = {
     "chip-columns": LessonQuantity(
         "columns that are read out while a chip lasts, t_LED / t_r",
-        _COLUMN,
+        COLUMN,
         "columns",
         _chip_columns,
     ),
     "slope-columns": LessonQuantity(
         "columns of a slope between two states, t / t_r",
-        _COLUMN,
+        COLUMN,
         "columns",
         lambda scene, _: scene.camera.exposure_time / scene.camera.readout_time,
     ),
@@ -110,7 +110,7 @@ QUANTITIES: dict[str, LessonQuantity] = {
     ),
     "packet-columns": LessonQuantity(
         "columns of a packet",
-        _COLUMN,
+        COLUMN,
         "columns",
         lambda scene, _: len(packet(scene)) * _chip_columns(scene),
     ),

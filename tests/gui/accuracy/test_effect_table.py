@@ -235,3 +235,23 @@ def test_a_picture_is_fitted_whole_in_the_middle_and_never_enlarged(
     full = place.width() == area[0] or place.height() == area[1]
     assert full or (place.width(), place.height()) == picture
     assert place.width() / place.height() == pytest.approx(picture[0] / picture[1], rel=0.35)
+
+
+@pytest.mark.parametrize("points", [9, 12, 16])
+def test_the_titles_of_the_columns_are_shown_whole_in_any_font(
+    qtbot: QtBot, frame: Frame, points: int
+) -> None:
+    table = EffectTable()
+    qtbot.addWidget(table)
+    header = table.horizontalHeader()
+    for widget in (table, header):
+        font = widget.font()
+        font.setPointSize(points)
+        widget.setFont(font)
+    table.resize(1200, 260)
+    table.show_rows(rows_of(frame, costs_of(frame), new=()))
+    table.show()
+    for column in range(header.count()):
+        title = table.effects.headerData(column, Qt.Orientation.Horizontal)
+        width = header.fontMetrics().horizontalAdvance(title)
+        assert header.sectionSize(column) >= width + 4

@@ -71,7 +71,7 @@ def test_indices_stand_low_and_quantities_in_italics(
     assert re.search(
         r"font-style:italic;[^>]*>t</span><span[^>]*vertical-align:sub;[^>]*>on<", html
     )
-    assert re.search(r"font-weight:\d+;[^>]*>= 12\.50 columns<", html)
+    assert re.search(r"font-weight:\d+;[^>]*>= 12\.5 columns<", html)
 
 
 def test_what_depends_on_the_change_is_marked_for_a_moment(

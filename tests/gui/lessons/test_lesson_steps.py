@@ -50,13 +50,106 @@ def test_a_number_is_checked_against_the_model_and_kept(guide: LessonView, user:
     user.wait_until_idle()
 
 
-def test_a_change_of_the_scene_does_not_change_what_is_right(
+def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
     application: Application, guide: LessonView, user: User
 ) -> None:
     guide.list.choices[0].click()
-    application.store.change(readout_time=20e-6)
-    assert "too low" in answer(guide, user, "25")
+    application.store.change(readout_time=27.54e-6)
+    assert "too high" in answer(guide, user, "62.5")
+    assert answer(guide, user, "18") == "✓  Right. The model gives 18.2 columns."
+    guide.step.reveal.click()
+    assert "18.2 columns" in guide.step.equation.toPlainText()
+    assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
+    learning = application.learning.lessons
+    lesson = learning.controller.lesson_under_way
+    assert lesson is not None
+    (first, *others) = learning.answers.all_of(lesson)
+    assert first.scene == application.store.scene
+    assert [each.scene for each in others] == [each.step.asked for each in others]
+    user.wait_until_idle()
+
+
+def test_an_answer_that_was_checked_at_another_scene_says_so(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    guide.list.choices[0].click()
+    said = guide.step.answer_field.sentence
     assert "Right" in answer(guide, user, "62.5")
+    assert "has changed" not in said.text()
+    application.store.change(readout_time=20e-6)
+    assert said.text().endswith("The scene has changed since: check again.")
+    guide.step.again.click()
+    assert "has changed" not in said.text()
+    application.store.change(readout_time=20e-6)
+    guide.step.next.click()
+    guide.step.back.click()  # which sets the scene again
+    assert "has changed" not in said.text()
+    user.wait_until_idle()
+
+
+def test_what_a_question_names_is_to_be_set_before_an_answer_is_judged(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    guide.list.choices[0].click()
+    guide.step.next.click()
+    said = answer(guide, user, "25")
+    assert said.startswith("→  First set Readout time to 20 µs (it is 8 µs)")
+    application.store.change(readout_time=20e-6)
+    assert "Right" in answer(guide, user, "25")
+    assert "own scene" not in guide.step.answer.text()
+    user.wait_until_idle()
+
+
+def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    story = application.story
+    usual = story.rows.axis.span
+    guide.list.choices[0].click()
+    user.wait_until_idle()
+    held = story.rows.axis.span
+    assert story.ranges["packets"].text() == "250 columns"
+    assert held == pytest.approx(250, rel=0.05)
+    for readout in (20e-6, 4e-6):
+        application.store.change(readout_time=readout)
+        user.wait_until_idle()
+        assert story.rows.axis.span == pytest.approx(held)
+    guide.step.all.click()
+    user.wait_until_idle()
+    assert story.ranges["packets"].text() == "2 packets"
+    assert story.rows.axis.span == pytest.approx(usual)
+    application.store.change(pattern="10")
+    user.wait_until_idle()
+    assert story.ranges["packets"].text() == "2 cycles"
+
+
+def test_the_explanation_is_shown_to_its_end(qtbot: QtBot) -> None:
+    page = StepPage()
+    qtbot.addWidget(page)
+    lesson = lessons().lessons[0]
+    page.show_step(lesson, 0, None)
+    page.show_explanation("A word and another. " * 12)
+    page.resize(320, 560)
+    page.show()
+    qtbot.waitExposed(page)
+    page.reveal.click()
+    view = page._scroll.viewport()
+    end = QPoint(0, page.equation.height() - 1)
+    qtbot.waitUntil(lambda: view.rect().contains(page.equation.mapTo(view, end)), timeout=5000)
+
+
+def test_question_answer_and_check_stay_in_view_however_long_the_text(qtbot: QtBot) -> None:
+    page = StepPage()
+    qtbot.addWidget(page)
+    lesson = lessons().lessons[0]
+    long = replace(lesson.steps[0], text="A word and another. " * 300)
+    page.show_step(replace(lesson, steps=(long,)), 0, None)
+    page.resize(300, 420)
+    page.show()
+    qtbot.waitExposed(page)
+    for widget in (page.question, page.answer_field.field, page.answer_field.check):
+        assert page.rect().contains(QRect(widget.mapTo(page, QPoint()), widget.size()))
+        assert not widget.visibleRegion().isEmpty()
 
 
 def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(
@@ -68,7 +161,7 @@ def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(
     application.store.change(readout_time=19e-6)
     assert changed.isVisible()
     assert "Readout time is 19 µs instead of 8 µs." in changed.text()
-    assert "the check" in changed.text()
+    assert "check and report are of your scene" in changed.text()
     guide.step.again.click()
     assert not changed.isVisible()
     application.store.change(readout_time=19e-6)
@@ -104,10 +197,10 @@ def test_the_explanation_has_its_equation_with_the_present_numbers(
 ) -> None:
     guide.list.choices[0].click()
     guide.step.reveal.click()
-    assert "62.50 columns" in guide.step.equation.toPlainText()
+    assert "62.5 columns" in guide.step.equation.toPlainText()
     assert guide.step.equation.toPlainText().count("Columns") == 1
     application.store.change(readout_time=20e-6)
-    assert "25.00 columns" in guide.step.equation.toPlainText()
+    assert "25 columns" in guide.step.equation.toPlainText()
     user.wait_until_idle()
 
 

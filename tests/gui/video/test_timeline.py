@@ -92,3 +92,12 @@ def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
     qtbot.keyClick(timeline, Qt.Key.Key_End)
     qtbot.mouseClick(timeline, LEFT)
     assert timeline.index == 0
+
+
+@pytest.mark.parametrize("points", [8, 12, 20])
+def test_the_names_of_the_rows_fit_beside_them_in_any_font(timeline: Timeline, points: int) -> None:
+    font = timeline.font()
+    font.setPointSize(points)
+    timeline.setFont(font)
+    room = timeline.x_of(0.0)
+    assert room > timeline.fontMetrics().horizontalAdvance("packets")

@@ -1,6 +1,7 @@
 """Every answer of the lessons is true: its numbers are held against the model."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -9,11 +10,15 @@ import pytest
 import occ_model as occ
 from occ_model.files.resources import resource_path
 from occ_model.results.lessons import Step
+from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching import answers
 from occ_model.teaching.answers import check_answer
+from occ_model.teaching.equations import equations
+from occ_model.teaching.explanations import explanation
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
+from occ_model.teaching.result_text import result_text
 
 
 def step(lesson: int, number: int) -> Step:
@@ -201,7 +206,77 @@ def test_what_the_explanation_states_is_a_right_answer(asked: Step, text: str) -
     assert check_answer(asked, text).outcome == "right"
 
 
-def test_a_lesson_checks_against_its_own_scene_and_tells_no_number() -> None:
+CHECKED = [
+    step
+    for lesson in lessons().lessons
+    for step in lesson.steps
+    if step.check is not None and not step.own_photo
+]
+
+
+@pytest.mark.parametrize("asked", CHECKED, ids=lambda step: step.question[:40])
+def test_a_value_that_a_question_names_is_named_in_its_check(asked: Step) -> None:
+    assert asked.check is not None
+    scene = asked.check.scene
+    named = {PARAMETERS[name].format(scene.value(name)) for name in asked.check.named}  # type: ignore[arg-type]
+    assert set(re.findall(r"\d[\d.]* (?:µs|ms|kHz|Hz|m)\b", asked.question)) <= named
+
+
+@pytest.mark.parametrize(("readout", "columns"), [(27.54e-6, "18.2"), (2e-6, "250")])
+def test_an_answer_is_checked_at_the_scene_that_is_shown(readout: float, columns: str) -> None:
+    asked = step(1, 1)
+    shown = asked.scene.replace(readout_time=readout)
+    assert check_answer(asked, "62.5", scene=shown).outcome == "wrong"
+    right = check_answer(asked, columns, scene=shown)
+    assert (right.outcome, right.sentence) == (
+        "right",
+        f"Right. The model gives {columns} columns.",
+    )
+
+
+def test_nothing_is_judged_while_another_value_is_set_than_the_question_names() -> None:
+    asked = step(1, 2)
+    for readout, is_judged in ((8e-6, False), (19e-6, False), (20.1e-6, True), (20e-6, True)):
+        answer = check_answer(asked, "25", scene=asked.scene.replace(readout_time=readout))
+        assert (answer.outcome == "right") is is_judged
+        assert ("First set Readout time to 20 µs" in answer.sentence) is not is_judged
+
+
+def test_an_explanation_says_of_which_scene_it_is_where_that_is_not_shown() -> None:
+    asked = step(1, 1)
+    assert explanation(asked, asked.scene) == asked.answer
+    changed = asked.scene.replace(readout_time=27.54e-6)
+    assert explanation(asked, changed) == (
+        f"For the lesson's own scene (Readout time: 8 µs): {asked.answer}"
+    )
+    more = changed.replace(iso=200.0, distance=1.0, f_number=2.0)
+    assert ", …): " in explanation(asked, more)
+    other = step(1, 2)
+    assert "Readout time: 20 µs" in explanation(other, other.scene)
+    assert explanation(other, other.asked) == other.answer
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(62.5, "62.5"), (18.159, "18.2"), (1846.15, "1846"), (8.5, "8.5")]
+)
+def test_a_result_has_three_digits_and_all_before_the_point(value: float, text: str) -> None:
+    assert result_text(QUANTITIES["chip-columns"].unit, value) == f"{text} columns"
+
+
+@pytest.mark.parametrize(
+    ("asked", "name"), [(step(1, 1), "chip-columns"), (step(1, 3), "frame-time")], ids=str
+)
+def test_the_check_and_the_formula_give_the_same_digits(asked: Step, name: str) -> None:
+    (formula,) = (each.result for each in equations(asked.scene) if each.name == name)
+    assert asked.check is not None
+    value = QUANTITIES[name].compute(asked.scene, "")
+    assert check_answer(asked, str(value * 1e3 if name == "frame-time" else value)).sentence == (
+        f"Right. The model gives {formula}."
+    )
+    assert formula in asked.answer
+
+
+def test_a_wrong_answer_tells_no_number() -> None:
     asked = step(3, 1)
     near, wrong = check_answer(asked, "15"), check_answer(asked, "7")
     assert (near.outcome, wrong.outcome) == ("near", "wrong")

@@ -1,0 +1,35 @@
+"""The explanation of a step, with the scene that its numbers are of."""
+
+from occ_model.results.lessons import Step
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import GROUPS, Scene
+
+_MOST_NAMED = 2
+
+
+def explanation(step: Step, scene: Scene) -> str:
+    """Give a step's explanation beside another scene than its own.
+
+    Parameters
+    ----------
+    step
+        The step.
+    scene
+        The scene that the explanation stands beside.
+
+    Returns
+    -------
+    str
+        As it is where its numbers are those of the scene, or of a photo of the student's; else it
+        begins with the scene that they are of.
+    """
+    if step.own_photo or scene == step.asked:
+        return step.answer
+    names = (name for names in GROUPS.values() for name in names)
+    differing = [name for name in names if scene.value(name) != step.asked.value(name)]
+    own = ", ".join(
+        f"{PARAMETERS[name].label}: {PARAMETERS[name].format(step.asked.value(name)) or 'empty'}"  # type: ignore[arg-type]
+        for name in differing[:_MOST_NAMED]
+    )
+    more = ", …" if len(differing) > _MOST_NAMED else ""
+    return f"For the lesson's own scene ({own}{more}): {step.answer}"

@@ -101,7 +101,8 @@ class Candidates:
         found = self._fitted_read(read)
         best = max((one.fit.correlation for one in found), default=0.0)
         if not explained and best < _WELL_READ:
-            found += self._fitted_read(read_otherwise(stripes.profile, period, read, self.check))
+            again = read_otherwise(stripes.profile, period, read, self.check)
+            found += [replace(one, read_again=True) for one in self._fitted_read(again)]
         return found
 
     def _fitted_read(self, read: Sequence[ReadPattern]) -> list[Hypothesis]:
@@ -177,7 +178,11 @@ class Candidates:
                 return found, [*others, other]
             others.append(found)
             found = self.polished(
-                replace(other, sent=f"{self._named(other.chips)} read from the photo")
+                replace(
+                    other,
+                    sent=f"{self._named(other.chips)} read from the photo",
+                    read_again=found.read_again,
+                )
             )
         return found, others
 

@@ -165,6 +165,11 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
 
 def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     """Compare chips that were read with the repeated wave that they were read from."""
+    if found.read_again:
+        return [
+            "The chips were found by trying many sequences of them, some of which may explain the "
+            "stripes of any object."
+        ]
     if stripes.period is None:
         return []
     left = 1.0 - max(found.fit.correlation, 0.0) ** 2

@@ -31,6 +31,8 @@ class Hypothesis:
         Whether the chips were read from the photo.
     rate
         Its chips in the time of one of the scene's chips.
+    read_again
+        Whether they were read by trying many sequences, as what was read first explained too little.
     """
 
     sent: str
@@ -39,6 +41,7 @@ class Hypothesis:
     bits: float
     was_read: bool
     rate: float = 1.0
+    read_again: bool = False
 
     @property
     def chips(self) -> ByteArray:

@@ -32,7 +32,7 @@ class Hypothesis:
     rate
         Its chips in the time of one of the scene's chips.
     read_again
-        Whether they were read by trying many sequences, as what was read first explained too little.
+        Whether they were read by trying many sequences, as what was read first explained little.
     """
 
     sent: str

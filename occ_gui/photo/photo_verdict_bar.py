@@ -120,7 +120,7 @@ class PhotoVerdictBar(StateBar):
         if match.verdict == SURE and not match.exposure_reasons:
             return State.GOOD, (self.tr("Photo: the match is sure"), found)
         if match.verdict == SURE:
-            title = self.tr("Photo: the match is sure but for the exposure time")
+            title = self.tr("Photo: sure, but for the exposure")
             return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
         reasons = match.all_reasons
         reason = self._first_of(reasons)

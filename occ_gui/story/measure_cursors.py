@@ -49,11 +49,11 @@ class Measured:
     Parameters
     ----------
     columns
-        From A to B, negative where B is at the left.
+        From the first to the second, negative where the second is at the left.
     time
         The same in seconds.
     levels
-        How much higher the profile is at B, in grey levels; None outside of it.
+        How much higher the profile is at the second, in grey levels; None outside of it.
     chips
         The same time in chips.
     """
@@ -81,7 +81,7 @@ def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -
 def in_words(measured: Measured) -> str:
     """Write a difference in one line."""
     parts = [
-        _tr("A to B: {columns:.1f} columns").format(columns=measured.columns),
+        _tr("1 to 2: {columns:.1f} columns").format(columns=measured.columns),
         SECOND.format(measured.time, 4),
     ]
     if measured.levels is not None:

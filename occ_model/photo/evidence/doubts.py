@@ -175,9 +175,17 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
     left = 1.0 - max(found.fit.correlation, 0.0) ** 2
     repeated = unrepeated_share(stripes.flattened, stripes.period)
     most = max(_MORE_THAN_REPEATED * repeated, _WELL_EXPLAINED)
-    if left <= min(most, _MOST_UNEXPLAINED):
+    allowed = min(most, _MOST_UNEXPLAINED)
+    if left <= allowed:
         return []
+    shown, limit = told_apart(100.0 * left, 100.0 * allowed)
     return [
-        f"What was read from the stripes leaves {100.0 * left:.1f} % of them unexplained; at most "
-        f"{100.0 * min(most, _MOST_UNEXPLAINED):.1f} % are allowed."
+        f"What was read from the stripes leaves {shown} % of them unexplained; at most {limit} % "
+        "are allowed."
     ]
+
+
+def told_apart(value: float, limit: float) -> tuple[str, str]:
+    """Write two numbers with one decimal, or as many as it takes to tell them apart."""
+    texts = ((f"{value:.{digits}f}", f"{limit:.{digits}f}") for digits in range(1, 18))
+    return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))

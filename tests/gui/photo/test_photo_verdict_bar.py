@@ -62,7 +62,7 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
     view.show_photo(photo)
     view.show_match(replace(match, exposure_reasons=REASONS[:1]))
     assert (bar.state, bar.heading) == (
-        State.GOOD, "Photo: the match is sure but for the exposure time",
+        State.GOOD, "Photo: sure, but for the exposure",
     )  # fmt: skip
     told = bar.accessibleDescription()
     assert f"Only the exposure time, and with it the start time, is doubtful. {REASONS[0]}" in told

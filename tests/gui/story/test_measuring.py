@@ -30,7 +30,7 @@ def test_the_difference_is_that_of_the_model(measuring: Application) -> None:
     assert found.chips == pytest.approx(found.time * scene.transmitter.switching_frequency)
     assert rows.profile.levels is not None
     assert found.levels == pytest.approx(rows.profile.levels[225] - rows.profile.levels[100])
-    assert measuring.story.measured.text().startswith("A to B: 125.0 columns  ·  1 ms")
+    assert measuring.story.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")
     assert "as a period 1 kHz" in measuring.story.measured.toolTip()
 
 

@@ -140,6 +140,8 @@ class MatchForm(QWidget):
         self._show_known()
         if sent == "square":  # who chooses it says that its frequency is that of the lamp
             self._confirm_square(self.square.value())
+        elif self._certain.get(_FREQUENCY) == CHIPS_OF_A_CYCLE * self.square.value():
+            self._set_certain(_FREQUENCY, None)  # what was confirmed was the square wave's
 
     def _confirm_square(self, cycles: float) -> None:
         self._set_certain(_FREQUENCY, CHIPS_OF_A_CYCLE * cycles)

@@ -148,9 +148,12 @@ class PhotoWiring(QObject):
             # A photo beside the picture cannot be moved over it.
             self._image.mode_chosen.emit(MODES[1])
 
-    def _on_match(self, _match: Match) -> None:
+    def _on_match(self, match: Match) -> None:
         # A placement by hand belongs to the picture before the match.
         self.placements.reset()
+        photo, rows = self.matching.photo, self._pane.many.rows
+        row = None if photo is None else rows.row_of(photo.path)
+        rows.show_earlier(None if row is None or row.match is match else row.path)
 
     def _show_placement(self, placement: Placement) -> None:
         self._image.show_placement(placement)

@@ -174,6 +174,11 @@ class StoryView(QWidget):
         self._pages.setCurrentWidget(self._picture if shown else self.rows)
         self._size_by_page()
         self.whole.setText(self.tr("Back to the rows") if shown else self.tr("Whole picture"))
+        self.whole.setToolTip(
+            self.tr("Show the four rows again.")
+            if shown
+            else self.tr("Show the whole picture in place of the four rows.")
+        )
         self.readout.setVisible(not shown)
         self._show_verdicts()
 

@@ -32,18 +32,20 @@ class PhotoRowsModel(QAbstractTableModel):
         self._table: PhotoTable | None = None
         self._estimate = "readout_time"
         self._condition = ""
+        self._earlier: Path | None = None
 
     def show_files(self, paths: Sequence[Path]) -> None:
         """Show these files, none of which is matched yet."""
         self.beginResetModel()
         self.paths = tuple(paths)
-        self._rows, self._table = {}, None
+        self._rows, self._table, self._earlier = {}, None, None
         self.endResetModel()
 
     def show_begun(self, estimate: str) -> None:
         """Forget what was found: all photos are matched anew, for this parameter."""
         self.beginResetModel()
         self._rows, self._table, self._estimate = {}, None, estimate
+        self._earlier = None
         self.endResetModel()
 
     def show_row(self, place: int, row: PhotoRow) -> None:
@@ -59,6 +61,11 @@ class PhotoRowsModel(QAbstractTableModel):
     def show_condition(self, condition: str) -> None:
         """Show the value that the times rest on where it is assumed; empty where it is certain."""
         self._condition = condition
+
+    def show_earlier(self, path: Path | None) -> None:
+        """Say of the photo that was matched by itself since that its row is of an earlier match."""
+        self._earlier = path
+        self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
 
     def row_of(self, path: Path) -> PhotoRow | None:
         """Return what was found in the photo of a file, None where nothing was found so far."""
@@ -149,6 +156,8 @@ class PhotoRowsModel(QAbstractTableModel):
         name = names[row.verdict]
         if self._table is not None and self._table.is_outlier(place):
             name = self.tr("{verdict}, outlier").format(verdict=name)
+        if self.paths[place] == self._earlier:
+            name = self.tr("{verdict}, earlier match").format(verdict=name)
         return f"{SIGNS[row.verdict]} {name}"
 
 

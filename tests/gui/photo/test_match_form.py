@@ -237,3 +237,13 @@ def test_a_field_that_is_no_longer_asked_for_has_no_sentence(
     refuse()
     view.show_scene(occ.Scene().replace(iso=200.0))
     assert view.form.notices[field].text() == ""
+
+
+def test_what_was_confirmed_of_a_square_wave_ends_with_it(view: PhotoView) -> None:
+    view.form.sent.show_key("square")
+    view.form._take_sent("square")
+    assert view.form.certain.isChecked()
+    view.form.sent.show_key("auto")
+    view.form._take_sent("auto")
+    assert view.form._certain == {}
+    assert not view.form.certain.isChecked()

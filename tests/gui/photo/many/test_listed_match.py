@@ -65,3 +65,23 @@ def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
     assert application.photo_wiring.matching.match is None
     application.photos.scan_along("auto")
     user.wait_until_idle()
+
+
+def test_a_row_says_that_its_photo_was_matched_by_itself_since(
+    application: Application, user: User, listed: tuple[Path, ...]
+) -> None:
+    rows = application.photo.many.rows
+    application.open_photo(listed[1])
+    user.wait_until_idle()
+    before = rows.text(1, 1)
+    assert "earlier" not in before
+    application.photo.form.gamma.setChecked(True)
+    application.photo_wiring.match()
+    user.wait_until_idle()
+    assert rows.text(1, 1) == f"{before}, earlier match"
+    assert rows.text(0, 1) == before
+    application.open_photo(listed[0])
+    user.wait_until_idle()
+    application.open_photo(listed[1])
+    user.wait_until_idle()
+    assert rows.text(1, 1) == before, "the row's own match is shown again"

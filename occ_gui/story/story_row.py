@@ -4,6 +4,8 @@ import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
+    QFont,
+    QFontMetrics,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -32,6 +34,9 @@ _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 
 _NOTCH = 120
 _A_NOTCH = 0.85
+
+_WIDEST_BESIDE, _GUTTER_GAPS = "chips", 14
+"""What stands beside a row's name at most, and the pixels between and around both."""
 
 _GRIP = 6
 """Pixels from a measuring cursor within which the mouse takes it."""
@@ -162,20 +167,34 @@ class StoryRow(QWidget):
         painter.setClipRect(area)
         self.draw(painter, area)
         painter.restore()
+        painter.setFont(self._gutter_font())
         self._draw_name(painter)
         self.draw_beside(painter, area)
         painter.end()
         return picture
 
+    def _gutter_font(self) -> QFont:
+        """Return the row's font, smaller where its name would touch what stands beside it."""
+        font, bold = QFont(self.font()), QFont(self.font())
+        bold.setBold(True)
+        needed = QFontMetrics(bold).horizontalAdvance(self.name) + QFontMetrics(
+            font
+        ).horizontalAdvance(_WIDEST_BESIDE)
+        room = GUTTER - _GUTTER_GAPS
+        if needed > room and font.pointSizeF() > 0.0:
+            font.setPointSizeF(font.pointSizeF() * room / needed)
+        return font
+
     def _draw_name(self, painter: QPainter) -> None:
-        font = self.font()
+        beside = painter.font()
+        font = QFont(beside)
         font.setBold(True)
         painter.setFont(font)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         place = QRectF(4, 3, GUTTER - 8, self.height())
         flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
         painter.drawText(place, flags, self.name)
-        painter.setFont(self.font())
+        painter.setFont(beside)
 
     def _draw_line(
         self, painter: QPainter, column: float, area: QRectF, style: Qt.PenStyle

@@ -11,6 +11,9 @@ from occ_model.results.teaching import LightCurve
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
+_ROUNDING = 1e-12
+"""How far a ratio may be off a whole number, relative to it, by how its parts are written."""
+
 
 def light_over_columns(
     scene: Scene, first: float, last: float, most: int, edged: bool = False
@@ -93,4 +96,6 @@ def chips_in_exposure(scene: Scene) -> int:
     """Return n where an exposure sees parts of n chips or of n + 1, by where it begins."""
     check_scene(scene)
     ratio = Fraction(scene.camera.exposure_time) * Fraction(scene.transmitter.switching_frequency)
-    return math.ceil(ratio)
+    # 100 us at 10 kHz are one chip, though no binary fraction is 100 us.
+    nearest = round(ratio)
+    return nearest if math.isclose(ratio, nearest, rel_tol=_ROUNDING) else math.ceil(ratio)

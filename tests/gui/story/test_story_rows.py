@@ -10,7 +10,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtGui import QFont, QFontMetrics, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -446,3 +446,18 @@ def test_the_stripes_have_the_screens_own_pixels(
     ((width, height),) = asked
     assert height == round(area.height() * ratio)
     assert width <= np.ceil(area.width() * ratio) + 1
+
+
+@pytest.mark.parametrize("points", [9.0, 12.0, 15.6, 24.0])
+def test_the_names_of_rows_do_not_touch_what_stands_beside_them(
+    rows: StoryRows, points: float
+) -> None:
+    font = QFont()
+    font.setPointSizeF(points)
+    for row in (rows.light, rows.stripes, rows.profile, rows.code):
+        row.setFont(font)
+        found = row._gutter_font()
+        assert found.pointSizeF() <= points
+        beside = QFontMetrics(found).horizontalAdvance("chips")
+        found.setBold(True)
+        assert QFontMetrics(found).horizontalAdvance(row.name) + beside < GUTTER - 10

@@ -89,3 +89,12 @@ def test_an_exposure_sees_parts_of_so_many_chips(chips: float) -> None:
         seen.add(int(np.ceil(start + chips) - np.floor(start)))
     assert seen <= {fewest, fewest + 1}
     assert fewest in seen
+
+
+@pytest.mark.parametrize(("exposure", "frequency", "fewest"),
+                         [(100e-6, 10e3, 1), (300e-6, 10e3, 3), (100.001e-6, 10e3, 2)])  # fmt: skip
+def test_whole_chips_are_whole_as_they_are_written(
+    exposure: float, frequency: float, fewest: int
+) -> None:
+    scene = scene_with(exposure_time=exposure, switching_frequency=frequency)
+    assert chips_in_exposure(scene) == fewest

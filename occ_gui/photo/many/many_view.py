@@ -266,9 +266,9 @@ class ManyPhotosView(QWidget):
             frame = frame_readout_time(table)
             if frame is not None:
                 time = with_uncertainty(quantity("readout_time"), *frame)
-                texts[self.frame] = self.tr("Readout of the whole frame: {time}").format(
-                    time=rests_on + time
-                )
+                texts[self.frame] = self.tr(
+                    "Readout of the whole frame, sure photos: {time}"
+                ).format(time=rests_on + time)
             texts[self.notes] = "\n".join(table.notes)
             self.paste.show_lines_if(rests_on, lines_to_paste(table))
         else:
@@ -282,9 +282,11 @@ class ManyPhotosView(QWidget):
             return ""
         declared = quantity(name)
         value = with_uncertainty(declared, found.value, found.uncertainty)
-        text = self.tr("{label}: {value}, mean of {count}").format(
-            label=label_of(name), value=condition + value, count=found.count
-        )
+        text = (
+            self.tr("{label}: {value}, mean of {count} sure photos")
+            if found.count > 1
+            else self.tr("{label}: {value}, of the one sure photo")
+        ).format(label=label_of(name), value=condition + value, count=found.count)
         if found.count > 1:
             how = self.tr("they agree") if found.agrees else self.tr("they do not agree")
             text += self.tr("; χ² {chi:.3g} of {degrees}: {how}").format(

@@ -102,11 +102,12 @@ def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     found = table().estimated
     assert found is not None
     assert view.mean.text() == (
-        "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3; χ² 0.5 of 2: they agree; 1 left out"
+        "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3 sure photos; χ² 0.5 of 2: they agree; "
+        "1 left out"
     )
     assert found.value == pytest.approx(7e-6)
-    assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.40 µs, mean of 3")
-    assert view.frame.text() == "Readout of the whole frame: 7.0000 ± 0.0018 ms"
+    assert view.exposure.text().startswith("Exposure time: 80.00 ± 0.40 µs, mean of 3 sure photos")
+    assert view.frame.text() == "Readout of the whole frame, sure photos: 7.0000 ± 0.0018 ms"
     assert view.title.text() == "6 photos: 4 sure, 1 doubtful, 1 unreadable"
 
 

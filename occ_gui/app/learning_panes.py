@@ -250,4 +250,8 @@ class LearningPanes(QObject):
         actions["clear_pins"].triggered.connect(self.pins.clear)
         actions["lessons"].triggered.connect(lambda: self._window.bring_to_front("lessons"))
         self.pins.status_message.connect(self.status_message)
-        self.pins.both_pinned.connect(lambda: self._window.bring_to_front("compare"))
+        # Not by a lambda: the signal would hold it, and it this object, beyond the window's end.
+        self.pins.both_pinned.connect(self._show_comparison)
+
+    def _show_comparison(self) -> None:
+        self._window.bring_to_front("compare")

@@ -158,6 +158,7 @@ def test_interruptions_are_answered_before_slow_imports() -> None:
 
 PROGRAM = """
 import os, signal, sys, time
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a background process inherits another
 from occ_model.errors import OccError
 from occ_model.program import run_program
 

@@ -100,7 +100,8 @@ def test_every_way_of_showing_a_photo_names_the_picture(
     view.show_photo(photo)
     for whose in PICTURES:
         view.choose_picture(whose)
-        for mode in ("beside", "blend", "split", "difference"):
+        assert view.switch.key() == whose, "side by side the choice beside the caption names it"
+        for mode in ("blend", "split", "difference"):
             view.set_mode(mode)
             assert f"{whose}'s picture" in view.simulation.caption.toolTip().lower()
 

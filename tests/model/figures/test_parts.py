@@ -116,10 +116,10 @@ def test_a_report_says_what_became_of_an_answer(monkeypatch: pytest.MonkeyPatch)
     figure = Mock()
     answer = SimpleNamespace(text="12", sentence="That is what the picture shows.")
     step = SimpleNamespace(
-        question="How many?", answer="Twelve.", with_unit=lambda text: f"{text} ms"
+        question="How many?", answer="Twelve.", with_unit=lambda text: f"{text} ms", own_photo=True
     )
     for given in (answer, None):
-        each = SimpleNamespace(step=step, answer=given, match=None, photo=None)
+        each = SimpleNamespace(step=step, answer=given, match=None, photo=None, scene=Scene())
         lesson_steps._draw_step(figure, 1, each, 0.9, 0.5)  # type: ignore[arg-type]
         texts = [str(call.args[2]).replace("\n", " ") for call in figure.text.call_args_list]
         assert (answer.sentence in texts) == (given is not None)

@@ -1,6 +1,6 @@
 """Status line: a message, the work in progress, the level under the mouse, and computing times."""
 
-from PySide6.QtCore import QSize, Qt, QTimer
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSizePolicy, QStatusBar, QWidget
 
@@ -11,9 +11,6 @@ from occ_model.errors import one_line
 
 _MESSAGE_SHARE, _POINTED_SHARE, _TIMING_SHARE = 0.3, 0.4, 0.3
 """Fractions of the width: the message takes at least so much, the readouts at most."""
-
-_PLAN_CHANGE_MS = 12_000
-"""Milliseconds for which a switched effect is news."""
 
 _GAP = 8
 """Pixels to the left of a readout."""
@@ -29,9 +26,6 @@ class StatusLine(QStatusBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._message = self._plan_change = ""
-        self._forgetting = QTimer(self, singleShot=True)
-        self._forgetting.setInterval(_PLAN_CHANGE_MS)
-        self._forgetting.timeout.connect(self._forget_plan_change)
         self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName(self.tr("Message"))
@@ -60,13 +54,8 @@ class StatusLine(QStatusBar):
         return self._message
 
     def show_plan_change(self, sentence: str) -> None:
-        """Show which effects the plan has switched, while there is no message, for a while."""
+        """Show which effects the plan has switched, while there is no message; empty ends it."""
         self._plan_change = sentence
-        self._forgetting.start()
-        self._show_sentence()
-
-    def _forget_plan_change(self) -> None:
-        self._plan_change = ""
         self._show_sentence()
 
     def show_timing(self, simulation: float, reading: float) -> None:

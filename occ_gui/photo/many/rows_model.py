@@ -64,6 +64,8 @@ class PhotoRowsModel(QAbstractTableModel):
 
     def show_earlier(self, path: Path | None) -> None:
         """Say of the photo that was matched by itself since that its row is of an earlier match."""
+        if path == self._earlier:
+            return
         self._earlier = path
         self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
 

@@ -91,10 +91,10 @@ def test_the_change_of_the_plan_is_said_until_the_next_message(line: StatusLine)
     assert [label.text() for label, _ in texts_of(line) if label.text()] == []
 
 
-def test_the_change_of_the_plan_is_news_for_a_while(line: StatusLine, qtbot: QtBot) -> None:
+def test_the_change_of_the_plan_is_news_until_it_is_ended(line: StatusLine, qtbot: QtBot) -> None:
     line.resize(800, 24)
-    line._forgetting.setInterval(1)
     line.show_plan_change("Switched in: JPEG")
+    line.show_plan_change("")
     qtbot.waitUntil(lambda: not [one for one, _ in texts_of(line) if one.text()])
 
 

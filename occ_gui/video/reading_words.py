@@ -1,5 +1,7 @@
 """Words for a film's reading: its rates, its clocks, and what is not sure."""
 
+import math
+
 from PySide6.QtCore import QCoreApplication
 
 from occ_gui.video.film_reading import Figure
@@ -55,6 +57,8 @@ def sentences_of(
     clock = known.clock if whole is None or whole.clock is None else whole.clock
     if clock is not None:
         said += clock.problems
+    if whole is not None and whole.cut_off:
+        said.append(_losses(known, whole))
     return tuple(dict.fromkeys(said))
 
 
@@ -84,21 +88,51 @@ def _rates(whole: VideoReading) -> list[Figure]:
             _tr("Bits of the payload in the packets read, repetitions included."),
         )
     )
-    for label, share, meaning in (
-        (
+    (counts,) = whole.rates(1)
+    found.append(
+        Figure(
             _tr("Packet error rate"),
-            whole.packet_error_rate,
+            _tr("{share} of {sent} packets").format(
+                share=_share(counts.packets_lost, counts.packets), sent=counts.packets
+            ),
             _tr("Share of the packets sent that were lost."),
-        ),
-        (
-            _tr("Bit error rate"),
-            whole.bit_error_rate,
-            _tr("Share of wrong bits in the packets read, against the payload of all together."),
-        ),
-    ):
-        if share is not None:
-            found.append(Figure(label, f"{_PERCENT * share:.3g} %", meaning))
+        )
+    )
+    if counts.bits:
+        found.append(
+            Figure(
+                _tr("Bit error rate"),
+                _tr("{share} of {read} bits").format(
+                    share=_share(counts.bits_wrong, counts.bits), read=counts.bits
+                ),
+                _tr(
+                    "Share of wrong bits in the packets that one frame shows whole, against the "
+                    "payload of all together. Packets that no frame shows whole have no bits here."
+                ),
+            )
+        )
     return found
+
+
+def _share(count: int, total: int) -> str:
+    """Write a share of things counted in percent, to the first digit that chance could change."""
+    share = count / total
+    deviation = _PERCENT * math.sqrt(share * (1.0 - share) / total)
+    decimals = max(0, -math.floor(math.log10(deviation))) if deviation else 0
+    return f"{_PERCENT * share:.{decimals}f} %"
+
+
+def _losses(known: FilmProgress, whole: VideoReading) -> str:
+    """Say why packets are lost, and that their bits are not counted as wrong ones."""
+    where = _tr("sent in the gap between two frames, or cut off by a frame's edge")
+    if unplaced := known.frames - known.placed:
+        where += _tr(", or in one of {count} frames that were not placed").format(count=unplaced)
+    text = _tr("Of {lost} lost packets no frame shows {cut_off} whole: {where}.").format(
+        lost=whole.lost, cut_off=whole.cut_off, where=where
+    )
+    if misread := whole.lost - whole.cut_off:
+        text += _tr(" {misread} were in view and misread.").format(misread=misread)
+    return text + _tr(" The bit error rate counts only bits of packets in view.")
 
 
 def _clocks(clock: Clock) -> list[Figure]:

@@ -245,6 +245,11 @@ class VideoReading:
         return len(self.packets) - self.read
 
     @property
+    def cut_off(self) -> int:
+        """Packets that no frame shows whole: those in a gap, or across the edge of a frame."""
+        return sum(packet.frame is None for packet in self.packets)
+
+    @property
     def doubled(self) -> int:
         """Packets that were read although their part of the payload had been read before."""
         parts = {packet.part for packet in self.packets if _is_right(packet)}

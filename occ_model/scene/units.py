@@ -139,7 +139,7 @@ class Unit:
             return self.format(value)
         symbol, factor = self.display(value)
         decimals = _decimals(deviation / factor)
-        number = f"{value / factor:.{decimals}f} ± {deviation / factor:.{decimals}f}"
+        number = f"{value / factor:z.{decimals}f} ± {deviation / factor:.{decimals}f}"
         return f"{number} {symbol}".rstrip()
 
     def rounded_estimate(self, value: float, deviation: float | None) -> float:

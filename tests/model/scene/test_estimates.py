@@ -29,6 +29,7 @@ def test_two_digits_of_the_deviation_are_shown(
 
 def test_a_pure_number_has_no_unit() -> None:
     assert PLAIN.format_estimate(2.2191, 0.03) == "2.219 ± 0.030"
+    assert PLAIN.format_estimate(-0.001, 0.3) == "0.00 ± 0.30"  # no sign before nothing
 
 
 def test_a_rounded_estimate_is_what_is_written_of_it_and_moves_by_less_than_a_tenth() -> None:

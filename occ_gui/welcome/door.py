@@ -8,7 +8,7 @@ from occ_gui.widgets.icons import pixmap
 
 _PICTURE = 96
 _LARGER = 1.2
-_SIZE = QSize(208, 208)
+_LEAST_SIDE = 208
 
 
 class Door(QPushButton):
@@ -45,8 +45,13 @@ class Door(QPushButton):
             label.setWordWrap(label is not self._picture)
             layout.addWidget(label)
         layout.addStretch()
-        self.setFixedSize(_SIZE.expandedTo(layout.sizeHint()))
         self._draw()
+
+    def size_for(self, width: int = _LEAST_SIDE) -> QSize:
+        """Give the size that shows all texts, at least as wide as asked for and no narrower."""
+        layout = self.layout()
+        width = max(width, layout.minimumSize().width())
+        return QSize(width, max(_LEAST_SIDE, layout.heightForWidth(width)))
 
     def _draw(self) -> None:
         colour = self.palette().color(QPalette.ColorRole.ButtonText)

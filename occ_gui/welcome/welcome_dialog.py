@@ -47,12 +47,12 @@ class WelcomeDialog(QDialog):
                 self.tr("Move the sliders, and watch picture, profile and code follow."),
             ),
         }
-        widest = max(door.width() for door in self.doors.values())
-        tallest = max(door.height() for door in self.doors.values())
+        width = max(door.size_for().width() for door in self.doors.values())
+        height = max(door.size_for(width).height() for door in self.doors.values())
         row = QHBoxLayout()
         row.setSpacing(16)
         for name, door in self.doors.items():
-            door.setFixedSize(widest, tallest)
+            door.setFixedSize(width, height)
             door.setProperty("door", name)
             door.clicked.connect(self._choose)
             row.addWidget(door)

@@ -26,7 +26,7 @@ from mutation.mutants import Mutant, draw, is_program, mutants
 from mutation.reach import Reach, files_of, measured
 from mutation.trial import KILLED, SURVIVED, UNCLEAR, UNREACHED, Outcome, passes_unchanged, tried
 
-_ALSO = {"occ_model": ("tests/physics", "tests/hard_cases"), "occ_gui": ()}
+_ALSO = {"occ_model": ("tests/physics", "tests/hard_cases"), "occ_gui": ("tests/gui/snapshots",)}
 
 
 class Run:

@@ -241,6 +241,10 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(
     assert exposure.column.value() == column + 1
     assert exposure.sentence.text().startswith(f"Column {column + 1}:")
     assert seen.learning.explanation.picker.marker.value() == column + 1
+    qtbot.keyClick(plot, Qt.Key.Key_PageUp)
+    assert exposure.column.value() == column + 11
+    qtbot.keyClick(plot, Qt.Key.Key_PageDown)
+    assert exposure.column.value() == column + 1
     qtbot.keyClick(plot, Qt.Key.Key_Escape)
     assert not exposure.hold.isChecked()
 

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QObject, QPoint, Qt, QUrl, Slot
-from PySide6.QtGui import QColor, QDesktopServices, QPalette, QTextCursor, QTextDocument
-from PySide6.QtWidgets import QTextBrowser
+from PySide6.QtGui import QColor, QDesktopServices, QImage, QPalette, QTextCursor, QTextDocument
+from PySide6.QtWidgets import QTextBrowser, QToolBar
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -21,6 +21,8 @@ from occ_gui.help.pages import CONTENTS, GUIDE, PAGE_OF_PANE, docs_folder, headi
 from occ_gui.window.current_pane import PICTURE
 
 ROOT = Path(__file__).parents[3]
+
+RGB = QImage.Format.Format_RGB32
 
 IMAGE = int(QTextDocument.ResourceType.ImageResource.value)
 
@@ -271,3 +273,33 @@ def test_code_stands_as_far_from_the_text_below_as_from_that_above(manual: HelpW
             bottoms.append(block.blockFormat().bottomMargin())
         block = block.next()
     assert 0.0 < max(tops) <= max(bottoms)
+
+
+def test_the_manual_is_read_in_larger_text_too(manual: HelpWindow) -> None:
+    before = manual.browser.document().size().height()
+    font = manual.font()
+    font.setPointSizeF(2.0 * font.pointSizeF())
+    manual.setFont(font)
+    assert manual.browser.document().defaultFont().pointSizeF() == font.pointSizeF()
+    assert manual.browser.document().size().height() > before
+
+
+def test_a_picture_has_all_points_of_a_fine_screen(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(HelpBrowser, "devicePixelRatioF", lambda _: 2.0)
+    browser = HelpBrowser()
+    qtbot.addWidget(browser)
+    browser.resize(400, 300)
+    large, small = QImage(2000, 100, RGB), QImage(60, 30, RGB)
+    room = browser.viewport().width()
+    fitted = browser._fitted(large)
+    assert room - 40 <= fitted.width() / 2 <= room
+    assert fitted.devicePixelRatio() == 2.0
+    assert browser._fitted(small).width() == 60
+
+
+def test_the_bar_of_the_manual_stays_where_it_is(manual: HelpWindow) -> None:
+    bars = manual.findChildren(QToolBar)
+    assert bars
+    assert not any(bar.isMovable() for bar in bars)

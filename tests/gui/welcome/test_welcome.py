@@ -2,8 +2,8 @@
 
 import pytest
 from gui.user import User
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QFileDialog
+from PySide6.QtGui import QColor, QFont, QPalette
+from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -108,3 +108,29 @@ def test_the_picture_of_a_door_follows_the_theme(qtbot: QtBot) -> None:
         door.setPalette(palette)
         pictures.append(door._picture.pixmap().toImage())
     assert pictures[0] != pictures[1]
+
+
+@pytest.mark.parametrize("points", [9.0, 12.0, 18.0])
+def test_the_doors_are_alike_and_show_all_their_texts_however_large(
+    qapp: QApplication, qtbot: QtBot, points: float
+) -> None:
+    before = qapp.font()
+    font = QFont(before)
+    font.setPointSizeF(points)
+    qapp.setFont(font)
+    try:
+        dialog = WelcomeDialog()
+    finally:
+        qapp.setFont(before)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    assert dialog.width() < 1000
+    assert dialog.height() < 700
+    assert len({(door.width(), door.height()) for door in dialog.doors.values()}) == 1
+    for door in dialog.doors.values():
+        left, right = door._sentence.x(), door.width() - door._sentence.geometry().right() - 1
+        assert left == right
+        for label in (door._picture, door._title, door._sentence):
+            assert door.rect().contains(label.geometry())
+            assert label.height() >= max(label.heightForWidth(label.width()), 1)
+        assert door._sentence.geometry().bottom() < door.height() - door._picture.y()

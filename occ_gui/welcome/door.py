@@ -36,7 +36,7 @@ class Door(QPushButton):
         self._title.setFont(font)
         self.setAccessibleName(title)
         self.setAccessibleDescription(sentence)
-        layout = QVBoxLayout(self)
+        layout = self._layout = QVBoxLayout(self)
         layout.setContentsMargins(16, 16, 16, 16)
         layout.setSpacing(8)
         for label in (self._picture, self._title, self._sentence):
@@ -49,9 +49,8 @@ class Door(QPushButton):
 
     def size_for(self, width: int = _LEAST_SIDE) -> QSize:
         """Give the size that shows all texts, at least as wide as asked for and no narrower."""
-        layout = self.layout()
-        width = max(width, layout.minimumSize().width())
-        return QSize(width, max(_LEAST_SIDE, layout.heightForWidth(width)))
+        width = max(width, self._layout.minimumSize().width())
+        return QSize(width, max(_LEAST_SIDE, self._layout.heightForWidth(width)))
 
     def _draw(self) -> None:
         colour = self.palette().color(QPalette.ColorRole.ButtonText)

@@ -16,6 +16,9 @@ from occ_model.photo.fit.timing import Timing
 _REACH = 8
 """Columns to which blur spreads a column."""
 
+_SHARP = 0.05
+"""Columns of blur below which a picture is sharp."""
+
 _LONGEST = 0.4
 """Largest change, in chips, of the time that the LED is on."""
 
@@ -97,14 +100,15 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
     from column to column.
     """
     off = np.abs(np.arange(-_REACH, _REACH + 1)).astype(np.float64)
+    blur = max(blur, _SHARP)
     if shape == "box":
         half = math.sqrt(3.0) * blur
         kernel = np.clip(np.minimum(off + 0.5, half) - np.maximum(off - 0.5, -half), 0.0, None)
     elif shape == "exponential":
         # Of weights r^|i| the variance is 2 r / (1 - r)^2.
-        middle = 1.0 + 1.0 / max(blur, 0.05) ** 2
+        middle = 1.0 + 1.0 / blur**2
         kernel = (middle - math.sqrt(middle**2 - 1.0)) ** off
     else:
-        square = (off / max(blur, 0.05)) ** 2
+        square = (off / blur) ** 2
         kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
     return np.asarray(kernel / kernel.sum())

@@ -175,7 +175,7 @@ def deviation_of(residual: FloatArray, slope: FloatArray, freedom: float) -> Flo
     square = residual**2 * (residual.size / max(1.0, residual.size - 2.0 * freedom))
     steep = slope**2
     parts = np.stack([np.ones_like(steep), steep], axis=1)
-    variance = np.full(residual.size, float(square.mean()))
+    variance = np.full(residual.size, max(float(square.mean()), _PRECISE**2))
     for _ in range(3):
         weighted = parts / variance[:, None]
         level, rate = np.linalg.lstsq(weighted, square / variance, rcond=None)[0].tolist()

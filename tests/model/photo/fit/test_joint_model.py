@@ -1,0 +1,195 @@
+"""A joint fit gives back what made the stripes, and names what is unusual of it."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from occ_model.photo.fit.blur_or_exposure import Possible, _with_blur
+from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape
+from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.stripes.evenly_lit import EvenProfile
+
+COLUMNS = 240
+CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
+TRUE = np.array([0.09, 0.6, 2.7, 0.1, 0.05, 0.2, -0.2, 0.9, 0.03])
+NOISE = 0.3 * np.random.default_rng(3).normal(size=COLUMNS)
+
+
+def values_of(true: np.ndarray = TRUE, brightest: float = 0.6) -> np.ndarray:
+    """Give grey levels: a gamma of 2.2 as far off as is said."""
+    step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = true.tolist()
+    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(
+        Timing(step, exposure, middle, 2.2), blur, longer
+    )
+    table = ToneCurve(2.2 * math.exp(gamma), offset, shoulder, contrast).table()
+    return table.value_of(0.04 + (brightest - 0.04) * lit)
+
+
+def model_of(
+    values: np.ndarray, gamma: float = 2.2, *, values_blurred: bool = False, wide: bool = False
+) -> JointModel:
+    clipped = values >= 255.0
+    profile = EvenProfile(np.minimum(values, 255.0), ~clipped, clipped, 20.0)
+    return JointModel([profile], CHIPS, 0.09, gamma, values_blurred=values_blurred, wide=wide)
+
+
+def test_what_made_the_stripes_leaves_but_what_is_unusual_of_the_camera() -> None:
+    """Six unknowns off what is usual, each in its standard deviations, and no other misfit."""
+    model = model_of(values_of())
+    mean, deviation = np.array(list(USUAL.values())).T
+    deviation = np.append(deviation[:5], math.hypot(deviation[5], 0.4 * 0.09))
+    off = (TRUE[3:] - mean) / deviation
+    assert model.unusual(TRUE) == pytest.approx(np.linalg.norm(off))
+    fit = model.fit(TRUE, rounds=0)
+    assert fit.values == pytest.approx(TRUE)
+    assert fit.prior == pytest.approx(off @ off)
+    assert fit.misfit - fit.prior == pytest.approx(0.0, abs=0.05)
+
+
+@pytest.mark.parametrize("brightest", [0.6, 1.6])
+def test_a_fit_gives_the_timing_back_clipped_or_not(brightest: float) -> None:
+    model = model_of(values_of(brightest=brightest) + NOISE)
+    start = model.start(Timing(0.0901, 0.63, 2.72, 2.2))
+    model.estimate_noise(model.fit(start).values)
+    fit = model.fit(start)
+    deviations = np.sqrt(np.diag(fit.covariance))[:3]
+    assert (np.abs(fit.values - TRUE)[:3] < 3.0 * deviations).all()
+    assert (deviations < [2e-4, 0.1, 0.05]).all()
+    assert np.linalg.eigvalsh(fit.covariance).min() > 0.0
+    assert fit.deviation == deviations[1]
+    assert fit.exposure == fit.values[1]
+
+
+def test_its_misfit_is_that_of_its_noise() -> None:
+    """As many as there are independent columns: of each four count as one."""
+    model = model_of(values_of() + NOISE)
+    model.estimate_noise(TRUE)
+    fit = model.fit(TRUE)
+    assert (fit.misfit - fit.prior) / (COLUMNS / 4.0) == pytest.approx(1.0, abs=0.25)
+
+
+def test_what_is_held_fixed_stays_and_has_no_variance() -> None:
+    model = model_of(values_of() + NOISE)
+    start = model.start(Timing(0.09, 0.7, 2.7, 2.2))
+    fit = model.fit(start, fixed=(1, 7))
+    assert fit.values[[1, 7]].tolist() == [0.7, 0.5]
+    assert not fit.covariance[[1, 7]].any()
+    assert fit.values[2] != 2.7
+
+
+def test_an_unknown_tail_of_the_blur_makes_a_fit_less_sure() -> None:
+    model = model_of(values_of() + NOISE)
+    unknown, normal = (model.fit(TRUE, rounds=0, shape=shape) for shape in (None, "normal"))
+    assert unknown.misfit == normal.misfit
+    assert unknown.deviation > normal.deviation
+
+
+def test_where_grey_levels_are_averaged_no_tone_is_fitted() -> None:
+    model = model_of(values_of() + NOISE, gamma=1.0)
+    start = model.start(Timing(0.09, 0.6, 2.7, 1.0))
+    assert start[3:5].tolist() == [0.0, 0.0]
+    fit = model.fit(start)
+    assert fit.values[3:5].tolist() == [0.0, 0.0]
+    assert not fit.covariance[3:5].any()
+    assert model.adapted(TRUE)[[2, 3, 4, 5]].tolist() == [2.7, 0.0, 0.0, 0.2]
+
+
+def test_what_is_usual_leaves_timing_and_blur() -> None:
+    usual = model_of(values_of()).with_usual(TRUE)
+    assert usual[[0, 1, 2, 7]].tolist() == TRUE[[0, 1, 2, 7]].tolist()
+    assert usual[[3, 4, 5, 6, 8]].tolist() == [0.0, 0.03, 0.0, 0.0, 0.0]
+
+
+def test_any_gamma_may_be_found_where_it_is_asked_for() -> None:
+    far = TRUE.copy()
+    far[3] = 0.4
+    values = values_of(far) + NOISE
+    wide, usual = model_of(values, wide=True), model_of(values)
+    assert wide.is_wide
+    assert not usual.is_wide
+    assert wide.unusual(far) < usual.unusual(far)
+    low = wide.fit(np.array([0.09, 0.6, 2.7, -9.0, 0.0, 0.0, 0.0, 0.5, 0.0]), rounds=0)
+    assert 2.2 * math.exp(low.values[3]) == pytest.approx(1.0)
+
+
+def test_a_blurred_picture_and_blurred_light_are_told_apart_by_the_model() -> None:
+    light = model_of(values_of())
+    picture = model_of(values_of(), values_blurred=True)
+    assert light.fit(TRUE, rounds=0).misfit < picture.fit(TRUE, rounds=0).misfit
+    sharp = TRUE.copy()
+    sharp[7] = 0.0
+    both = [model_of(values_of(sharp), values_blurred=blurred) for blurred in (False, True)]
+    alike = [model.fit(sharp, rounds=0).misfit for model in both]
+    assert alike[0] == pytest.approx(alike[1], abs=0.05)
+
+
+def test_edges_that_white_hides_are_not_seen() -> None:
+    assert model_of(values_of()).edges_seen(TRUE) == 1.0
+    shares = [model_of(values_of(brightest=light)).edges_seen(TRUE) for light in (1.5, 4.0, 40.0)]
+    assert all(more > less for more, less in pairwise([1.0, *shares]))
+
+
+def test_noise_is_taken_from_another_model_of_the_same_profiles() -> None:
+    one, other = model_of(values_of() + NOISE), model_of(values_of() + NOISE)
+    one.estimate_noise(TRUE)
+    before = other.fit(TRUE, rounds=0).misfit
+    other.take_noise(one)
+    assert other.fit(TRUE, rounds=0).misfit == one.fit(TRUE, rounds=0).misfit != before
+
+
+def test_another_blur_leaves_the_edges_width() -> None:
+    """Variances add: t^2/12 and b^2."""
+
+    def width(values: np.ndarray) -> float:
+        return float((values[1] / values[0]) ** 2 / 12.0 + values[7] ** 2)
+
+    for blur in (0.2, 1.1, 2.0):
+        other = _with_blur(TRUE, blur)
+        assert other[7] == blur
+        assert width(other) == pytest.approx(width(TRUE))
+        assert other[[0, 2, 3, 8]].tolist() == TRUE[[0, 2, 3, 8]].tolist()
+    # A blur as wide as the edge leaves a short exposure, and no negative one.
+    assert _with_blur(TRUE, 2.9)[1] == pytest.approx(0.2 * 0.09)
+
+
+class Starts:
+    """In place of a model: takes each start for its fit, and keeps it."""
+
+    def __init__(self) -> None:
+        self.tried: list[tuple[np.ndarray, BlurShape | None]] = []
+
+    def fit(
+        self,
+        values: np.ndarray,
+        fixed: tuple[int, ...] = (),
+        rounds: int = 1,
+        shape: BlurShape | None = None,
+    ) -> JointFit:
+        self.tried.append((values, shape))
+        return JointFit(values, np.zeros((9, 9)), 10.0)
+
+
+def test_two_boxes_are_tried_in_either_order() -> None:
+    """An exposure of a columns behind a box of b columns makes the edges of the exchanged ones."""
+    starts = Starts()
+    found = JointFit(TRUE, np.zeros((9, 9)), 10.0)
+    boxes = Possible(starts, found)._exchanged([found])  # type: ignore[arg-type]
+    columns = TRUE[1] / TRUE[0]
+    exchanged = boxes[0].values
+    assert exchanged[1] / exchanged[0] == pytest.approx(math.sqrt(12.0) * TRUE[7])
+    assert math.sqrt(12.0) * exchanged[7] == pytest.approx(columns)
+    assert boxes[1].values[1] == pytest.approx(TRUE[0])
+    assert {shape for _, shape in starts.tried} == {"box"}
+
+
+def test_only_exposures_of_few_columns_may_be_mistaken_for_blur() -> None:
+    for columns, is_short in ((11.9, True), (12.1, False)):
+        starts, values = Starts(), TRUE.copy()
+        values[1] = columns * values[0]
+        Possible(starts, JointFit(values, np.zeros((9, 9)), 10.0)).again()  # type: ignore[arg-type]
+        shapes = {shape for _, shape in starts.tried}
+        assert shapes == ({None, "box", "exponential"} if is_short else {None})

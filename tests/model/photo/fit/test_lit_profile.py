@@ -1,0 +1,141 @@
+"""The levels of a profile are those of weighted least squares, whatever is clipped or blurred."""
+
+import cv2
+import numpy as np
+import pytest
+
+from occ_model.photo.fit.blurred_light import BlurredLight, blur_kernel
+from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.stripes.envelope import smooth_shapes
+from occ_model.photo.stripes.evenly_lit import EvenProfile
+
+COLUMNS, FREEDOM = 240, 3
+CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
+TIMING = Timing(0.09, 0.6, 2.7, 2.2)
+TABLE = ToneCurve(2.2, 0.03, 0.1, -0.1).table()
+LIT = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 0.8, 0.02)
+SHARP = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 0.0, 0.02)
+SHAPES = smooth_shapes(COLUMNS, FREEDOM)
+DARK = SHAPES @ [0.05, 0.01, -0.005]
+SWING = SHAPES @ [0.5, 0.08, -0.04]
+SEEN = Seen(LIT, TABLE, None, blur_kernel(0.8))
+NOISE = np.random.default_rng(7).normal(size=COLUMNS)
+ALL = np.ones(COLUMNS, dtype=bool)
+
+
+def profile_of(values: np.ndarray, kept: np.ndarray, clipped: np.ndarray) -> LitProfile:
+    return LitProfile(EvenProfile(values, kept, clipped, 20.0), FREEDOM, 4)
+
+
+def test_a_profile_of_the_model_leaves_no_residual() -> None:
+    values = TABLE.value_of(DARK + SWING * LIT)
+    residual = profile_of(values, ALL, ~ALL).residual(SEEN)
+    assert residual == pytest.approx(np.zeros(COLUMNS), abs=0.01)
+
+
+@pytest.mark.parametrize("every", [1, 3])
+def test_levels_are_those_of_weighted_least_squares(every: int) -> None:
+    """Of the light that the grey levels tell, weighted by the grey levels' slope."""
+    values = TABLE.value_of(DARK + SWING * LIT) + 3.0 * NOISE
+    kept = np.arange(COLUMNS) % every == 0
+    data, weight = values[kept], TABLE.slope_at(values[kept])
+    model = np.hstack([SHAPES, SHAPES * LIT[:, None]])[kept]
+    levels = np.linalg.lstsq(
+        model * weight[:, None], TABLE.light_of(data) * weight, rcond=None
+    )[0]  # fmt: skip
+    residual = profile_of(values, kept, ~ALL).residual(SEEN)
+    assert residual == pytest.approx(data - TABLE.value_of(model @ levels), abs=1e-3)
+
+
+def test_clipped_columns_count_only_where_the_model_is_darker() -> None:
+    light = 2.5 * (DARK + SWING * LIT)
+    clipped = light > 1.0
+    assert 20 < clipped.sum() < 200
+    values = np.minimum(TABLE.value_of(light), 255.0)
+    part = profile_of(values, ~clipped, clipped)
+    residual = part.residual(SEEN)
+    assert residual == pytest.approx(np.zeros(len(residual)), abs=0.02)
+    # As many dark columns called clipped: the model cannot be both, and lies between.
+    dark = LIT < 0.02
+    wrong = profile_of(values, ~clipped & ~dark, clipped | dark).residual(SEEN)
+    short = wrong[(~clipped & ~dark).sum() :]
+    assert (short >= 0.0).all()
+    assert short[dark[clipped | dark]].min() > 10.0
+
+
+def test_white_pulls_the_levels_up_as_data_at_white_would() -> None:
+    """Clipped columns that the kept ones leave dark are fitted as if they were at white."""
+    values = TABLE.value_of(DARK + SWING * LIT)
+    clipped = LIT > 0.9
+    part = profile_of(np.where(clipped, 255.0, values), ~clipped, clipped)
+    residual = part.residual(SEEN)
+    model = np.hstack([SHAPES, SHAPES * LIT[:, None]])
+    slope = 255.0 * float(TABLE.slope[-1])
+    weight = np.where(clipped, slope, TABLE.slope_at(values))
+    light = np.where(clipped, 1.0, TABLE.light_of(values))
+    levels = np.linalg.lstsq(model * weight[:, None], light * weight, rcond=None)[0]
+    for _ in range(1):
+        dark = ~clipped | (model @ levels < 1.0)
+        levels = np.linalg.lstsq(
+            (model * weight[:, None])[dark], (light * weight)[dark], rcond=None
+        )[0]  # fmt: skip
+    short = np.maximum(1.0 - (model @ levels)[clipped], 0.0) * slope
+    assert residual[(~clipped).sum() :] == pytest.approx(short, abs=0.5)
+    kept = (values - TABLE.value_of(model @ levels))[~clipped]
+    assert residual[: (~clipped).sum()] == pytest.approx(kept, abs=0.5)
+
+
+def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
+    """Their levels are corrected by one step; as if light were blurred some are off."""
+    kernel = blur_kernel(1.5)
+    sharp = TABLE.value_of(DARK + SWING * SHARP)
+    values = cv2.filter2D(sharp[None], -1, kernel[None], borderType=cv2.BORDER_REPLICATE)[0]
+    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
+    part = profile_of(values, ALL, ~ALL)
+    as_values = part.residual(Seen(lit, TABLE, SHARP, kernel))[3:-3]
+    as_light = part.residual(Seen(lit, TABLE, None, kernel))[3:-3]
+    assert np.std(as_light) > 1.0
+    assert np.std(as_values) < 0.1 * np.std(as_light)
+
+
+def test_slow_shapes_are_orthonormal_and_hold_what_is_slow() -> None:
+    part = profile_of(TABLE.value_of(DARK + SWING * LIT), ALL, ~ALL)
+    noise = 1.0 + 0.5 * LIT
+    basis = part.slow(noise)
+    assert basis.shape == (COLUMNS, 4)
+    assert basis.T @ basis == pytest.approx(np.eye(4), abs=1e-9)
+    slow = smooth_shapes(COLUMNS, 4) @ [1.0, -2.0, 0.5, 3.0] / noise
+    assert basis @ (basis.T @ slow) == pytest.approx(slow, abs=1e-9)
+
+
+def test_few_columns_give_up_few_shapes() -> None:
+    few = np.arange(COLUMNS) < 24
+    part = profile_of(TABLE.value_of(DARK + SWING * LIT), few, ~ALL)
+    assert part.slow(np.ones(24)).shape == (24, 3)
+
+
+def test_a_columns_slope_is_the_steepest_of_it_and_its_neighbours() -> None:
+    values = np.where(np.arange(COLUMNS) < 100, 20.0, 120.0)
+    part = profile_of(values, ALL, ~ALL)
+    assert np.flatnonzero(part.slope).tolist() == [98, 99, 100, 101]
+    assert part.slope.max() == 50.0
+
+
+def test_noise_is_found_on_plateaus_and_on_edges() -> None:
+    """Its variance rises with the square of the slope; degrees of freedom are made up for."""
+    random = np.random.default_rng(11)
+    slope = np.abs(random.normal(size=4_000)) * 30.0
+    true = np.hypot(0.7, 0.1 * slope)
+    found = deviation_of(true * random.normal(size=4_000), slope, 0.0)
+    assert found == pytest.approx(true, rel=0.12)
+    few = deviation_of(np.ones(40), np.zeros(40), 10.0)
+    assert few == pytest.approx(np.sqrt(2.0), rel=1e-6)
+
+
+def test_noise_is_never_less_than_can_be_known() -> None:
+    exact = deviation_of(np.zeros(100), np.linspace(0.0, 50.0, 100), 3.0)
+    assert (exact > 0.0).all()
+    falling = deviation_of(np.linspace(2.0, 0.0, 100), np.linspace(0.0, 50.0, 100), 3.0)
+    assert falling == pytest.approx(falling[0])

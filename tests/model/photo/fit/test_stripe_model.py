@@ -1,0 +1,122 @@
+"""The model of one profile: levels by least squares, and what its fit states."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from occ_model.photo.fit.least_squares import StripeModel, level_freedom
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.stripes.envelope import smooth_shapes
+from occ_model.transmitter.waveform import Waveform
+
+CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
+COLUMNS = 300
+TRUE = Timing(0.09, 0.6, 2.7, 1.0)
+LIT = TRUE.lit_fraction(Waveform(CHIPS), COLUMNS)
+SHAPES = smooth_shapes(COLUMNS, 4)
+LOW, SWING = SHAPES @ [30.0, 4.0, -2.0, 1.0], SHAPES @ [120.0, -15.0, 8.0, 0.0]
+PROFILE = LOW + SWING * LIT
+
+
+def tone(lit: np.ndarray, gamma: float) -> np.ndarray:
+    return lit**gamma
+
+
+def model_of(profile: np.ndarray = PROFILE) -> StripeModel:
+    return StripeModel(profile, Waveform(CHIPS), tone, TRUE.step)
+
+
+def test_levels_are_those_of_least_squares() -> None:
+    noisy = PROFILE + np.random.default_rng(2).normal(size=COLUMNS)
+    parts = np.hstack([SHAPES, SHAPES * LIT[:, None]])
+    weights = np.linalg.lstsq(parts, noisy, rcond=None)[0]
+    low, swing, profile = model_of(noisy).levels(TRUE)
+    assert low == pytest.approx(SHAPES @ weights[:4], abs=1e-4)
+    assert swing == pytest.approx(SHAPES @ weights[4:], abs=1e-4)
+    assert profile == pytest.approx(parts @ weights, abs=1e-4)
+
+
+def test_columns_at_white_are_left_out_while_enough_are_not() -> None:
+    high = PROFILE + 120.0
+    low, swing, profile = model_of(np.minimum(high, 255.0)).levels(TRUE)
+    assert (low, swing) == (pytest.approx(LOW + 120.0, abs=0.01), pytest.approx(SWING, abs=0.01))
+    assert profile == pytest.approx(np.minimum(high, 255.0), abs=0.01)
+    # Where nearly all are white they are all that there is.
+    _, _, white = model_of(np.minimum(PROFILE + 225.0, 255.0)).levels(TRUE)
+    assert white.max() == pytest.approx(255.0, abs=0.5)
+
+
+def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
+    assert [level_freedom(chips) for chips in (0.0, 6.0, 23.9, 24.0, 1e6)] == [1, 1, 3, 4, 8]
+
+
+def test_an_exact_profile_is_explained_whole() -> None:
+    fit = model_of().described(TRUE, np.zeros((4, 4)))
+    assert fit.correlation == pytest.approx(1.0, abs=1e-9)
+    assert fit.residual == pytest.approx(0.0, abs=1e-3)
+    assert fit.is_possible
+
+
+def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
+    """Alike where nothing varies but the stripes: Pearson's coefficient."""
+    flat = 40.0 + 100.0 * LIT + 12.0 * np.random.default_rng(4).normal(size=COLUMNS)
+    fit = StripeModel(flat, Waveform(CHIPS), tone, 0.01).described(TRUE, np.zeros((4, 4)))
+    expected = np.corrcoef(flat, 40.0 + 100.0 * LIT)[0, 1]
+    assert fit.correlation == pytest.approx(expected, abs=1e-9)
+    assert fit.residual == pytest.approx(float(((flat - fit.profile) ** 2).sum()))
+
+
+def test_mere_noise_is_as_likely_within_four_variances() -> None:
+    """Two standard deviations of one parameter raise the sum of squares by four variances."""
+    noisy = PROFILE + np.random.default_rng(6).normal(size=COLUMNS)
+    fit = model_of(noisy).described(TRUE, np.zeros((4, 4)))
+    assert (fit.likely - fit.residual) / (fit.residual / COLUMNS) == pytest.approx(4.0, rel=0.5)
+
+
+@pytest.mark.parametrize(("sign", "dark"), [(-1.0, 150.0), (1.0, -60.0)])
+def test_lit_darker_than_dark_or_dark_darker_than_black_is_no_picture(
+    sign: float, dark: float
+) -> None:
+    model = model_of(dark + sign * 100.0 * LIT)
+    assert not model.is_possible(TRUE)
+    assert not model.described(TRUE, np.zeros((4, 4))).is_possible
+
+
+def test_the_dark_may_be_a_little_below_black_by_noise() -> None:
+    assert model_of(-5.0 + 100.0 * LIT).is_possible(TRUE)
+    assert not model_of(-15.0 + 100.0 * LIT).is_possible(TRUE)
+
+
+def test_an_exposure_that_is_held_is_as_uncertain_as_any_within_its_spread() -> None:
+    """The variance of what is uniformly likely within s either way is a third of s squared."""
+    start = replace(TRUE, step=0.0901, middle=2.72)
+    few, many = (model_of().fit(start, spread=spread) for spread in (0.1, 0.5))
+    assert few.timing == many.timing
+    assert few.timing.exposure == TRUE.exposure
+    assert few.timing.step == pytest.approx(TRUE.step, rel=1e-5)
+    assert many.covariance[1, 1] - few.covariance[1, 1] == pytest.approx((0.25 - 0.01) / 3.0)
+
+
+@pytest.mark.parametrize("exposure", [0.02, 0.6, 3.4])
+def test_blur_may_have_lengthened_an_exposure(exposure: float) -> None:
+    """By what keeps an edge's variance t^2/12 + b^2 to second order, and by its width at most."""
+    true = replace(TRUE, exposure=exposure)
+    profile = 20.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), COLUMNS)
+    fit = model_of(profile).fit(true, spread=1e-9)
+    blur = 0.4 * TRUE.step
+    expected = min(6.0 * blur**2 / exposure, math.sqrt(12.0) * blur)
+    assert math.sqrt(fit.covariance[1, 1]) == pytest.approx(expected, rel=1e-4)
+
+
+def test_a_fit_states_what_noise_does_to_it() -> None:
+    """The covariance of least squares: of 30 fits the deviations are as stated, to a third."""
+    random = np.random.default_rng(9)
+    fits = [model_of(PROFILE + random.normal(size=COLUMNS)).fit(TRUE) for _ in range(30)]
+    for name, place in (("step", 0), ("middle", 2)):
+        found = np.array([getattr(fit.timing, name) for fit in fits])
+        stated = np.sqrt(np.mean([fit.covariance[place, place] for fit in fits]))
+        assert 0.65 < np.std(found) / stated < 1.5
+        assert abs(found.mean() - getattr(TRUE, name)) < stated
+    assert all(fit.covariance[3, 3] == 0.0 for fit in fits)

@@ -1,0 +1,79 @@
+"""A tone curve is one curve, looked up from either side, and never falls."""
+
+import numpy as np
+import pytest
+
+from occ_model.photo.fit.tone_curve import EvenTable, ToneCurve
+
+CURVES = (
+    ToneCurve(2.2),
+    ToneCurve(2.4, 0.055),
+    ToneCurve(1.0 / 0.45, 0.099, 0.2, -0.3),
+    ToneCurve(1.8, 0.0, 0.9, 1.5),
+    ToneCurve(2.2, -0.05, -0.9, -0.9),
+)
+LEVELS = np.arange(1.0, 255.0)
+
+
+@pytest.mark.parametrize("curve", CURVES)
+def test_the_light_of_a_grey_level_makes_the_grey_level(curve: ToneCurve) -> None:
+    table = curve.table()
+    assert table.value_of(table.light_of(LEVELS)) == pytest.approx(LEVELS, abs=0.02)
+    assert table.light_of(np.array([255.0])) == pytest.approx(1.0, abs=1e-12)
+    light = table.light_of(LEVELS)
+    assert (np.diff(light) > 0.0).all()
+
+
+@pytest.mark.parametrize("curve", CURVES)
+def test_its_slope_is_that_of_the_grey_levels_over_light(curve: ToneCurve) -> None:
+    table = curve.table()
+    # The rims of the toe and of the least slope are corners.
+    light, step = table.light_of(LEVELS), 1e-5
+    rise = (table.value_of(light + step) - table.value_of(light - step)) / (2.0 * step)
+    assert np.median(np.abs(table.slope_of(light) / rise - 1.0)) < 0.02
+    assert np.median(np.abs(table.slope_at(LEVELS) / rise - 1.0)) < 0.02
+
+
+def test_beyond_its_ends_it_goes_on_straight() -> None:
+    table = CURVES[1].table()
+    for end in (table.light[0], table.light[-1]):
+        outside = table.value_of(end + np.array([-0.02, 0.0, 0.02]))
+        assert (np.diff(outside) > 0.0).all()
+    over = table.value_of(1.0 + np.array([0.0, 0.1, 0.3]))
+    assert over[0] == pytest.approx(255.0)
+    assert over - 255.0 == pytest.approx(255.0 * table.slope[-1] * np.array([0.0, 0.1, 0.3]))
+    under = table.value_of(table.light[0] - np.array([0.0, 0.001]))
+    assert np.diff(under)[0] == pytest.approx(-255.0 * table.slope[0] * 0.001)
+
+
+def test_a_mere_gamma_is_a_power() -> None:
+    light = ToneCurve(2.2).table().light_of(LEVELS)
+    assert light[20:] == pytest.approx((LEVELS[20:] / 255.0) ** 2.2, rel=1e-3)
+
+
+def test_with_its_offset_it_is_the_standard_curve_of_screens() -> None:
+    """IEC 61966-2-1: ((u + 0.055) / 1.055) ** 2.4 above 0.04045."""
+    light = ToneCurve(2.4, 0.055).table().light_of(LEVELS)
+    share = LEVELS / 255.0
+    assert light[12:] == pytest.approx(((share[12:] + 0.055) / 1.055) ** 2.4, rel=1e-3)
+
+
+def test_shoulder_and_contrast_bend_as_stated() -> None:
+    share = LEVELS[20:] / 255.0
+    bent = share + 0.2 * share * (1 - share) - 0.3 * share * (1 - share) * (1 - 2 * share)
+    table = ToneCurve(2.0, 0.03, 0.2, -0.3).table()
+    assert table.light_of(LEVELS[20:]) == pytest.approx(((bent + 0.03) / 1.03) ** 2.0, rel=1e-3)
+
+
+def test_its_toe_is_straight_and_has_the_curves_height_and_slope_where_it_begins() -> None:
+    share = np.array([-0.05, 0.0, 0.01, 0.02])
+    light = ToneCurve(2.2).table().light_of(255.0 * share)
+    tangent = 0.03**2.2 + 2.2 * 0.03**1.2 * (share - 0.03)
+    assert light == pytest.approx(tangent, abs=1e-6)
+
+
+def test_a_table_of_equal_distances_gives_what_any_table_gives() -> None:
+    places, values = np.linspace(-0.3, 1.7, 41), np.random.default_rng(3).normal(size=41)
+    asked = np.linspace(-1.0, 2.5, 333)
+    found = EvenTable(-0.3, 1.7, values).at(asked)
+    assert found == pytest.approx(np.interp(asked, places, values), abs=1e-12)

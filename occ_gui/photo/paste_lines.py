@@ -12,6 +12,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_model.photo.many.other_programs import note_on
+
 
 class PasteLines(QWidget):
     """A line for each program."""
@@ -32,6 +34,11 @@ class PasteLines(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.why_none)
         layout.addLayout(self._grid)
+        self.note = QLabel()
+        self.note.setWordWrap(True)
+        self.note.setTextFormat(Qt.TextFormat.PlainText)
+        self.note.setAccessibleName(self.tr("What the lines for other programs assume"))
+        layout.addWidget(self.note)
         self.show_lines({})
 
     def show_lines(self, lines: Mapping[str, str], why_none: str = "") -> None:
@@ -68,6 +75,8 @@ class PasteLines(QWidget):
                 self._grid.addWidget(part, row, place)
             self._parts += parts
             self.lines[program] = field
+        self.note.setText(note_on(lines))
+        self.note.setVisible(bool(self.note.text()))
         self.setVisible(bool(lines or why_none))
 
     def show_lines_if(self, condition: str, lines: Mapping[str, str]) -> None:

@@ -11,7 +11,7 @@ from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
-from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
+from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.results.photo_table import (
     DOUBTFUL,
@@ -49,7 +49,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
         return EXIT_INTERRUPTED
     chips = len(table.scene.transmitter.pattern)
     known = assumption_of(table.known, float(table.scene.value(table.known)), chips, options)
-    paste = [f"{program}: {known}{line}" for program, line in lines_to_paste(table).items()]
+    paste = stated_lines(table, known)
     if options.out:
         write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))
     for line in [*_report(table, known), *paste]:

@@ -22,7 +22,11 @@ from occ_gui.photo.match_choice import KNOWN
 from occ_gui.photo.match_values import label_of, what_errors_mean, with_uncertainty
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.widgets.work_bar import WorkBar
-from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
+from occ_model.photo.many.other_programs import (
+    frame_readout_time,
+    lines_to_paste,
+    stated_lines,
+)
 from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.photo_table import VERDICTS
 from occ_model.results.photo_table_csv import csv_text
@@ -302,9 +306,7 @@ class ManyPhotosView(QWidget):
         if table is None:
             return ""
         rests_on = self._rests_on(table.estimate, table.scene)
-        lines = lines_to_paste(table).items()
-        paste = [f"{program}: {rests_on}{line}" for program, line in lines]
-        return csv_text(table, paste, rests_on)
+        return csv_text(table, stated_lines(table, rests_on), rests_on)
 
 
 def _text(name: str) -> QLabel:

@@ -13,12 +13,18 @@ the sensor is read out, but not from which end; most are read from the top.
 """
 
 import math
+from collections.abc import Mapping
 
 from occ_model.results import Match
 from occ_model.results.photo_table import SURE, PhotoRow, PhotoTable
 
 _DIRECTIONS = {"lines": "TopToBottom", "columns": "LeftToRight"}
 """Gyroflow's usual direction by the axis of the upright picture that is scanned."""
+
+DIRECTION_NOTE = (
+    "The direction in Gyroflow's line is assumed, as most cameras have it: stripes show the axis "
+    "of the readout, not from which end it begins."
+)
 
 _MILLISECOND = 1e-3
 
@@ -115,6 +121,27 @@ def lines_of_frame(seconds: float, deviation: float, scanned_along: str) -> dict
             f'"frame_readout_time": {written}, "frame_readout_direction": "{direction}"'
         )
     return lines
+
+
+def note_on(lines: Mapping[str, str]) -> str:
+    """Say what lines for other programs state that was not measured; empty where there is none."""
+    return DIRECTION_NOTE if "Gyroflow" in lines else ""
+
+
+def stated_lines(table: PhotoTable, condition: str) -> list[str]:
+    """Write the lines to paste of a table after their programs' names, with what they rest on.
+
+    Parameters
+    ----------
+    table
+        The photos.
+    condition
+        The value that the lines rest on where it is only assumed, as ``"if f = 10 kHz: "``; empty
+        where it is known.
+    """
+    lines = lines_to_paste(table)
+    written = [f"{program}: {condition}{line}" for program, line in lines.items()]
+    return [*written, note_on(lines)] if note_on(lines) else written
 
 
 def _counted(table: PhotoTable) -> list[PhotoRow]:

@@ -48,8 +48,11 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     texts = {program: field.text() for program, field in paste.lines.items()}
     assert texts["OpenDroneMap"].endswith("--rolling-shutter-readout 14.57770")
     assert "LeftToRight" in texts["Gyroflow"]
+    assert paste.note.isVisible()
+    assert "direction in Gyroflow's line is assumed" in paste.note.text()
     view.show_match(replace(match, reasons=("Few periods.",)))
     assert paste.lines == {}
+    assert not paste.note.isVisible()
 
 
 def test_an_exposure_that_is_hardly_known_has_an_upper_limit(

@@ -48,11 +48,13 @@ def test_table_mean_and_lines_to_paste_are_printed(
     assert float(mean.split()[1]) == pytest.approx(9.0, rel=1e-3)
     (frame,) = (line for line in said if line.startswith("readout of the frame"))
     assert float(frame.split()[4]) == pytest.approx(1500 * 9e-3, rel=1e-3)
-    drone, video = said[-3:-1]
+    drone, video, note = said[-4:-1]
+    assert "direction in Gyroflow's line is assumed" in note
     assert drone.startswith("OpenDroneMap: --rolling-shutter --rolling-shutter-readout 13.")
     assert float(drone.split()[-1]) == pytest.approx(13.5, rel=1e-3)
     assert video.startswith(f'Gyroflow: "frame_readout_time": {drone.split()[-1]}, ')
     assert video.endswith('"frame_readout_direction": "TopToBottom"')
+    assert f"# {note}" in out.read_text().splitlines()
     rows = csv.DictReader(line for line in out.read_text().splitlines() if line[0] != "#")
     assert [row["verdict"] for row in rows] == ["sure", "sure", "unreadable"]
 

@@ -19,7 +19,7 @@ from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.photo.many import match_photos
-from occ_model.photo.many.other_programs import lines_to_paste
+from occ_model.photo.many.other_programs import stated_lines
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
 from occ_model.results import PhotoRow, PhotoTable
@@ -151,10 +151,10 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
     for button in (view.copy, view.save):
         assert not button.isEnabled()
     view.show_table(table())
-    lines = lines_to_paste(table()).items()
     for condition in ("if f = 10 kHz: ", ""):
-        paste = [f"{program}: {condition}{line}" for program, line in lines]
-        assert len(paste) == 2
+        paste = stated_lines(table(), condition)
+        assert [line.split(":")[0] for line in paste[:2]] == ["OpenDroneMap", "Gyroflow"]
+        assert paste[0].startswith(f"OpenDroneMap: {condition}")
         qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)
         assert QGuiApplication.clipboard().text() == csv_text(table(), paste, condition)
         with qtbot.waitSignal(view.save_asked) as saved:

@@ -6,6 +6,9 @@ from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
 STEPS = ("open", "sent", "match", "apply")
 """The steps, in their order."""
 
+EARLIER = "earlier"
+"""What a match is worth that was made of something else than what is to be matched now."""
+
 
 class PhotoSteps(QWidget):
     """A button for each step, which says whether the step is done, is next, or must wait."""
@@ -54,7 +57,8 @@ class PhotoSteps(QWidget):
         has_photo
             Whether a photo is open.
         match
-            What its match is worth, ``"sure"`` or ``"doubtful"``; empty if there is none.
+            What its match is worth, ``"sure"`` or ``"doubtful"``; EARLIER if it answers another
+            question than the present one; empty if there is none.
         is_applied
             Whether the scene is the matched one.
         """
@@ -62,14 +66,15 @@ class PhotoSteps(QWidget):
         if shown == self._shown:  # at each change of the scene, and styles are slow to apply
             return
         self._shown = shown
-        signs = {"": "", "sure": "✓", "doubtful": "?"}  # of a match, as its verdict
+        signs = {"": "", EARLIER: "", "sure": "✓", "doubtful": "?"}  # of a match, as its verdict
+        is_present = match not in {"", EARLIER}
         done = {
             "open": "✓" if has_photo else "",
             "sent": "✓" if match else "",
             "match": signs[match],
-            "apply": "✓" if is_applied else "",
+            "apply": "✓" if is_present and is_applied else "",
         }
-        able = {"open": True, "sent": has_photo, "match": has_photo, "apply": bool(match)}
+        able = {"open": True, "sent": has_photo, "match": has_photo, "apply": is_present}
         current = next((name for name in STEPS if not done[name]), "")
         for place, name in enumerate(STEPS, 1):
             button = self.buttons[name]

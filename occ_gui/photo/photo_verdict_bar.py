@@ -90,7 +90,8 @@ class PhotoVerdictBar(StateBar):
     def _write(self) -> None:
         state, (title, *sentences) = self._verdict()
         chips = self._simulation
-        if self._match is not None and not self._is_applied:
+        is_present = self._match is not None and not self._outdated and not self._why_not
+        if is_present and not self._is_applied:
             meaning = self.tr("The simulation is of another scene. Apply takes the match over.")
             chips = (Chip("applied", self.tr("not applied"), meaning, State.DOUBTFUL), *chips)
         self.show_state(state, title, *sentences, chips=chips)

@@ -19,7 +19,7 @@ from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_form import MatchForm
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.photo.photo_facts import PhotoFacts
-from occ_gui.photo.photo_steps import PhotoSteps
+from occ_gui.photo.photo_steps import EARLIER, PhotoSteps
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.photo.verdict_view import VerdictView
@@ -69,6 +69,7 @@ class PhotoView(QWidget):
         self.steps = PhotoSteps()
         self.steps.chosen.connect(self._go_to_step)
         self._match: Match | None = None
+        self._is_outdated = False
         self._scene: Scene | None = None
         layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 0, 4, 0)
@@ -133,7 +134,7 @@ class PhotoView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
-        self._has_photo, self._match = photo is not None, None
+        self._has_photo, self._match, self._is_outdated = photo is not None, None, False
         self.verdict.show_photo(photo)
         self._show_page()
         self._show_steps()
@@ -179,13 +180,12 @@ class PhotoView(QWidget):
 
     def _show_steps(self) -> None:
         match = self._match
-        is_applied = match is not None and match.scene == self._scene
-        self.verdict.show_applied(is_applied)
-        self.steps.show_state(
-            has_photo=self._has_photo,
-            match="" if match is None else match.verdict,
-            is_applied=is_applied,
+        is_applied = (
+            match is not None and self._scene is not None and match.is_applied_to(self._scene)
         )
+        self.verdict.show_applied(is_applied)
+        worth = "" if match is None else EARLIER if self._is_outdated else match.verdict
+        self.steps.show_state(has_photo=self._has_photo, match=worth, is_applied=is_applied)
 
     def _go_to_step(self, step: str) -> None:
         """Open a photo, match it, apply the match, or show where what was sent is chosen."""
@@ -218,7 +218,7 @@ class PhotoView(QWidget):
         self.form.show_running(False)
         self._hide_failure()
         self.result.setVisible(match is not None)
-        self._match = match
+        self._match, self._is_outdated = match, False
         self.verdict.show_match(match)
         self._show_steps()
         if match is not None:
@@ -236,8 +236,10 @@ class PhotoView(QWidget):
 
     def show_match_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""
+        self._is_outdated = bool(why)
         self.result.show_outdated(why, usable)
         self.verdict.show_outdated(why)
+        self._show_steps()
 
     def _hide_failure(self) -> None:
         self.failure.hide()

@@ -1,5 +1,6 @@
 """Results of matching a photo: its stripes, the scene that explains them, a comparison."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -105,6 +106,12 @@ class ChipReading:
 _BY_EXPOSURE = ("exposure_time", "start_time", "gamma")
 """Estimates that another exposure changes: a column's start is half of it before its middle."""
 
+_SAME = 5e-7
+"""Relative difference of two values that are the same in the six digits that are shown."""
+
+_SAME_OF_ERROR = 1e-3
+"""Share of an estimate's deviation by which two values may differ and yet be the same."""
+
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
 
 
@@ -185,6 +192,25 @@ class Match:
             return (*self.reasons, *self.exposure_reasons)
         first, *more = self.exposure_reasons
         return (f"{_ONLY_EXPOSURE} {first}", *more)
+
+    def is_applied_to(self, scene: Scene) -> bool:
+        """Whether a scene is the matched one, as far as the match tells.
+
+        A match that starts from the matched scene ends there again, but for rounding.
+        """
+        if scene == self.scene:
+            return True
+        return all(
+            self._is_same(name, scene.value(name), value)
+            for table in self.scene.tables().values()
+            for name, value in table.items()
+        )
+
+    def _is_same(self, name: str, there: object, here: object) -> bool:
+        if not isinstance(there, float) or not isinstance(here, float):
+            return there == here
+        step = _SAME_OF_ERROR * self.uncertainties.get(name, 0.0)
+        return math.isclose(there, here, rel_tol=_SAME, abs_tol=step)
 
     @property
     def columns_per_chip(self) -> float:

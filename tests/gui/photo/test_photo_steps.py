@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.photo.photo_steps import STEPS, PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
 
 
 @pytest.fixture
@@ -32,6 +33,7 @@ def spoken(steps: PhotoSteps) -> list[str]:
         (True, "", False, ["Open: done", "Sent?: next step", "Match", "Apply"]),
         (True, "sure", False, ["Open: done", "Sent?: done", "Match: done", "Apply: next step"]),
         (True, "sure", True, ["Open: done", "Sent?: done", "Match: done", "Apply: done"]),
+        (True, "earlier", True, ["Open: done", "Sent?: done", "Match: next step", "Apply"]),
         (True, "doubtful", False, ["Open: done", "Sent?: done", "Match: doubtful", "Apply"]),
     ],
 )  # fmt: skip
@@ -43,12 +45,41 @@ def test_each_step_says_how_far_it_is(
         word.removesuffix(": next step") for word in words
     ]
     enabled = [name for name, button in steps.buttons.items() if button.isEnabled()]
-    assert enabled == list(STEPS[: 1 if not has_photo else 4 if match else 3])
+    assert enabled == list(
+        STEPS[: 1 if not has_photo else 4 if match in {"sure", "doubtful"} else 3]
+    )
 
 
 def test_a_doubtful_match_has_no_tick(steps: PhotoSteps) -> None:
     steps.show_state(has_photo=True, match="doubtful", is_applied=False)
     assert steps.buttons["match"].text() == "? Match"
+
+
+def test_an_earlier_match_is_no_step_towards_the_present_one(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(match)
+    assert spoken(view.steps)[2:] == ["Match: done", "Apply: done"]
+    view.show_match_outdated("of another part of the photo: match again", usable=False)
+    assert spoken(view.steps)[2:] == ["Match: next step", "Apply"]
+    assert not view.steps.buttons["apply"].isEnabled()
+    view.show_match_outdated("", usable=True)
+    assert spoken(view.steps)[2:] == ["Match: done", "Apply: done"]
+
+
+def test_a_scene_that_differs_by_rounding_is_the_matched_one(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    scene = match.scene
+    brighter = scene.replace(luminance=scene.value("luminance") * (1.0 + 1e-10))
+    view.show_photo(photo)
+    view.show_match(match)
+    for shown, word in ((brighter, "done"), (scene.replace(luminance=4e3), "next step")):
+        view.show_scene(shown)
+        assert spoken(view.steps)[3] == f"Apply: {word}"
+        told = {chip.text for chip in view.verdict.chips.chips}
+        assert ("not applied" in told) == (word != "done")
 
 
 def test_a_click_goes_to_its_step(steps: PhotoSteps) -> None:

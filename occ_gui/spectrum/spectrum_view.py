@@ -40,18 +40,18 @@ class SpectrumView(QWidget):
 
     def _make_spectrum(self) -> None:
         self.spectrum = new_plot(
-            self.tr("Spectrum of the column profile"), self.tr("frequency (kHz)"),
+            self.tr("Spectrum of the column profile"), self.tr("frequency of the light, F (kHz)"),
             self.tr("amplitude (levels)"), self.palette(),
         )  # fmt: skip
         self.amplitudes = self.spectrum.add_curve(thin(SIMULATION))
         self.response = self.spectrum.add_curve(thin(BAND, Qt.PenStyle.DashLine))
-        self._nulls: list[pg.InfiniteLine] = []
+        self._zeros: list[pg.InfiniteLine] = []
         self.legend = LineLegend()
         self.legend.add_line("profile", thin(SIMULATION), self.tr("profile"))
         self.legend.add_line(
             "response",
             thin(BAND, Qt.PenStyle.DashLine),
-            self.tr("what the exposure leaves, |sinc(F t)|, with its nulls"),
+            self.tr("what the exposure leaves, |sinc(F t)|; zero at F = k / t"),
         )
 
     def _make_histogram(self) -> None:
@@ -81,19 +81,19 @@ class SpectrumView(QWidget):
         highest = max(_HEADROOM * float(found.amplitudes.max()), _LEAST_TOP)
         self.amplitudes.setData(frequencies, found.amplitudes)
         self.response.setData(frequencies, found.response * highest / _HEADROOM)
-        for line in self._nulls:
+        for line in self._zeros:
             self.spectrum.removeItem(line)
-        self._nulls = [pg.InfiniteLine(null * _KILO, pen=thin(BAND)) for null in found.nulls[:12]]
-        for line in self._nulls:
+        self._zeros = [pg.InfiniteLine(zero * _KILO, pen=thin(BAND)) for zero in found.zeros[:12]]
+        for line in self._zeros:
             self.spectrum.addItem(line, ignoreBounds=True)
         last = float(frequencies[-1])
         self.spectrum.setXRange(0.0, last, padding=0)
         self.spectrum.setYRange(0.0, highest, padding=0)
         peak = int(found.amplitudes.argmax())
-        null = HERTZ.format(found.nulls[0], 4) if found.nulls else self.tr("none in view")
+        zero = HERTZ.format(found.zeros[0], 4) if found.zeros else self.tr("none in view")
         self.spectrum.setAccessibleDescription(
-            self.tr("Strongest at {peak}; first null of the exposure: {null}").format(
-                peak=HERTZ.format(float(found.frequencies[peak]), 4), null=null
+            self.tr("Strongest at {peak}; first zero of the exposure's response: {zero}").format(
+                peak=HERTZ.format(float(found.frequencies[peak]), 4), zero=zero
             )
         )
 

@@ -24,15 +24,16 @@ class Spectrum:
     amplitudes : ndarray of float64, shape (n,)
         Of a sine of each frequency, in grey levels.
     response : ndarray of float64, shape (n,)
-        What the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|.
-    nulls
+        What the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|, with F the frequency
+        of the light. The null of an alternating pattern, f = 2 / t, is its first zero, F = 1 / t.
+    zeros
         Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one.
     """
 
     frequencies: FloatArray
     amplitudes: FloatArray
     response: FloatArray
-    nulls: tuple[float, ...]
+    zeros: tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -50,5 +50,5 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
         frequencies=np.asarray(frequencies, dtype=np.float64),
         amplitudes=np.asarray(amplitudes, dtype=np.float64),
         response=np.abs(np.sinc(frequencies * exposure)),
-        nulls=tuple(k / exposure for k in range(1, count + 1)),
+        zeros=tuple(k / exposure for k in range(1, count + 1)),
     )

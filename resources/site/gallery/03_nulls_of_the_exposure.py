@@ -1,5 +1,5 @@
 # %% [markdown]
-# # The nulls of an exposure
+# # The nulls of alternating chips
 #
 # An exposure is a moving average. It multiplies a sine of the frequency F by |sinc(F t)|, which is
 # zero wherever the exposure is a whole number of periods long. Chips that alternate, 0101..., are a

@@ -34,8 +34,8 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     measured(view, snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
     frequencies, amplitudes = view.amplitudes.getData()
     assert frequencies[amplitudes.argmax()] == pytest.approx(4.0, rel=0.05)
-    assert "first null of the exposure: 20 kHz" in view.spectrum.accessibleDescription()
-    assert len(view._nulls) == 3
+    assert "first zero of the exposure's response: 20 kHz" in view.spectrum.accessibleDescription()
+    assert len(view._zeros) == 3
 
 
 def test_a_bright_panel_is_told_to_lose_light(
@@ -58,7 +58,7 @@ def test_the_pane_follows_the_simulation_while_it_is_seen(
     before = view.spectrum.accessibleDescription()
     application.store.change(exposure_time=100e-6)
     user.wait_until_idle()
-    assert "first null of the exposure: 10 kHz" in view.spectrum.accessibleDescription()
+    assert "first zero of the exposure's response: 10 kHz" in view.spectrum.accessibleDescription()
     assert before != view.spectrum.accessibleDescription()
 
 

@@ -1,4 +1,4 @@
-"""The spectrum of a profile has the amplitudes of its sines, and the exposure's nulls."""
+"""The spectrum of a profile has the amplitudes of its sines, and the zeros of the response."""
 
 import numpy as np
 import pytest
@@ -36,13 +36,13 @@ def test_an_alternating_pattern_is_damped_as_the_response_says(frequency: float)
     assert damped == pytest.approx(one.response[place] / other.response[place], rel=1e-3)
 
 
-def test_the_nulls_are_where_the_response_is_nothing() -> None:
+def test_the_zeros_are_where_the_response_is_nothing() -> None:
     scene = occ.load_preset("phone-136us")
     found = profile_spectrum(np.zeros(3000), scene)
-    assert found.nulls[0] == pytest.approx(1 / 136e-6)
-    at_nulls = np.interp(found.nulls, found.frequencies, found.response)
-    assert at_nulls.max() < 0.02
-    assert len(found.nulls) == int(0.5 / 8e-6 * 136e-6)
+    assert found.zeros[0] == pytest.approx(1 / 136e-6)
+    at_zeros = np.interp(found.zeros, found.frequencies, found.response)
+    assert at_zeros.max() < 0.02
+    assert len(found.zeros) == int(0.5 / 8e-6 * 136e-6)
 
 
 @pytest.mark.parametrize("profile", [np.zeros(7), np.zeros((2, 9)), np.full(9, np.nan)])

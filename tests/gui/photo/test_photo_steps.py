@@ -72,7 +72,7 @@ def test_a_scene_that_differs_by_rounding_is_the_matched_one(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:
     scene = match.scene
-    brighter = scene.replace(luminance=scene.value("luminance") * (1.0 + 1e-10))
+    brighter = scene.replace(luminance=scene.transmitter.luminance * (1.0 + 1e-10))
     view.show_photo(photo)
     view.show_match(match)
     for shown, word in ((brighter, "done"), (scene.replace(luminance=4e3), "next step")):

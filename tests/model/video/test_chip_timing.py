@@ -1,9 +1,19 @@
 """The timing of chips in one picture, against closed forms of the exposure."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from occ_model.video.chip_timing import ChipLattice, ChipTiming, fit_timing
+from occ_model.photo.stripes.period import correlated_columns
+from occ_model.video.chip_timing import (
+    ChipLattice,
+    ChipTiming,
+    _Levels,
+    _noise,
+    _ratios,
+    fit_timing,
+)
 
 
 def _light(lattice: ChipLattice, columns: int, noise: float, seed: int) -> np.ndarray:
@@ -102,3 +112,22 @@ def test_a_ratio_is_that_of_the_likelihoods_by_the_definition() -> None:
 def test_chips_that_never_change_have_no_timing() -> None:
     lattice = ChipLattice(0.07, 0.2, 0.5, 0, np.ones(80, dtype=np.uint8))
     assert fit_timing(np.ones(1000), lattice) is None
+
+
+def test_every_ratio_is_the_change_of_the_squared_distance_by_that_chip_alone() -> None:
+    lattice = _lattice(1.6, 14, step=0.2)
+    light = _light(lattice, 400, 0.8, 14)
+    levels = _Levels.fitted(light, lattice)
+    noise = _noise(levels) * correlated_columns(levels.residual)
+    here, _, _ = lattice.lit(400)
+    for chip, ratio in enumerate(_ratios(lattice, levels).tolist()):
+        squares = []
+        for value in (0, 1):
+            values = lattice.values.copy()
+            values[chip] = value
+            share, _, _ = replace(lattice, values=values).lit(400)
+            residual = levels.residual + levels.swing * (here - share)
+            squares.append(float(residual @ residual))
+        # Chips that are out of view repeat the outermost ones where the light is worked out.
+        if 3 < chip < 80:
+            assert ratio == pytest.approx((squares[0] - squares[1]) / (2.0 * noise), abs=1e-9)

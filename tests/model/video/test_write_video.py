@@ -199,3 +199,19 @@ def test_the_animation_of_a_slider_opens_as_a_film(tmp_path: Path, ending: str) 
     assert film.problem is None
     assert (frames[0].image != frames[2].image).any()
     assert note_in(path).startswith("Animation over switching_frequency")
+
+
+@pytest.mark.parametrize("name", ["a.avi", "a.gif"])
+def test_what_cannot_be_written_is_refused_before_any_frame_is_simulated(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Simulating takes hours where writing takes minutes."""
+    fast = occ.render_video(SCENE, 2, occ.Recording(frame_rate=60.0))
+    monkeypatch.setattr(
+        type(fast), "__iter__", lambda _: pytest.fail("a frame was asked for"), raising=False
+    )
+    with pytest.raises(occ.OutputError):
+        occ.write_video(fast, tmp_path / name)
+    endless = occ.render_video(SCENE, None, occ.Recording(frame_rate=60.0))
+    with pytest.raises(occ.OutputError):
+        occ.write_video(endless, tmp_path / name)

@@ -119,14 +119,18 @@ class StoryRows(QWidget):
 
     def show_reading(self, reading: Reading) -> None:
         """Show this reading in place of the previous one."""
+        was_seen = self._sees_chosen()
         self._reading = reading
         self.time.show_scene(reading.scene)
         self.light.show_reading(reading)
         self._show_decoded()
+        self._set_range()
         first = int(reading.panel_origin[0] + reading.packet_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
+        if was_seen and not self._sees_chosen():
+            # The panel has moved away from it: it would be read out unseen.
+            self.crosshair.choose(first)
         self._measure()
-        self._set_range()
         self._read_out()
 
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
@@ -183,15 +187,21 @@ class StoryRows(QWidget):
             self.code.show_reading(self._reading, self.decoded)
             self._show_legend()
 
+    def _sees_chosen(self) -> bool:
+        """Whether the chosen column is in the range that is followed, else on the panel."""
+        column, reading = self.crosshair.column, self._reading
+        if column is None or reading is None:
+            return False
+        follows = self.axis.is_following
+        first, last = (self.axis.first, self.axis.last) if follows else _panel_of(reading)
+        return first <= column <= last
+
     def _set_range(self) -> None:
         reading = self._reading
         if reading is None:
             return
         last_column = len(reading.profile) - 1
-        panel = np.clip(reading.corners[:, 0], 0, last_column)
-        first, last = float(panel.min()), float(panel.max())
-        if last - first < 1.0:  # the panel is out of the picture
-            first, last = 0.0, float(last_column)
+        first, last = _panel_of(reading)
         if self.range == RANGES[0]:
             wanted = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
             last = wanted if self._held is None else min(first + self._held, last_column)
@@ -216,3 +226,11 @@ class StoryRows(QWidget):
         if reading is not None:
             found = measure(self.crosshair.cursors, reading.scene, self.profile.levels)
             self.measured_changed.emit("" if found is None else difference_in_words(found))
+
+
+def _panel_of(reading: Reading) -> tuple[float, float]:
+    """Return the first and last column of the panel; of the picture where it shows none."""
+    last_column = len(reading.profile) - 1
+    panel = np.clip(reading.corners[:, 0], 0, last_column)
+    first, last = float(panel.min()), float(panel.max())
+    return (first, last) if last - first >= 1.0 else (0.0, float(last_column))

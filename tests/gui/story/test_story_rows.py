@@ -461,3 +461,28 @@ def test_the_names_of_rows_do_not_touch_what_stands_beside_them(
         beside = QFontMetrics(found).horizontalAdvance("chips")
         found.setBold(True)
         assert QFontMetrics(found).horizontalAdvance(row.name) + beside < GUTTER - 10
+
+
+def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
+    rows: StoryRows, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    def panel() -> tuple[float, float]:
+        columns = shown.corners[:, 0]
+        return float(columns.min()), float(columns.max())
+
+    for follows in (True, False):
+        shown = snapshot_of(distance=0.6)
+        rows.show_reading(shown)
+        rows.choose_range("panel") if follows else rows.axis.zoom(1.5, 1400.0)
+        column = panel()[0] + 20.0
+        rows.crosshair.choose(column)
+        shown = snapshot_of(distance=2.0)
+        assert column < panel()[0]
+        rows.show_reading(shown)
+        assert rows.crosshair.column is not None
+        assert panel()[0] <= rows.crosshair.column <= panel()[1]
+        assert rows.axis.is_following == follows
+        outside = panel()[0] - 20.0
+        rows.crosshair.choose(outside)  # on purpose
+        rows.show_reading(snapshot_of(distance=2.1))
+        assert rows.crosshair.column == round(outside)

@@ -21,6 +21,14 @@ def test_a_value_is_quoted_in_few_characters(value: object) -> None:
     assert 0 < len(shown(value)) <= 100
 
 
+def test_of_a_long_value_begin_and_end_are_quoted() -> None:
+    quoted = shown([f"{letter * 50}" for letter in "abcd"])
+    assert len(quoted) <= _LONGEST_VALUE + 3
+    begin, end = quoted.split("...", 1)[0], quoted.rsplit("...", 1)[1]
+    assert begin.startswith("['aaa")
+    assert end.endswith("ddd']")
+
+
 @pytest.mark.parametrize("value", [718, 1.5, "10 kHz", None, True, [1, 2], {"a": 1}])
 def test_a_short_value_is_quoted_as_repr_does(value: object) -> None:
     assert shown(value) == repr(value)

@@ -1,0 +1,176 @@
+"""A program's streams and its answer to Ctrl-C, within the process of the tests."""
+
+import io
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from types import SimpleNamespace
+from typing import Any, NoReturn
+
+import pytest
+
+from occ_model import plugins
+from occ_model.errors import OccError
+from occ_model.program import Interrupts, run_program
+
+
+class ProcessEnded(BaseException):
+    """In place of the end of this process."""
+
+
+@pytest.fixture
+def written(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, bytes]]:
+    """Note what is written to descriptors, and let the end of the process be an exception."""
+    notes: list[tuple[int, bytes]] = []
+
+    def end(code: int) -> NoReturn:
+        raise ProcessEnded(code)
+
+    monkeypatch.setattr(os, "_exit", end)
+    monkeypatch.setattr(os, "write", lambda where, what: notes.append((where, what)))
+    return notes
+
+
+@pytest.fixture
+def usual() -> Iterator[None]:
+    """Let Ctrl-C be answered as in a new process, and put back what was before."""
+    before, hook = signal.signal(signal.SIGINT, signal.default_int_handler), sys.unraisablehook
+    yield
+    signal.signal(signal.SIGINT, before)
+    sys.unraisablehook = hook
+
+
+def ctrl_c(frame: Any = None) -> None:
+    """Call the answer to Ctrl-C, as Python does between two steps."""
+    answer = signal.getsignal(signal.SIGINT)
+    assert callable(answer)
+    answer(signal.SIGINT, frame)
+
+
+LEFT = [(2, b"own: interrupted.\n")]
+
+
+def test_ctrl_c_ends_preparation_with_a_line_and_raises_during_work(
+    usual: None, written: list[tuple[int, bytes]]
+) -> None:
+    interrupts = Interrupts("own", always_at_once=False)
+    with pytest.raises(ProcessEnded, match="130"):
+        ctrl_c()
+    assert written == LEFT
+    interrupts.end_preparation()
+    with pytest.raises(KeyboardInterrupt):
+        ctrl_c()
+    assert written == LEFT
+
+
+def test_a_window_ends_at_once_during_its_work_too(
+    usual: None, written: list[tuple[int, bytes]]
+) -> None:
+    Interrupts("own", always_at_once=True).end_preparation()
+    with pytest.raises(ProcessEnded, match="130"):
+        ctrl_c()
+    assert written == LEFT
+
+
+def frame_of(file: str, before: object = None) -> Any:
+    return SimpleNamespace(f_code=SimpleNamespace(co_filename=file), f_back=before)
+
+
+def test_an_import_that_is_interrupted_ends_the_process(
+    usual: None, written: list[tuple[int, bytes]]
+) -> None:
+    Interrupts("own", always_at_once=False).end_preparation()
+    with pytest.raises(KeyboardInterrupt):
+        ctrl_c(frame_of("work.py", frame_of("main.py")))
+    with pytest.raises(ProcessEnded):
+        ctrl_c(frame_of("slow.py", frame_of("<frozen importlib._bootstrap>", frame_of("main.py"))))
+    assert written == LEFT
+
+
+def test_an_interruption_that_a_deletion_swallows_ends_the_process(
+    usual: None, written: list[tuple[int, bytes]]
+) -> None:
+    heard: list[object] = []
+    sys.unraisablehook = heard.append
+    Interrupts("own", always_at_once=False)
+    other = SimpleNamespace(exc_type=ValueError)
+    sys.unraisablehook(other)
+    assert heard == [other]
+    with pytest.raises(ProcessEnded):
+        sys.unraisablehook(SimpleNamespace(exc_type=KeyboardInterrupt))
+    assert written == LEFT
+
+
+def test_a_process_that_ignores_ctrl_c_goes_on_to_do_so(usual: None) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Interrupts("own", always_at_once=False)
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+
+
+@pytest.mark.parametrize("error", [None, OccError("It cannot be."), KeyboardInterrupt()])
+def test_within_another_program_ctrl_c_stays_as_it_was(
+    usual: None, error: BaseException | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def work() -> int:
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+        if error is not None:
+            raise error
+        return 0
+
+    codes = {type(None): 0, OccError: 2, KeyboardInterrupt: 130}
+    assert run_program("own", lambda: work, is_process=False) == codes[type(error)]
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert capsys.readouterr().err.count("\n") == (error is not None)
+
+
+def test_a_process_of_its_own_ignores_ctrl_c_at_its_end(
+    usual: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "3")
+    answers: list[object] = []
+
+    def work() -> int:
+        answers.append(signal.getsignal(signal.SIGINT))
+        return 5
+
+    assert run_program("own", lambda: work, is_process=True) == 5
+    assert answers != [signal.default_int_handler]
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
+
+
+@pytest.mark.parametrize("ends_by", ["return", "exit"])
+def test_what_is_printed_is_written_with_letters_that_the_output_has(
+    monkeypatch: pytest.MonkeyPatch, ends_by: str
+) -> None:
+    written = io.BytesIO()
+    # A block of output is kept until it is full.
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(written, "ascii", write_through=False))
+
+    def work() -> int:
+        sys.stdout.write("12 µs\n")
+        if ends_by == "exit":
+            raise SystemExit(0)
+        return 0
+
+    if ends_by == "exit":
+        with pytest.raises(SystemExit):
+            run_program("own", lambda: work, is_process=False)
+    else:
+        assert run_program("own", lambda: work, is_process=False) == 0
+    assert written.getvalue() == b"12 ?s\n"
+
+
+def test_a_window_needs_no_output(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sys, "stdout", None)
+    assert run_program("own", lambda: lambda: 0, is_process=False, is_window=True) == 0
+    assert run_program("own", lambda: lambda: 0, is_process=False) == 2
+
+
+def test_a_plug_in_of_no_package_has_a_name_all_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
+    entries = {"own": SimpleNamespace(dist=None), "other": SimpleNamespace(
+        dist=SimpleNamespace(name="pack")
+    )}  # fmt: skip
+    monkeypatch.setattr(plugins, "_found", lambda group: entries)
+    said = [plugins.described("group", name) for name in ("own", "other", "missing")]
+    assert [one.partition(" of the package ")[2] for one in said] == ["'?'", "'pack'", "'?'"]

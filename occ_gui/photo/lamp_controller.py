@@ -1,7 +1,7 @@
 """Controller of the lamps: find them in the background, and choose what of the photo is matched."""
 
 from pathlib import Path
-from typing import Protocol
+from typing import NamedTuple, Protocol, Self
 
 from PySide6.QtCore import QObject, Signal
 
@@ -21,6 +21,18 @@ class LampPane(Protocol):
 
     def show_lamps(self, lamps: tuple[Lamp, ...], chosen: int | None) -> None:
         """Show these lamps, one of them chosen, in place of the previous ones."""
+
+
+class _Frame(NamedTuple):
+    """A photo as it is read: along the other axis, a rectangle of it is another."""
+
+    path: Path
+    shape: tuple[int, ...]
+    turned: bool
+
+    @classmethod
+    def of(cls, photo: Photo) -> Self:
+        return cls(photo.path, photo.image.shape, photo.turned)
 
 
 def _find(photo: Photo, report: Report) -> tuple[Photo, tuple[Lamp, ...]]:
@@ -47,6 +59,7 @@ class LampController(QObject):
         self._panes = panes
         self._photo: Photo | None = None
         self._kept: tuple[Path, Region] | None = None
+        self._regions: dict[_Frame, Region] = {}
         self.lamps: tuple[Lamp, ...] = ()
         self.chosen: int | None = None
         self.by_hand: Region | None = None
@@ -72,16 +85,13 @@ class LampController(QObject):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Search this photo in place of the previous one, or none."""
-        before, self._photo = self._photo, photo
+        self._photo = photo
         if self.runner.is_running:
             self.runner.cancel()
             self.searching.emit(False)
-        same = (
-            photo is not None and before is not None
-            and photo.path == before.path and photo.image.shape == before.image.shape
-            and photo.turned == before.turned
-        )  # fmt: skip
-        kept = self.rectangle if same else None
+        if photo is None:
+            self._regions.clear()
+        kept = None if photo is None else self._regions.get(_Frame.of(photo))
         if photo is not None and self._kept is not None:
             kept = self._kept[1] if self._kept[0] == photo.path else kept
             self._kept = None
@@ -143,9 +153,18 @@ class LampController(QObject):
         self.failed.emit(sentence)
 
     def _show(self) -> None:
+        if self._photo is not None:
+            self._remember(_Frame.of(self._photo))
         for pane in self._panes:
             pane.show_lamps(self.lamps, self.chosen)
         self.region_changed.emit(self.region)
+
+    def _remember(self, frame: "_Frame") -> None:
+        """Keep what is matched with its photo: a row of the table opens with it again."""
+        if self.rectangle is None:
+            self._regions.pop(frame, None)
+        else:
+            self._regions[frame] = self.rectangle
 
     def stop(self) -> None:
         """Stop the search."""

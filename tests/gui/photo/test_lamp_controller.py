@@ -184,6 +184,28 @@ def test_a_region_stays_when_the_channel_is_changed(bench: Bench, photo: Photo) 
     assert bench.lamps.by_hand is None
 
 
+def test_a_region_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
+    """Going through the rows of the table of photos opens one after the other."""
+    drawn, other = Region(5, 25, 10, 40), replace(photo, path=Path("other.png"))
+    bench.lamps.draw(drawn)
+    for shown, region in ((other, None), (photo, drawn), (other, None)):
+        bench.lamps.show_photo(shown)
+        assert bench.lamps.by_hand == region
+    bench.lamps.draw(Region(30, 50, 60, 90))
+    bench.lamps.show_photo(photo)
+    assert bench.lamps.by_hand == drawn
+    bench.lamps.match_whole()
+    bench.lamps.show_photo(other)
+    assert bench.lamps.by_hand == Region(30, 50, 60, 90)
+    bench.lamps.show_photo(photo)
+    assert bench.lamps.by_hand is None, "the whole photo was chosen since"
+    bench.lamps.show_photo(replace(other, turned=True))
+    assert bench.lamps.by_hand is None, "along the other axis it is another rectangle"
+    bench.lamps.show_photo(None)
+    bench.lamps.show_photo(other)
+    assert bench.lamps.by_hand is None
+
+
 @pytest.mark.parametrize("region", [None, Region(5, 25, 10, 40)])
 def test_the_session_keeps_the_region(
     region: Region | None, tmp_path: Path, bench: Bench, photo: Photo

@@ -83,8 +83,7 @@ class ExposureController(QObject):
     def choose(self, column: int) -> None:
         """Hold a column."""
         self._choose(column, held=True)
-        if self._column is not None:
-            self.held.emit(self._column)
+        self.held.emit(self._column)
 
     def follow(self, column: int) -> None:
         """Show the column that was chosen in another pane."""

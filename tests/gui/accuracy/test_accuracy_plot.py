@@ -3,12 +3,14 @@
 import math
 from itertools import combinations
 
+import numpy as np
 import pytest
-from PySide6.QtCore import QPointF, QRectF, QSize
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.accuracy_plot import COLOURS, SYMBOLS, AccuracyPlot
+from occ_gui.accuracy.accuracy_plot import _RING, COLOURS, SYMBOLS, AccuracyPlot
+from occ_gui.accuracy.point_names import _FreePlaces
 from occ_gui.accuracy.ways_shown import ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_model.results import LEAST_ERROR, AccuracyPoint
@@ -200,3 +202,28 @@ def test_a_logarithmic_axis_is_numbered_at_powers_of_ten(qtbot: QtBot) -> None:
     assert axis.tickStrings(fewer, 1.0, 1.0) == ["≤ 0.001", "0.1", "10"]
     (_, inside), _ = axis.tickValues(-3.01, 1.01, 300.0)  # those at the ends would be cut off
     assert axis.tickStrings(inside, 1.0, 1.0) == ["0.01", "0.1", "1"]
+
+
+@pytest.mark.parametrize("height", [70, 120, 240])
+def test_the_rings_at_the_top_and_at_the_bottom_are_whole(plot: AccuracyPlot, height: int) -> None:
+    plot.resize(500, height)
+    QApplication.processEvents()
+    measure(plot)
+    box = plot.plot.getViewBox()
+    (low, high), pixel = box.viewRange()[1], box.viewPixelSize()[1]
+    ys = [math.log10(max(point.error, LEAST_ERROR)) for point in POINTS]
+    assert (high - max(ys)) / pixel >= _RING - 0.01
+    assert (math.log10(LEAST_ERROR) - low) / pixel >= _RING - 0.01
+
+
+def test_the_line_to_a_name_does_not_cross_another_name() -> None:
+    """A name between a point and the next free place makes another direction the better one."""
+    here, size = QPointF(100.0, 100.0), QSizeF(40.0, 10.0)
+    places = _FreePlaces(QRectF(0.0, 0.0, 400.0, 400.0), [here])
+    first = places.take(here, size)
+    assert first is not None
+    centre = np.array([[here.x() + 3.0 * (first.center().x() - here.x()),
+                        here.y() + 3.0 * (first.center().y() - here.y())]])  # fmt: skip
+    at = np.array([here.x(), here.y()])
+    other = 2.0 * at - centre
+    assert places._is_crossing(np.concatenate([centre, other]), size, at).tolist() == [True, False]

@@ -288,3 +288,30 @@ def test_a_forecast_is_made_at_every_change_of_the_settings(bench: Bench, qtbot:
     bench.settings.set_tolerance(math.inf)
     qtbot.waitUntil(lambda: len(bench.pane.forecasts) > before)
     assert any(found.plan.tolerance == math.inf for found in bench.pane.forecasts)
+
+
+def test_a_study_that_was_stopped_before_it_began_does_not_begin(
+    bench: Bench, qtbot: QtBot
+) -> None:
+    bench.controller.set_seen(True)
+    bench.simulation.runner.stop()
+    bench.controller._idle_timer.start(20)
+    bench.controller.stop()
+    qtbot.wait(60)
+    assert bench.controller.is_idle
+    assert not bench.measured
+
+
+def test_only_a_picture_with_the_same_effects_takes_anothers_times(
+    tiny: SimulationRequest,
+) -> None:
+    made = tuple(
+        TimeShares(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
+        for names in ([], ["jpeg"], ["jpeg", "vignetting"])
+    )
+    costs = SceneCosts(tiny, made)
+    for one in made:
+        shown = replace(one, stages={"paint": 9.0})
+        assert costs.of(tiny, shown).picture is one
+    other = TimeShares({"vignetting": 0.1}, {}, {}, True)
+    assert costs.of(tiny, other).picture is other

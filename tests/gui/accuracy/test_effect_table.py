@@ -255,3 +255,20 @@ def test_the_titles_of_the_columns_are_shown_whole_in_any_font(
         title = table.effects.headerData(column, Qt.Orientation.Horizontal)
         width = header.fontMetrics().horizontalAdvance(title)
         assert header.sectionSize(column) >= width + 4
+
+
+def test_pictures_are_as_high_as_they_need_in_any_width(qtbot: QtBot) -> None:
+    detail = EffectDetail()
+    qtbot.addWidget(detail)
+    grey = np.full((40, 80), 90, dtype=np.uint8)
+    detail.show_row(None, EffectCrop(grey, grey, grey, 4, False))
+    detail.resize(400, 600)
+    detail.show()
+    heights = []
+    for width in (400, 700):
+        detail.resize(width, 600)
+        heights.append(detail.pictures.maximumHeight())
+        room = detail.pictures.width()
+        low, high = (detail.pictures.height_in(room + off) for off in (-8, 8))
+        assert low <= heights[-1] <= high
+    assert heights[0] < heights[1]

@@ -1,7 +1,7 @@
 """The bench in the window: what is chosen is measured, drawn, marked where it is old, exported."""
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
@@ -14,16 +14,18 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
 from occ_gui.bench import bench_plot
+from occ_gui.bench.bench_choice import BITS as EFFORTS
 from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
 from occ_gui.bench.bench_controller import BenchController
 from occ_gui.bench.bench_measurement import request_of
 from occ_gui.bench.bench_plot import BITS, RATES, drawn
 from occ_gui.bench.bench_table import cell_text
 from occ_gui.bench.bench_view import BenchView
+from occ_gui.detection_map.slider_strip_controller import RANKS
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import ParameterError
-from occ_model.parallel.job import Job, JobResult
+from occ_model.parallel.job import Job, JobResult, Stage
 from occ_model.results import BitErrors
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.scene.scene import Scene
@@ -223,3 +225,41 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
         low, high = plot.viewRange()[1]
         assert above.min() - 0.5 < low < above.min()
         assert above.max() < high
+
+
+def test_before_the_first_measurement_the_pane_says_what_it_is_for(measuring: Measuring) -> None:
+    pane = measuring.pane
+    assert pane._pages.currentWidget() is pane.invitation
+    measuring.measure()
+    assert pane._pages.currentWidget() is pane.plots[RATES]
+    # What theory says stands beside the points, in either plot.
+    pane.what.show_key(BITS)
+    pane._show_what()
+    assert pane._pages.currentWidget() is pane.plots[BITS]
+    for curve in pane.plots[BITS]._bounds.values():
+        x, _ = curve.getData()
+        assert len(x) > 1
+
+
+def test_each_number_of_bits_is_one_of_whole_payloads() -> None:
+    whole = BenchRequest().payload_bits
+    assert all(bits % whole == 0 for bits in EFFORTS)
+    assert list(EFFORTS) == sorted(set(EFFORTS))
+
+
+def test_a_measurement_that_somebody_waits_for_goes_before_the_map(measuring: Measuring) -> None:
+    assert all(stage.rank < min(0, *RANKS) for stage in stages_of(measuring))
+
+
+def stages_of(measuring: Measuring) -> list[Stage]:
+    put: list[Stage] = []
+    channel = measuring.controller._channel
+
+    def note(_request: object, stages: Callable[[], Iterable[Stage]]) -> None:
+        put.extend(stages())
+
+    channel.put = note  # type: ignore[method-assign,assignment]
+    measuring.controller.choose(BenchChoice(PUBLISHED, ("threshold",), 64))
+    measuring.pane.measure.click()
+    assert put
+    return put

@@ -111,3 +111,18 @@ def test_the_value_of_a_card_is_as_large_as_a_heading(cards: LimitCards) -> None
     card = cards.cards["matched"]
     wanted = TextSize.HEADING.value * card.font().pointSizeF()
     assert card.value.font().pointSizeF() == pytest.approx(wanted)
+
+
+def test_limits_are_asked_for_once_and_not_for_a_scene_that_came_back(
+    cards: LimitCards, small_scene: Scene, qtbot: QtBot
+) -> None:
+    cards.show()
+    with qtbot.waitSignal(cards.asked):
+        pass
+    assert not cards.is_waiting
+    cards.show_begun()
+    cards.show_ended(is_complete=True)
+    cards.show_outdated(True)
+    assert cards.is_waiting
+    cards.show_outdated(False)
+    assert not cards.is_waiting

@@ -334,3 +334,22 @@ def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
     found: list[bool] = []
     list(request.stages(np.zeros(SHAPE, dtype=np.int64), True, lambda: found.append(True)))
     assert found == [True]
+
+
+def test_a_map_is_full_of_its_own_scene_alone_and_its_first_answer_awaited_once(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    controller = bench.controller
+    assert controller.full is None
+    controller.set_seen(True)
+    assert controller.is_first_answer_awaited
+    shown = bench.wait_until_idle()
+    assert not controller.is_first_answer_awaited
+    full = controller.full
+    assert full is not None
+    assert full[0] is shown
+    controller.set_seen(False)
+    bench.scenes.change(iso=200.0)
+    assert controller.full is None
+    assert not controller.is_first_answer_awaited

@@ -403,3 +403,37 @@ def test_no_more_pictures_are_counted_than_can_be_read_out() -> None:
     rates = rates_of({0: (10, 10)})
     rates.picture_times = 0.1
     assert rates.bits_a_second(DECODERS[0], 30.0)[0, 0] == pytest.approx(100.0)
+
+
+def bar_numbers(view: MapView) -> list[str]:
+    return [text for _, text in view.plots.bar._numbers]
+
+
+def test_the_bar_of_bits_goes_from_none_to_the_most_that_are_possible(qtbot: QtBot) -> None:
+    view = MapView(DECODERS)
+    qtbot.addWidget(view)
+    rates = rates_of({0: (10, 9)})
+    view.show_axes(FREQUENCY, DISTANCE)
+    view.show_map(rates)
+    view.show_bits("bits", 25.0)
+    most = float(rates.most_bits(25.0).max())
+    assert most > float(rates.most_bits(25.0).min())
+    assert bar_numbers(view)[0] == "0"
+    assert bar_numbers(view)[-1] == f"{most:,.0f}"
+    assert not any(text.startswith(("+", "-")) for text in bar_numbers(view))
+    # A difference has a sign, but for none.
+    view.what.show_key("difference")
+    view.plots.show_what("difference")
+    assert bar_numbers(view)[-1] == f"{most:+,.0f}"
+    assert bar_numbers(view)[0] == f"{-most:+,.0f}"
+    assert bar_numbers(view)[2] == "0"
+
+
+@pytest.mark.parametrize("most", [2, 4, 8, 16])
+@pytest.mark.parametrize("name", ["switching_frequency", "exposure_time", "iso"])
+def test_logarithmic_axes_have_the_usual_round_numbers(name: str, most: int) -> None:
+    """One, two and five of each power of ten; or one and three; or one."""
+    declared = quantity(name)
+    assert declared.scale == "log"
+    begins = {f"{float(tick.text):e}"[0] for tick in ticks(declared, most)}
+    assert begins <= {"1", "2", "5"} or begins <= {"1", "3"}

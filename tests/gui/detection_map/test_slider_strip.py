@@ -18,6 +18,7 @@ from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import SliderStrip
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
+from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
@@ -250,3 +251,33 @@ def test_the_legend_says_what_the_colours_mean_and_gives_way_to_the_sliders(
     assert not legend.isHidden()
     application.window.actions_by_name["slider_strips"].trigger()
     assert legend.isHidden()
+
+
+def test_new_shares_are_painted_at_once(qtbot: QtBot) -> None:
+    slider = QSlider()
+    strip = SliderStrip(slider, "Frequency")
+    qtbot.addWidget(strip)
+    qtbot.addWidget(slider)
+    strip.resize(200, 12)
+    strip.show()
+    QApplication.processEvents()
+    painted: list[int] = []
+    strip.paintEvent = lambda event: painted.append(1)  # type: ignore[method-assign]
+    strip.setToolTip("")
+    QApplication.processEvents()
+    assert not painted
+    strip.show_shares((0.0, 0.5, 1.0))
+    QApplication.processEvents()
+    assert painted
+
+
+def test_the_legend_shows_the_colours_from_misread_to_read(qtbot: QtBot) -> None:
+    legend = StripLegend()
+    qtbot.addWidget(legend)
+    legend.resize(legend.sizeHint())
+    picture = legend.grab().toImage()
+    seen = {
+        picture.pixelColor(x, picture.height() // 2).getRgb()[:3] for x in range(picture.width())
+    }
+    ends = to_colours(np.array([[0.0], [1.0]]), 0.0, 1.0, RATES)[:, 0, :3]
+    assert {tuple(end) for end in ends.tolist()} <= seen

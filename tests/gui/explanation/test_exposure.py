@@ -286,3 +286,21 @@ def test_the_exposure_follows_the_scene(seen: Application, user: User) -> None:
         in seen.learning.explanation.pane.exposure.sentence.text()
     )
     assert np.isfinite(level).all()
+
+
+def test_the_column_shown_first_is_in_the_panels_first_packet(
+    pane: Pane, bare_snapshot_of: SnapshotOf
+) -> None:
+    snapshot = bare_snapshot_of(panel_width=0.3)
+    first, above = snapshot.panel_origin
+    assert abs(first - above) > snapshot.packet_columns
+    controller = ExposureController(pane, Mark())
+    controller.set_seen(True)
+    controller.show_snapshot(snapshot)
+    ((column, _),) = pane.columns
+    assert first < column < first + snapshot.packet_columns
+
+
+def test_every_control_says_what_it_does(plot: ExposurePlot) -> None:
+    for control in (plot.column, plot.hold):
+        assert control.toolTip().endswith(".")

@@ -181,7 +181,9 @@ class Written:
             )
         )  # fmt: skip
         monkeypatch.setattr(
-            paper, "load_preset", lambda name: occ.load_preset(name).replace(rows=60)
+            paper,
+            "load_preset",
+            lambda name: occ.load_preset(name).replace(rows=60, panel_height=0.05),
         )
 
 

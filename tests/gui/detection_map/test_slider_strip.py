@@ -253,7 +253,7 @@ def test_the_legend_says_what_the_colours_mean_and_gives_way_to_the_sliders(
     assert legend.isHidden()
 
 
-def test_new_shares_are_painted_at_once(qtbot: QtBot) -> None:
+def test_new_shares_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
     slider = QSlider()
     strip = SliderStrip(slider, "Frequency")
     qtbot.addWidget(strip)
@@ -262,7 +262,7 @@ def test_new_shares_are_painted_at_once(qtbot: QtBot) -> None:
     strip.show()
     QApplication.processEvents()
     painted: list[int] = []
-    strip.paintEvent = lambda event: painted.append(1)  # type: ignore[method-assign]
+    monkeypatch.setattr(strip, "paintEvent", lambda _event: painted.append(1))
     strip.setToolTip("")
     QApplication.processEvents()
     assert not painted
@@ -276,8 +276,7 @@ def test_the_legend_shows_the_colours_from_misread_to_read(qtbot: QtBot) -> None
     qtbot.addWidget(legend)
     legend.resize(legend.sizeHint())
     picture = legend.grab().toImage()
-    seen = {
-        picture.pixelColor(x, picture.height() // 2).getRgb()[:3] for x in range(picture.width())
-    }
+    middle = [picture.pixelColor(x, picture.height() // 2) for x in range(picture.width())]
+    seen = {(colour.red(), colour.green(), colour.blue()) for colour in middle}
     ends = to_colours(np.array([[0.0], [1.0]]), 0.0, 1.0, RATES)[:, 0, :3]
     assert {tuple(end) for end in ends.tolist()} <= seen

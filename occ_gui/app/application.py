@@ -149,6 +149,7 @@ class Application(QObject):
         self.messages.follow(self.accuracy, self.photo)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
+        self.learning.lesson_begun.connect(self.presets.keep_base)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
         self.store.refused_for.connect(self.messages.show_refusal_for)

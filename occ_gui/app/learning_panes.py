@@ -79,6 +79,9 @@ class LearningPanes(QObject):
     exposure_chooser_made = Signal(QObject)
     """The controller has been created that chooses the column whose exposure is shown."""
 
+    lesson_begun = Signal()
+    """A lesson is about to replace what the user is working on."""
+
     columns_held = Signal(object)
     """How many columns a lesson keeps in view; None for as many as usual."""
 
@@ -167,6 +170,7 @@ class LearningPanes(QObject):
         )
         wiring.status_message.connect(self.status_message)
         wiring.controller.pane_wanted.connect(self._window.bring_into_view)
+        wiring.controller.begun.connect(self.lesson_begun)
         wiring.controller.columns_held.connect(self.columns_held)
         wiring.controller.action_wanted.connect(self._do)
         wiring.controller.use_match(lambda: self._photos.matching.match)

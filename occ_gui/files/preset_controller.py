@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.scene.gesture import new_gesture
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.scene_store import MOST_STEPS, SceneStore
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.scene.parameters import PARAMETERS
@@ -57,6 +57,7 @@ class PresetController(QObject):
         self._own: tuple[str, ...] = ()
         self._followed: Scene | None = None
         self._base: str | None = None
+        self._bases: dict[Scene, str] = {}
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
         self._read()
@@ -95,16 +96,28 @@ class PresetController(QObject):
             The preset that it equals, None if there is none.
         changed
             In that case the preset that it was before some of its values were changed, one or a
-            few at a time. None where a whole other scene has come meanwhile.
+            few at a time. None where a whole other scene has come meanwhile, until that of before
+            comes back: by undo, or at the end of a lesson.
         """
         name, last = self.name_of(scene), self._followed
+        is_other = last is None or _differences(last, scene) > _MOST_OF_A_CHANGE
+        if name is not None or is_other:
+            self.keep_base()
         self._followed = scene
         if name is not None:
             self._base = name
             return name, None
-        if last is None or _differences(last, scene) > _MOST_OF_A_CHANGE:
-            self._base = None
+        self._base = self._bases.get(scene, None if is_other else self._base)
         return None, self._base
+
+    def keep_base(self) -> None:
+        """Keep which preset the present scene was, for when it comes back as a whole."""
+        if self._followed is None or self._base is None:
+            return
+        self._bases.pop(self._followed, None)  # so that it is the newest
+        self._bases[self._followed] = self._base
+        if len(self._bases) > MOST_STEPS:
+            del self._bases[next(iter(self._bases))]
 
     def load(self, name: str) -> None:
         """Load the scene of a preset, as one step that can be undone."""

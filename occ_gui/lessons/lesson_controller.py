@@ -48,6 +48,9 @@ class LessonController(QObject):
     status_message = Signal(str)
     """The reason why a step is incomplete."""
 
+    begun = Signal()
+    """A lesson is about to replace what the user is working on."""
+
     pane_wanted = Signal(str)
     """The name of the pane that a step refers to."""
 
@@ -185,6 +188,7 @@ class LessonController(QObject):
 
     def _begin(self) -> None:
         if self._user is None:
+            self.begun.emit()
             settings = self._scenes.settings.settings
             self._user = UserState(self._scenes.scene, settings, self._open)
             self._scenes.settings.restore(FIRST_SETTINGS)

@@ -14,7 +14,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
-_MOST_STEPS = 500
+MOST_STEPS = 500
 """Steps that can be undone; each of them keeps two scenes in memory."""
 
 
@@ -50,7 +50,7 @@ class SceneStore(QObject):
         self._scene = scene
         self.settings = SettingsStore() if settings is None else settings
         self.undo_stack = QUndoStack(self)
-        self.undo_stack.setUndoLimit(_MOST_STEPS)
+        self.undo_stack.setUndoLimit(MOST_STEPS)
 
     @property
     def scene(self) -> Scene:

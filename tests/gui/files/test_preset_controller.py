@@ -204,4 +204,25 @@ def test_a_changed_preset_is_named_until_another_scene_comes(
     other = occ.load_preset("tablet-61us").replace(iso=300.0)
     application.store.put(other, "another scene")
     assert preset.placeholderText() == "Choose a preset"
+    application.store.undo_stack.undo()
+    assert preset.placeholderText() == "Phone, 68 µs, changed"
+    user.wait_until_idle()
+
+
+def test_a_preset_is_named_again_after_a_lesson(application: Application, user: User) -> None:
+    preset = application.controls.preset
+    application.window.bring_to_front("lessons")
+    lessons = application.learning.lessons.controller
+    application.presets.load("phone-68us")
+    for pattern, named in (
+        ("", "Phone, 68 µs"),
+        ("10", "Phone, 68 µs, changed"),  # but two parameters from a lesson's scene
+    ):
+        application.store.change(pattern=pattern)
+        assert (preset.currentText() or preset.placeholderText()) == named
+        lessons.begin_first()
+        application.store.change(code=3)
+        application.presets.load("phone-136us")
+        application.learning.end_lesson()
+        assert (preset.currentText() or preset.placeholderText()) == named
     user.wait_until_idle()

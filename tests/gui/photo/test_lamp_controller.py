@@ -243,3 +243,32 @@ def test_a_rectangle_that_is_taken_away_is_hidden_and_draws_nothing(bench: Bench
     bench.outlines.show_rectangle(None)
     assert not bench.outlines.rectangle.isVisible()
     assert drawn == []
+
+
+def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
+    bench: Bench, photo: Photo, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    """The middle half of the photo, so that all its corners can be taken hold of."""
+    rows, columns = photo.image.shape
+    bench.lamps.set_by_hand(True)
+    middle = bench.lamps.by_hand
+    assert middle is not None
+    assert (2 * middle.rows, 2 * middle.columns) == (rows, columns)
+    assert middle.first_row == rows - middle.last_row
+    assert middle.first_column == columns - middle.last_column
+    bench.lamps.match_whole()
+    bench.find(monkeypatch, qtbot)
+    bench.lamps.choose(2)
+    bench.lamps.set_by_hand(True)
+    assert bench.lamps.by_hand == LAMPS[2].region
+
+
+def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(bench: Bench) -> None:
+    region = Region(5, 25, 10, 40)
+    bench.outlines.show_rectangle(region)
+    corner, size = bench.outlines.rectangle.pos(), bench.outlines.rectangle.size()
+    # A pixel's centre has a whole number.
+    assert (corner.x(), corner.y()) == (9.5, 4.5)
+    assert (corner.x() + size.x(), corner.y() + size.y()) == (39.5, 24.5)
+    for handle in bench.outlines.rectangle.handles:
+        assert handle["pos"] + handle["center"] == pg.Point(1.0, 1.0)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from gui.combo_box import choose
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_view import PhotoView
@@ -164,3 +164,14 @@ def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
     enter(form.column, "13")
     assert not form.notices[form.column].isVisible()
     assert placed[-1].column == 13.0
+
+
+def test_nothing_of_the_page_is_cut_off_at_the_panes_least_width(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    view.show_match(match)
+    view.resize(view.minimumSizeHint().width(), 700)
+    QApplication.processEvents()
+    assert view.width() == view.minimumSizeHint().width()
+    assert view._scroll.horizontalScrollBar().maximum() == 0

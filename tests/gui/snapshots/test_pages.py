@@ -10,8 +10,11 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.explanation.wiring import ExplanationView
 from occ_gui.help.help_window import HelpWindow
+from occ_gui.photo.photo_view import PhotoView
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.welcome.welcome_dialog import WelcomeDialog
+from occ_model.photo.reading.load import Photo
+from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
 from occ_model.teaching.exposure_window import exposure_window
 
@@ -69,3 +72,13 @@ def test_the_explanation_looks_as_stored(
     view.exposure.show_column(100, scene.camera.columns, True)
     view.exposure.show_window(exposure_window(scene, 100), 42.25)
     matches_its_picture(view, "explanation")
+
+
+def test_the_pane_of_a_photo_looks_as_stored(
+    qtbot: QtBot, matches_its_picture: Matches, photo: Photo
+) -> None:
+    view = PhotoView()
+    show(qtbot, view, 400, 420)
+    view.show_scene(Scene())
+    view.show_photo(photo)
+    matches_its_picture(view, "photo")

@@ -316,3 +316,10 @@ def test_real_photos_are_matched_from_the_window(
     assert [one.verdict for one in made.rows] == ["unreadable", "unreadable"]
     assert replace(made.rows[0], note="") == PhotoRow(missing, "unreadable")
     controller.stop()
+
+
+def test_the_table_has_room_for_some_rows_in_any_window(view: ManyPhotosView) -> None:
+    table = view.table
+    row = table.verticalHeader().defaultSectionSize()
+    room = table.minimumHeight() - table.horizontalHeader().sizeHint().height()
+    assert room >= 5 * row

@@ -110,6 +110,17 @@ def test_edges_hidden_by_white_are_doubted() -> None:
     assert any("White hides" in why for why in match.exposure_reasons)
 
 
+def test_the_exposure_is_doubted_where_more_than_two_fifths_are_white() -> None:
+    reasons = {}
+    for saturated in (0.3, 0.45):
+        world = small_world(3, saturated=saturated)
+        match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
+        reasons[saturated] = [why for why in match.exposure_reasons if "are white" in why]
+        assert match.verdict == "sure"
+    assert reasons[0.3] == []
+    assert "at most 40.0 % are allowed" in reasons[0.45][0]
+
+
 def test_a_camera_is_not_taken_to_equalize() -> None:
     match = occ.match_photo(photo_of(photograph(small_world(5))), told(small_world(5)))
     assert match.scene.model.enhancement == "none"

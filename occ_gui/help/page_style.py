@@ -13,8 +13,7 @@ from PySide6.QtGui import (
 )
 
 _CODE = QTextFormat.Property.BlockCodeFence
-_CODE_MARGIN, _HEADING_ABOVE, _HEADING_BELOW = 14, 16, 4
-_CELL_PADDING = 4
+_CODE_MARGIN, _HEADING_ABOVE, _NEAR = 14, 16, 4
 
 
 def style_page(document: QTextDocument, palette: QPalette) -> None:
@@ -48,7 +47,7 @@ def style_page(document: QTextDocument, palette: QPalette) -> None:
 def _heading_format() -> QTextBlockFormat:
     changes = QTextBlockFormat()
     changes.setTopMargin(_HEADING_ABOVE)
-    changes.setBottomMargin(_HEADING_BELOW)
+    changes.setBottomMargin(_NEAR)
     return changes
 
 
@@ -58,9 +57,9 @@ def _code_format(block: QTextBlock) -> QTextBlockFormat:
     changes.setLeftMargin(_CODE_MARGIN)
     changes.setNonBreakableLines(False)
     if not block.previous().blockFormat().hasProperty(_CODE):
-        changes.setTopMargin(_CELL_PADDING)
+        changes.setTopMargin(_NEAR)
     if not block.next().blockFormat().hasProperty(_CODE):
-        changes.setBottomMargin(2 * _CELL_PADDING)
+        changes.setBottomMargin(2 * _NEAR)
     return changes
 
 
@@ -70,7 +69,7 @@ def _style_table(table: QTextTable, line: QColor) -> None:
     changes.setBorder(1)
     changes.setBorderStyle(QTextFrameFormat.BorderStyle.BorderStyle_Solid)
     changes.setBorderBrush(line)
-    changes.setCellPadding(_CELL_PADDING)
-    changes.setTopMargin(_CELL_PADDING)
-    changes.setBottomMargin(2 * _CELL_PADDING)
+    changes.setCellPadding(_NEAR)
+    changes.setTopMargin(_NEAR)
+    changes.setBottomMargin(2 * _NEAR)
     table.setFormat(changes)

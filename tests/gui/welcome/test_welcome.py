@@ -133,4 +133,5 @@ def test_the_doors_are_alike_and_show_all_their_texts_however_large(
         for label in (door._picture, door._title, door._sentence):
             assert door.rect().contains(label.geometry())
             assert label.height() >= max(label.heightForWidth(label.width()), 1)
+            assert label.width() >= label.minimumSizeHint().width()
         assert door._sentence.geometry().bottom() < door.height() - door._picture.y()

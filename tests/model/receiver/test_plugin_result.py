@@ -57,3 +57,18 @@ def test_a_result_has_a_code_with_its_bits_or_says_why_not(
 ) -> None:
     result = occ.DecodeResult("own", code=code, bits=np.array(bits, np.uint8), failure=failure)
     assert (problem_of(result, columns=10) is not None) is is_refused
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "is_refused"),
+    [
+        ("threshold", -5.0, False), ("threshold", 1e6, False), ("threshold", float("nan"), True),
+        ("chip_length", 0.0, False), ("chip_length", -0.1, True), ("chip_length", 1e6, False),
+        ("correlation", -1.0, False), ("correlation", -1.1, True), ("correlation", 1.1, True),
+        ("confidence", 0.0, False), ("confidence", -0.1, True), ("confidence", 1.1, True),
+        ("confidence", "sure", True), ("confidence", None, False),
+    ],
+)  # fmt: skip
+def test_each_number_has_its_range(name: str, value: object, is_refused: bool) -> None:
+    result = occ.DecodeResult("own", failure="Nothing was read.", **{name: value})  # type: ignore[arg-type]
+    assert (problem_of(result, columns=10) is not None) is is_refused

@@ -1,10 +1,13 @@
 """Chips shorter than the readout time of a column: a failure says so, there and only there."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.receiver.short_chips import has_short_chips
+from occ_model.receiver.threshold import decoder as threshold
 
 REASON = "A chip of 2 µs is shorter than the 8 µs from one column to the next: "
 
@@ -53,3 +56,19 @@ def test_the_matched_decoder_reads_no_wrong_code_from_columns_that_skip_chips(
         assert result.code in {code, None}
         if kilohertz == 130:  # chips are short, but all packets together show each of them
             assert result.code == code
+
+
+def test_what_was_read_of_short_chips_is_not_called_a_failure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Where the threshold decoder does not know a chip's length, it may read short ones."""
+    scene = occ.Scene().replace(switching_frequency=150e3, readout_time=10e-6)
+    read = occ.DecodeResult("threshold", code=1, bits=np.array([1], dtype=np.uint8))
+    monkeypatch.setattr(threshold, "_read", lambda *_: read)
+    assert threshold.read_stripes(np.zeros(10), scene) is read
+    missed = replace(read, code=None, failure="No header was found.")
+    monkeypatch.setattr(threshold, "_read", lambda *_: missed)
+    failure = threshold.read_stripes(np.zeros(10), scene).failure
+    assert failure is not None
+    assert "shorter than" in failure
+    assert failure.endswith("No header was found.")

@@ -1,0 +1,131 @@
+"""What is added to a fit's covariance, in closed forms."""
+
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from occ_model.photo.fit import joint_estimate
+from occ_model.photo.fit.joint_estimate import (
+    _by_unknown_blur,
+    _doubts,
+    _exposure_doubts,
+    _other_starts,
+    _rounding,
+    _widened,
+    _with_step_of,
+    _with_steps_of_all,
+    _with_width,
+)
+from occ_model.photo.fit.joint_fit import JointFit
+from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.fit.timing import Timing
+
+RANDOM = np.random.default_rng(3)
+PARTS = RANDOM.normal(size=(9, 9))
+FIT = JointFit(np.array([0.1, 0.8, 3.0, 0.1, 0.0, 0.0, 0.0, 1.2, 0.0]), PARTS @ PARTS.T, 20.0, 2.0)
+
+
+def stripe_fit(step: float, residual: float = 1.0) -> StripeFit:
+    line = np.zeros(3)
+    covariance = np.diag([1e-8, 1e-4, 1e-4, 0.0])
+    timing = Timing(step, 0.8, 3.0, 2.2)
+    return StripeFit(timing, covariance, line, line, line, 0.9, residual, residual, True)
+
+
+def test_a_step_is_as_uncertain_as_the_others_are_far() -> None:
+    fits = _with_steps_of_all([stripe_fit(0.1), stripe_fit(0.1002), stripe_fit(0.1005)])
+    added = [float(fit.covariance[0, 0]) - 1e-8 for fit in fits]
+    assert np.sqrt(added) == pytest.approx([0.0005, 0.0003, 0.0005])
+    assert all(fit.covariance[1, 1] == 1e-4 for fit in fits)
+    (alone,) = _with_steps_of_all([stripe_fit(0.1)])
+    assert alone.covariance[0, 0] == 1e-8
+
+
+@pytest.mark.parametrize("unusual", [0.5, math.sqrt(6.0), 3.0 * math.sqrt(6.0)])
+def test_an_unusual_camera_widens_all_but_the_step(unusual: float) -> None:
+    """By the ratio to what six unknowns are usually off."""
+    model: Any = SimpleNamespace(unusual=lambda _: unusual)
+    ratio = max(1.0, unusual / math.sqrt(6.0))
+    wide = _widened(FIT, model).covariance
+    assert wide[0, 0] == FIT.covariance[0, 0]
+    assert wide[0, 1:] == pytest.approx(ratio * FIT.covariance[0, 1:])
+    assert wide[1:, 1:] == pytest.approx(ratio**2 * FIT.covariance[1:, 1:])
+
+
+def test_the_step_is_taken_from_the_best_fit_of_all_pixels() -> None:
+    explanation: Any = SimpleNamespace(fits=[stripe_fit(0.2, 5.0), stripe_fit(0.11, 2.0)])
+    found = _with_step_of(FIT, explanation)
+    assert found.values.tolist() == [0.11, *FIT.values[1:]]
+    assert found.covariance[0, 0] == 1e-8
+    assert not found.covariance[0, 1:].any()
+    assert not found.covariance[1:, 0].any()
+    assert np.array_equal(found.covariance[1:, 1:], FIT.covariance[1:, 1:])
+
+
+def test_exposure_and_blur_are_as_wide_together_as_their_variances() -> None:
+    wide = _with_width(Timing(0.1, 0.8, 3.0, 2.2), FIT)
+    assert (wide.exposure / 0.1) ** 2 / 12.0 == pytest.approx(8.0**2 / 12.0 + 1.2**2)
+    assert replace(wide, exposure=0.8) == Timing(0.1, 0.8, 3.0, 2.2)
+
+
+def rounding_of(low: np.ndarray, swing: np.ndarray) -> float:
+    model: Any = SimpleNamespace(levels=lambda _: (low, swing, None))
+    return _rounding(model, Timing(0.1, 0.8, 3.0, 2.2))
+
+
+def test_levels_that_are_rounded_change_an_exposure_as_their_distance() -> None:
+    """Each by one twelfth of a grey level squared; of many roundings all but one cancel."""
+    flat = np.zeros(5)
+    assert rounding_of(flat + 10.0, flat + 40.0) == pytest.approx(math.sqrt(2.0 / 12.0) / 40.0)
+    varied = np.linspace(10.0, 14.0, 5)
+    expected = math.hypot(1.0 / 4.0, 1.0 / 4.0) / math.sqrt(12.0) / 40.0
+    assert rounding_of(varied, flat + 40.0) == pytest.approx(expected)
+    assert rounding_of(flat, flat + 1e-9) == pytest.approx(math.sqrt(2.0 / 12.0))
+
+
+@pytest.mark.parametrize("columns", [0.1, 1.0, 4.0, 20.0])
+def test_a_blur_that_is_not_known_exactly_changes_an_exposure(columns: float) -> None:
+    """Where t^2/12 + b^2 is seen, and b^2 is off by a fiftieth, t is off by 6 d / t."""
+    off = _by_unknown_blur(Timing(0.1, 0.1 * columns, 3.0, 2.2), 1.5) / 0.1
+    unknown = 0.02 * 1.5**2
+    assert off == pytest.approx(min(6.0 * unknown / columns, math.sqrt(12.0 * unknown)))
+
+
+def test_only_what_is_odd_is_doubted_with_its_figure() -> None:
+    assert _doubts(3.5) == ()
+    (sentence,) = _doubts(4.25)
+    assert "4.2 standard deviations" in sentence
+    assert _exposure_doubts(0.1) == ()
+    (sentence,) = _exposure_doubts(0.04)
+    assert "only 4 % of their columns" in sentence
+    assert "at least 10 %" in sentence
+
+
+def test_other_exposures_of_a_square_wave_start_from_the_best_fit(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    near: list[Timing] = []
+
+    def others(_explanation: object, best: Timing) -> list[Timing]:
+        near.append(best)
+        return [replace(best, exposure=2.0 - best.exposure), replace(best, exposure=9.0)]
+
+    monkeypatch.setattr(joint_estimate, "other_starts", others)
+    model: Any = SimpleNamespace(
+        start=lambda timing: np.array([timing.step, timing.exposure, timing.middle, *[0.0] * 6]),
+        adapted=np.copy,
+    )
+    best, worse = stripe_fit(0.11, 2.0), stripe_fit(0.2, 5.0)
+    explanation: Any = SimpleNamespace(chips=np.array([1, 0]), fits=[worse, best])
+    found: Any = SimpleNamespace(fit=FIT)
+    starts = _other_starts(model, found, explanation, lambda timing: timing.exposure < 5.0)
+    # From the first fit, and from that without blur, the camera being as found.
+    assert [one.exposure for one in near] == [0.8, 0.8]
+    assert near[0].step == near[1].step == 0.11
+    assert starts[0][:3] == pytest.approx([0.11, 1.2, 3.0])
+    assert starts[1] == pytest.approx([0.1, 1.2, *FIT.values[2:]])
+    assert len(starts) == 2

@@ -1,0 +1,136 @@
+"""From where a fit of the timing starts, and what looks the same as what was found."""
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.photo.fit.camera_response import camera_tones
+from occ_model.photo.fit.initial_search import Search
+from occ_model.photo.fit.other_starts import other_starts, scanned_starts
+from occ_model.photo.fit.timing import Timing
+from occ_model.transmitter.waveform import Waveform
+
+CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
+
+
+@pytest.mark.parametrize("exposure", [0.3, 0.9, 1.3, 1.9])
+def test_other_exposures_of_a_square_wave_show_the_same_stripes(exposure: float) -> None:
+    """Not turned about: bright where the first ones are bright."""
+    wave = np.array([1, 0], dtype=np.uint8)
+    best = Timing(0.07, exposure, 0.3, 2.2)
+    explanation: Any = SimpleNamespace(chips=wave, starts=[best])
+    stripes = best.lit_fraction(Waveform(wave), 400)
+    others = other_starts(explanation, best)
+    assert len(others) >= 3
+    for one in others:
+        lit = one.lit_fraction(Waveform(wave), 400)
+        assert np.corrcoef(lit, stripes)[0, 1] == pytest.approx(1.0, abs=1e-9)
+        assert one.exposure > 0.0
+        assert abs(one.exposure - exposure) > 0.04
+
+
+def test_of_other_chips_the_first_few_other_starts_are_tried() -> None:
+    starts = [Timing(0.1, exposure, 0.3, 2.2) for exposure in (0.5, 1.3, 2.3, 3.3, 4.3)]
+    explanation: Any = SimpleNamespace(chips=CHIPS, starts=starts)
+    assert other_starts(explanation, starts[1]) == [starts[0], *starts[2:4]]
+
+
+class Scanned:
+    """In place of a model: its misfit is least at some exposures."""
+
+    gamma = 2.2
+
+    def with_usual(self, values: np.ndarray) -> np.ndarray:
+        return values
+
+    def fit(self, values: np.ndarray, fixed: tuple[int, ...], rounds: int) -> Any:
+        assert 1 not in fixed
+        near = min((0.5, 1.3, 2.7), key=lambda one: abs(one - values[1]))
+        found = values.copy()
+        found[1] = near
+        misfit = {0.5: 10.0, 1.3: 15.0, 2.7: 39.0}[near]
+        return SimpleNamespace(misfit=misfit, values=found)
+
+
+@pytest.mark.parametrize(
+    ("allowed", "expected"), [({0.5, 1.3, 2.7}, [1.3, 2.7]), ({0.5, 2.7}, [2.7]), ({0.5}, [])]
+)
+def test_the_best_other_exposures_are_scanned_for_each_once(
+    allowed: set[float], expected: list[float]
+) -> None:
+    found = np.array([0.1, 0.5, 2.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.0])
+    starts = scanned_starts(
+        Scanned(), found, lambda timing: timing.exposure in allowed  # type: ignore[arg-type]
+    )  # fmt: skip
+    assert [one[1] for one in starts] == expected
+
+
+def test_the_correlation_of_a_start_is_that_of_its_own_profile() -> None:
+    true = Timing(0.083, 1.3, 4.2, 2.2)
+    profile = true.lit_fraction(Waveform(CHIPS), 600)
+    search = Search(profile, CHIPS)
+    found = search.candidates(search.steps(), 2.2)
+    assert [one.correlation for one in found] == sorted(
+        (one.correlation for one in found), reverse=True
+    )
+    best = found[0].timing
+    assert best.step == pytest.approx(true.step, rel=2e-3)
+    assert best.exposure == 1.3
+    assert (best.middle - true.middle + 5.0) % 10.0 - 5.0 == pytest.approx(0.0, abs=0.1)
+    for one in found[:6]:
+        lit = one.timing.lit_fraction(Waveform(CHIPS), 600)
+        assert one.correlation == pytest.approx(np.corrcoef(lit, profile)[0, 1], abs=0.05)
+
+
+def test_steps_are_tried_from_a_whole_period_in_view_to_a_chip_a_column() -> None:
+    steps = Search(np.zeros(600), CHIPS).steps()
+    assert steps[0] == pytest.approx(0.75 * len(CHIPS) / 600)
+    assert 0.94 < steps[-1] < 0.96
+    # The last column moves by a third of a chip from step to step.
+    assert np.diff(steps) * 600 == pytest.approx(1.0 / 3.0)
+
+
+@pytest.mark.parametrize("averaging", ["light", "pixel-value"])
+@pytest.mark.parametrize("gamma", [1.8, 2.6])
+def test_a_cameras_response_follows_its_gamma_between_two_levels(
+    averaging: str, gamma: float
+) -> None:
+    (camera,) = camera_tones(occ.Scene().replace(enhancement="none"), (averaging,), 60.0, 200.0)
+    lit = np.linspace(0.0, 1.0, 21)
+    dark = (60.0 / 200.0) ** gamma
+    expected = lit
+    if averaging == "light":
+        values = (dark + lit * (1.0 - dark)) ** (1.0 / gamma)
+        expected = (values - values[0]) / (values[-1] - values[0])
+    assert camera.tone(lit, gamma) == pytest.approx(expected, abs=1e-6)
+    assert (camera.averaging, camera.enhancement) == (averaging, "none")
+
+
+def test_levels_below_half_a_grey_level_are_black() -> None:
+    black, faint = (
+        camera_tones(occ.Scene().replace(enhancement="none"), ("light",), low, 200.0)[0]
+        for low in (0.3, 3.0)
+    )
+    half = np.array([0.5])
+    assert black.tone(half, 2.2) == pytest.approx(0.5 ** (1.0 / 2.2), abs=1e-6)
+    assert faint.tone(half, 2.2) < black.tone(half, 2.2)
+
+
+def test_of_an_equalized_picture_a_column_shows_its_rank() -> None:
+    scene = occ.Scene().replace(enhancement="equalization")
+    tones = camera_tones(scene, ("light",), 60.0, 200.0)
+    assert [one.enhancement for one in tones] == ["none", "equalization"]
+    assert tones[0].rank_resolution == 0.0 < tones[1].rank_resolution
+    lit = np.array([0.0, 0.0, 0.2, 0.9, 0.9, 0.9, 1.0, 0.1])
+    ranks = tones[1].tone(lit, 2.2)
+    assert ranks.min() == 0.0
+    assert ranks.max() == 1.0
+    below = np.array([(lit <= one).sum() for one in lit])
+    assert ranks == pytest.approx((below - below.min()) / (below.max() - below.min()))
+    constant = tones[1].tone(np.full(4, 0.3), 2.2)
+    assert np.ptp(constant) == 0.0
+    assert math.isfinite(constant[0])

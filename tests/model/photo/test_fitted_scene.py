@@ -1,0 +1,117 @@
+"""A fit in SI units: its values, and their uncertainties as they follow from the fit's."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fitted_scene import (
+    ESTIMATES,
+    _uncertainties,
+    exposure_time,
+    readout_and_frequency,
+    with_allowed,
+    with_chips,
+    with_levels,
+)
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import sent_chips
+
+COLUMNS, FIRST = 901, 40
+TIMING = Timing(0.0123, 0.77, 5.4, 2.2)
+PARTS = np.array(
+    [[1e-6, 0, 0, 0], [2e-4, 1e-3, 0, 0], [3e-4, -5e-4, 2e-3, 0], [1e-3, 0, 2e-3, 0.02]]
+)
+COVARIANCE = PARTS @ PARTS.T
+
+
+def fit_of(timing: Timing = TIMING, covariance: np.ndarray = COVARIANCE) -> StripeFit:
+    line = np.zeros(COLUMNS)
+    return StripeFit(timing, covariance, line, line, line, 0.9, 1.0, 1.0, True)
+
+
+def values(timing: Timing, scene: Scene, estimate: str) -> dict[str, float]:
+    """Give what a timing means: of the first column of the picture, and not of the region."""
+    fit = fit_of(timing)
+    readout, frequency = readout_and_frequency(fit, scene, estimate)
+    begin = timing.start(COLUMNS) - timing.step * FIRST
+    name, value = (
+        ("readout_time", readout) if estimate == "readout_time"
+        else ("switching_frequency", frequency)
+    )  # fmt: skip
+    return {
+        name: value,
+        "exposure_time": exposure_time(fit, scene, estimate),
+        "start_time": begin / frequency,
+        "gamma": timing.gamma,
+    }
+
+
+@pytest.mark.parametrize("estimate", ESTIMATES)
+def test_uncertainties_follow_from_the_fits_covariance(estimate: str) -> None:
+    """To first order: the slopes of the values over the timing, by differences."""
+    scene = occ.Scene().replace(switching_frequency=2e3, readout_time=9e-6)
+    here = values(TIMING, scene, estimate)
+    frequency = readout_and_frequency(fit_of(), scene, estimate)[1]
+    found = scene.replace(switching_frequency=frequency, start_time=here["start_time"])
+    slopes = []
+    for field in ("step", "exposure", "middle", "gamma"):
+        change = 1e-6 * getattr(TIMING, field)
+        moved = values(replace(TIMING, **{field: getattr(TIMING, field) + change}), scene, estimate)
+        slopes.append({name: (moved[name] - here[name]) / change for name in here})
+    stated = _uncertainties(fit_of(), estimate, found, FIRST)
+    assert set(stated) == set(here)
+    for name, deviation in stated.items():
+        slope = np.array([one[name] for one in slopes])
+        assert deviation == pytest.approx(math.sqrt(slope @ COVARIANCE @ slope), rel=1e-4), name
+
+
+def test_a_gamma_that_was_given_has_no_uncertainty() -> None:
+    covariance = COVARIANCE.copy()
+    covariance[3, :] = covariance[:, 3] = 0.0
+    stated = _uncertainties(fit_of(covariance=covariance), "readout_time", occ.Scene(), 0)
+    assert "gamma" not in stated
+
+
+def test_one_of_readout_time_and_frequency_is_the_scenes() -> None:
+    scene = occ.Scene().replace(switching_frequency=2e3, readout_time=9e-6)
+    readout, frequency = readout_and_frequency(fit_of(), scene, "readout_time")
+    assert (readout, frequency) == (pytest.approx(0.0123 / 2e3), 2e3)
+    readout, frequency = readout_and_frequency(fit_of(), scene, "switching_frequency")
+    assert (readout, frequency) == (9e-6, pytest.approx(0.0123 / 9e-6))
+    for estimate in ESTIMATES:
+        readout, frequency = readout_and_frequency(fit_of(), scene, estimate)
+        assert readout * frequency == pytest.approx(0.0123)
+        assert exposure_time(fit_of(), scene, estimate) == pytest.approx(0.77 / frequency)
+
+
+@pytest.mark.parametrize("turn", [0, 5])
+def test_chips_of_a_packet_become_its_code_and_others_a_pattern(turn: int) -> None:
+    scene = occ.Scene().replace(code=345)
+    packet = sent_chips(scene.transmitter)
+    found, turned = with_chips(occ.Scene(), np.roll(packet, turn))
+    assert (found.transmitter.code, found.transmitter.pattern, turned) == (345, "", turn)
+    other, turned = with_chips(scene, packet[:-1])
+    assert other.transmitter.pattern == "".join(map(str, packet[:-1].tolist()))
+    assert turned == 0
+
+
+def test_the_light_of_a_scene_gives_the_photos_levels() -> None:
+    scene = occ.Scene().replace(enhancement="none", vignetting_exponent=0.0)
+    fit = replace(fit_of(), low=np.full(COLUMNS, 60.0), swing=np.full(COLUMNS, 90.0))
+    lit = with_levels(scene, fit)
+    filled = lit.replace(rows=60, panel_width=5.0, panel_height=5.0)
+    profile = occ.render(filled, tolerance=math.inf).profile
+    assert profile.max() == pytest.approx(150.0)
+    assert profile.min() == pytest.approx(60.0)
+
+
+def test_values_out_of_range_are_left_as_they_are() -> None:
+    scene = occ.Scene()
+    changed = with_allowed(scene, iso=1e12, gamma=2.0)
+    assert changed.camera.iso == scene.camera.iso
+    assert changed.camera.gamma == 2.0

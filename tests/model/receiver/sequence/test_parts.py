@@ -1,0 +1,126 @@
+"""Parts of the sequence detector: the best ways, the steps of a result, and when it is settled."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from physics.exposed_chips import noise_of, seen_by_rows
+
+import occ_model as occ
+from occ_model.receiver.sequence import decoder
+from occ_model.receiver.sequence.beam import beam_chips
+from occ_model.receiver.sequence.exposures import Timing, gather
+from occ_model.receiver.sequence.fit import Brightness, Fit
+from occ_model.receiver.sequence.max_log import Chips, best_chips
+from occ_model.receiver.sequence.trellis import FREE_CHIPS, trellis_of
+from occ_model.scene.scene import Scene
+
+RANDOM = np.random.default_rng(12)
+SENT = RANDOM.integers(0, 2, 120).astype(np.uint8)
+
+
+def test_few_ways_find_the_chips_of_the_whole_trellis_with_a_margin_each() -> None:
+    timing = Timing(2.3, 0.2, 0.13)
+    light = seen_by_rows(SENT, 2.3, 0.2, 0.13)
+    seen = gather(light + noise_of(20) * RANDOM.standard_normal(len(light)), timing)
+    found = beam_chips(FREE_CHIPS, timing.memory, seen)
+    whole = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
+    assert len(found.margins) == len(found.values)
+    assert (found.margins >= 0.0).all()
+    shift = whole.first - found.first
+    inside = slice(10, 100)
+    values = found.values[shift:][: len(whole.values)]
+    assert np.array_equal(values[inside], whole.values[inside])
+    # No way that was kept is nearer than the nearest of all.
+    margins = found.margins[shift:][: len(whole.values)]
+    assert (margins[inside] >= whole.margins[inside] - 1e-9).all()
+
+
+def test_the_steps_of_a_result_are_the_chips_that_columns_see(small_signal: Any) -> None:
+    scene, signal = small_signal
+    result = decoder.read_signal(signal, scene)
+    assert result.failure is None
+    starts, length = result.chip_starts, result.chip_length
+    assert starts is not None
+    assert length is not None
+    assert result.chip_likelihoods is not None
+    assert length == pytest.approx(
+        scene.transmitter.switching_period / scene.camera.readout_time, rel=1e-3
+    )
+    assert np.diff(starts) == pytest.approx(length)
+    # A chip that ends in view began a chip before it at most.
+    assert -length < starts[0] <= 0.0
+    assert len(signal) - length <= starts[-1] < len(signal)
+    assert len(result.chips) == len(starts) == len(result.chip_likelihoods)
+    assert result.correlation is not None
+    assert result.correlation > 0.9
+
+
+@pytest.fixture(scope="module")
+def small_signal() -> tuple[Scene, np.ndarray]:
+    scene = occ.load_preset("phone-68us").replace(rows=60, panel_height=2.0)
+    region = occ.decode(occ.render(scene).image, scene, "sequence")
+    assert region.signal is not None
+    return scene, region.signal
+
+
+def fit_of(noise: float, chips: list[int], unexplained: float = 0.0) -> Any:
+    values = np.array(chips, dtype=np.uint8)
+    return SimpleNamespace(
+        noise=noise, chips=SimpleNamespace(values=values), unexplained=lambda: unexplained,
+        model=np.zeros(4), brightness=None,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("noises", "flips", "unexplained", "rounds"),
+    [
+        ([5.0, 2.0, 1.0, 0.5], [1, 1, 1, 1], 0.0, 4),  # each round helps
+        ([5.0, 4.9, 1.0, 0.5], [1, 1, 1, 1], 0.0, 2),  # the second gains next to nothing
+        ([5.0, 2.0, 1.0, 0.5], [1, 0, 1, 1], 0.0, 2),  # the second finds the same chips
+        ([5.0, 4.9, 4.8, 4.7], [1, 1, 1, 1], 0.2, 4),  # nothing is explained yet
+    ],
+)
+def test_chips_are_improved_until_nothing_is_gained(
+    monkeypatch: pytest.MonkeyPatch,
+    noises: list[float],
+    flips: list[int],
+    unexplained: float,
+    rounds: int,
+) -> None:
+    made: list[Any] = []
+
+    def detect(*_: object) -> Any:
+        before = made[-1].chips.values.tolist() if made else [0, 1]
+        chips = [chip ^ flips[len(made)] for chip in before]
+        made.append(fit_of(noises[len(made)], chips, unexplained))
+        return made[-1]
+
+    monkeypatch.setattr(decoder, "detect", detect)
+    monkeypatch.setattr(decoder, "improve", lambda *_: (None, None))
+    monkeypatch.setattr(decoder, "expected_light", lambda _: np.zeros(4))
+    light = SimpleNamespace(values=np.zeros(4), clipped=np.zeros(4, dtype=bool), is_estimated=False)
+    first = fit_of(10.0, [0, 1], unexplained)
+    found, _ = decoder._improved(np.zeros(4), Scene(), first, light, FREE_CHIPS)  # type: ignore[arg-type]
+    assert len(made) == rounds
+    assert found is made[-1]
+
+
+def fit_with(residual: np.ndarray) -> Fit:
+    count = len(residual)
+    chips = Chips(0, np.zeros(10, dtype=np.uint8), np.ones(10))
+    brightness = Brightness(np.zeros(count), np.ones(count))
+    return Fit(chips, Timing(3.0, 0.25, 0.0), brightness, np.zeros(count), residual)
+
+
+def test_noise_of_independent_rows_stays_in_sums_and_what_is_alike_adds_up() -> None:
+    noise = RANDOM.normal(size=6000)
+    white, alike = fit_with(noise), fit_with(np.repeat(noise[:1500], 4))
+    assert white.noise == pytest.approx(1.0, rel=0.1)
+    assert white.noise_of_sums() == pytest.approx(white.noise, rel=0.2)
+    # Four rows that are alike have sixteen times the variance of one in their sum.
+    assert alike.noise_of_sums() / alike.noise == pytest.approx(4.0, rel=0.15)
+    assert white.ratios() == pytest.approx(1.0 / (2.0 * white.noise_of_sums()))
+    assert white.unexplained() < 0.06
+    assert alike.unexplained() > 0.6

@@ -16,10 +16,11 @@ from occ_gui.accuracy.cost_sentences import (
     switch_sentence,
 )
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import rows_of, slowest_of
+from occ_gui.accuracy.effect_rows import rows_of
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
 from occ_gui.accuracy.plan_changes import PlanChanges
+from occ_gui.accuracy.row_order import slowest_of
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -70,7 +71,7 @@ class AccuracyView(QWidget):
         self._forgetting = QTimer(self, singleShot=True)
         self._forgetting.setInterval(_NEW_MS)
         self._forgetting.timeout.connect(self._forget_changes)
-        self._selected = ""
+        self._selected = self._slowest = ""
         self.tolerance = ToleranceSlider()
         self.tolerance.edited.connect(self.mended)
         self.tolerance.edited.connect(self.tolerance_edited)
@@ -118,14 +119,15 @@ class AccuracyView(QWidget):
             controls.addWidget(control)
         second = QHBoxLayout()
         second.setSpacing(8)
-        second.addWidget(self.summary, 1)
+        second.addWidget(self.ends, 1)
+        second.addStretch()
         second.addWidget(self.panels.tabs)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 2, 8, 2)
         layout.setSpacing(2)
         layout.addLayout(controls)
+        layout.addWidget(self.summary)
         layout.addLayout(second)
-        layout.addWidget(self.ends)
         layout.addWidget(self.panels, 1)
 
     @property
@@ -238,7 +240,8 @@ class AccuracyView(QWidget):
 
     def _show_detail(self, costs: MeasuredCosts) -> None:
         rows = {row.effect: row for row in self.table.effects.rows}
-        effect = self._selected or slowest_of(self.table.effects.rows)
+        self._slowest = slowest_of(self.table.effects.rows, self._slowest)
+        effect = self._selected or self._slowest
         difference = costs.differences.get(effect)
         self.detail.show_row(rows.get(effect), None if difference is None else difference.crop)
 

@@ -24,7 +24,7 @@ def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | Non
     now, then = milliseconds(costs.picture.seconds), milliseconds(made)
     time = _tr("This picture: {time} ms").format(time=now)
     if costs.is_comparable and now != then:
-        time = _tr("{time}, measured again ({made} when it was made)").format(time=time, made=then)
+        time = _tr("{time}, measured again ({made} at first)").format(time=time, made=then)
     return f"{time}; {_error(expected)}." if expected is not None else f"{time}."
 
 

@@ -20,13 +20,14 @@ class EffectRow:
     effect
         The effect's name; ``ELSE`` in the last row.
     stage
-        The stage of the light's way, where the row is the first of it.
+        The stage of the light's way; empty in the last row.
     label
         The effect's name on the screen.
-    error, error_meaning
-        What leaving it out would change, as text, and how that is known, as a sentence.
-    seconds
-        Its time, None where there is none of its own.
+    levels, error, error_meaning
+        What leaving it out would change, None where the scene does not have it; the same as text,
+        and how that is known, as a sentence.
+    seconds, scatter
+        Its time, None where there is none of its own; and by how much it was longer at other times.
     time
         The same as text.
     reason
@@ -46,9 +47,11 @@ class EffectRow:
     effect: str
     stage: str
     label: str
+    levels: float | None = None
     error: str = ""
     error_meaning: str = ""
     seconds: float | None = None
+    scatter: float = 0.0
     time: str = ""
     reason: str = ""
     included: bool = True
@@ -75,15 +78,13 @@ def rows_of(
         What the controls would make of it.
     """
     words = stage_words()
-    rows, stage = [], ""
+    rows = []
     for decision in frame.plan.decisions:
-        title = words[decision.stage] if decision.stage != stage else ""
-        stage = decision.stage
         pending = None
         if forecast is not None:
             after = decision.effect in forecast.plan
             pending = after if after != decision.included else None
-        rows.append(_row(decision, title, costs, decision.effect in new, pending))
+        rows.append(_row(decision, words[decision.stage], costs, decision.effect in new, pending))
     rest = costs.picture.everything_else
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
     rows.append(
@@ -102,12 +103,6 @@ def rows_of(
 def longest_of(rows: Sequence[EffectRow]) -> float:
     """Return the longest time of some rows."""
     return max((row.seconds for row in rows if row.seconds is not None), default=0.0)
-
-
-def slowest_of(rows: Sequence[EffectRow]) -> str:
-    """Return the effect in the picture that takes most time; empty where there is none."""
-    timed = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
-    return max(timed, key=lambda row: row.seconds or 0.0).effect if timed else ""
 
 
 def stage_words() -> Mapping[str, str]:
@@ -131,13 +126,16 @@ def _row(
         seconds, time = None, _tr("with noise")
     if time and not decision.included:
         time = f"({time})"
+    found = decision.bound if difference is None else difference.error
     return EffectRow(
         decision.effect,
         stage,
         decision.label,
+        found if decision.bound else None,
         error,
         meaning,
         seconds if time else None,
+        costs.scatter_of(decision.effect) if time else 0.0,
         time,
         f"{decision.label}: {decision.reason}",
         decision.included,

@@ -17,13 +17,22 @@ from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView, QWidget
 
 from occ_gui.accuracy.effect_cells import PictureCell, TimeCell
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
+from occ_gui.accuracy.row_order import (
+    AS_LIGHT_TRAVELS,
+    EFFECT,
+    ERROR,
+    PICTURE,
+    SORTED,
+    STAGE,
+    SWITCH,
+    TIME,
+    Order,
+    arranged,
+)
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import REGION
 
 _Index = QModelIndex | QPersistentModelIndex
-
-STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
-"""The columns of the table."""
 
 _TINT = QColor(REGION)
 _TINT.setAlpha(48)
@@ -46,6 +55,8 @@ class EffectModel(QAbstractTableModel):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.rows: tuple[EffectRow, ...] = ()
+        self._given: tuple[EffectRow, ...] = ()
+        self._order: Order = AS_LIGHT_TRAVELS
         self._titles = {
             STAGE: ("", self.tr("Where on the light's way it happens.")),
             PICTURE: (
@@ -62,23 +73,55 @@ class EffectModel(QAbstractTableModel):
             ),
             TIME: (
                 self.tr("Time (ms)"),
-                self.tr("Its computing time in the picture shown; in brackets, if it were in it."),
+                self.tr(
+                    "Its computing time in the picture shown, the shortest of some runs; in "
+                    "brackets, if it were in it.\nSorted by it, effects whose times differ by "
+                    "less than these scatter keep their order."
+                ),
             ),
             SWITCH: (self.tr("Switch"), self.tr("Whether the plan decides, or you.")),
         }
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
         """Show these rows in place of the last ones."""
-        if [row.effect for row in rows] != [row.effect for row in self.rows]:
+        self._given = tuple(rows)
+        present = [row.effect for row in self.rows]
+        new = arranged(rows, self._order, present)
+        if {row.effect for row in new} != set(present):
             self.beginResetModel()
-            self.rows = tuple(rows)
+            self.rows = new
             self.endResetModel()
             return
-        before, self.rows = self.rows, tuple(rows)
+        if [row.effect for row in new] != present:
+            self._reorder(new)
+            return
+        before, self.rows = self.rows, new
         longest = longest_of(before) != longest_of(rows)  # the scale of all bars
         for place, (old, row) in enumerate(zip(before, rows, strict=True)):
             if old != row or longest:
                 self.dataChanged.emit(self.index(place, STAGE), self.index(place, SWITCH))
+
+    def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
+        """Sort by a column from now on; by one that has no order, as light travels."""
+        falls = order == Qt.SortOrder.DescendingOrder
+        self._order = (column, falls) if column in SORTED else AS_LIGHT_TRAVELS
+        new = arranged(self._given, self._order)
+        if [row.effect for row in new] != [row.effect for row in self.rows]:
+            self._reorder(new)
+
+    def _reorder(self, rows: tuple[EffectRow, ...]) -> None:
+        """Show the same effects in another order; the selection and the switches go with them."""
+        self.layoutAboutToBeChanged.emit()
+        before = self.persistentIndexList()
+        effects = [self.rows[index.row()].effect for index in before]
+        self.rows = rows
+        places = {row.effect: place for place, row in enumerate(rows)}
+        after = [
+            self.index(places[effect], index.column())
+            for effect, index in zip(effects, before, strict=True)
+        ]
+        self.changePersistentIndexList(before, after)
+        self.layoutChanged.emit()
 
     def rowCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
         """Count the rows."""
@@ -99,6 +142,9 @@ class EffectModel(QAbstractTableModel):
             return title
         if role == Qt.ItemDataRole.TextAlignmentRole:
             return _alignment(section)
+        if role == Qt.ItemDataRole.InitialSortOrderRole:
+            falls = section in (ERROR, TIME)
+            return Qt.SortOrder.DescendingOrder if falls else Qt.SortOrder.AscendingOrder
         return meaning if role == Qt.ItemDataRole.ToolTipRole else None
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -106,7 +152,9 @@ class EffectModel(QAbstractTableModel):
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return _text(row, column)
+                place = index.row()
+                goes_on = place > 0 and self.rows[place - 1].stage == row.stage
+                return "" if column == STAGE and goes_on else _text(row, column)
             case Qt.ItemDataRole.ToolTipRole:
                 return row.error_meaning if column == ERROR and row.error else row.reason
             case Qt.ItemDataRole.TextAlignmentRole:
@@ -181,7 +229,9 @@ class EffectTable(QTableView):
         rows.setMinimumSectionSize(LOWEST_ROW)
         rows.setDefaultSectionSize(LOWEST_ROW)
         header.setHighlightSections(False)
-        header.setSectionsClickable(False)
+        header.setSortIndicator(STAGE, Qt.SortOrder.AscendingOrder)
+        header.setSortIndicatorClearable(True)
+        self.setSortingEnabled(True)
         header.setMinimumSectionSize(24)
         header.setFixedHeight(LOWEST_ROW)
         self.effects.modelReset.connect(self._make_switches)
@@ -254,8 +304,15 @@ class EffectTable(QTableView):
         header.setSectionResizeMode(EFFECT, QHeaderView.ResizeMode.Stretch)
 
     def _title_width(self, column: int) -> int:
-        """Return the width at which the title of a column is shown whole."""
-        return self.horizontalHeader().sectionSizeHint(column)
+        """Return the width at which the title of a column is shown whole, with room for its arrow.
+
+        Qt's would leave room for an arrow also where no click sorts.
+        """
+        header = self.horizontalHeader()
+        header.setSortIndicatorShown(column in SORTED)
+        width = header.sectionSizeHint(column)
+        header.setSortIndicatorShown(True)
+        return width
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Use the height for higher rows."""

@@ -1,6 +1,6 @@
 """What effects cost and change: their computing times, what leaving them out would change."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import fsum
 from typing import Self
@@ -24,12 +24,15 @@ class TimeShares:
         Effects that were computed in one step with another, and which effect's time it counts to.
     rows_differ
         Whether rows were computed one by one: not where only effects on whole columns are included.
+    scatter
+        Seconds by which each effect took longer in other runs, where the picture was made again.
     """
 
     effects: Mapping[str, float]
     stages: Mapping[str, float]
     together: Mapping[str, str]
     rows_differ: bool
+    scatter: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def of(cls, frame: Frame) -> Self:
@@ -42,6 +45,26 @@ class TimeShares:
             stages={name: s for name, s in frame.timings.items() if name not in timed},
             together={name: noises[-1] for name in noises if name not in timed},
             rows_differ=not frame.plan.kinds <= {"column"},
+        )
+
+    @classmethod
+    def of_runs(cls, runs: Sequence[Self]) -> Self:
+        """Take of each effect and stage its fastest run: what else is busy only adds to a time.
+
+        Parameters
+        ----------
+        runs
+            The times of one picture that was made again and again.
+        """
+        first = runs[0]
+        effects = {name: sorted(run.effects[name] for run in runs) for name in first.effects}
+        return cls(
+            effects={name: times[0] for name, times in effects.items()},
+            stages={name: min(run.stages[name] for run in runs) for name in first.stages},
+            together=first.together,
+            rows_differ=first.rows_differ,
+            # Half of the runs are faster: a single one that was held up says nothing.
+            scatter={name: times[len(times) // 2] - times[0] for name, times in effects.items()},
         )
 
     @property
@@ -144,6 +167,13 @@ class MeasuredCosts:
             if effect in shares.effects or effect in shares.together:
                 return shares.effects[shares.together.get(effect, effect)]
         return None
+
+    def scatter_of(self, effect: str) -> float:
+        """Return by how many seconds an effect took longer in other runs; 0 where it ran once."""
+        for shares in (self.picture, *self.others):
+            if effect in shares.effects:
+                return shares.scatter.get(effect, 0.0)
+        return 0.0
 
     def shares_step_with(self, effect: str) -> str | None:
         """Return the effect of the last picture in whose step this one is computed, or would be."""

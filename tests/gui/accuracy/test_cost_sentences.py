@@ -53,7 +53,7 @@ def test_a_time_that_was_measured_again_is_stated_beside_that_of_the_picture_sho
     picture = shares(4.0, "jpeg")
     again = MeasuredCosts(picture, (picture, shares(1.0)))
     assert picture_sentence(again, 0.187, None) == (
-        "This picture: 5.0 ms, measured again (187 when it was made)."
+        "This picture: 5.0 ms, measured again (187 at first)."
     )
     assert picture_sentence(again, 0.005, None) == "This picture: 5.0 ms."
 

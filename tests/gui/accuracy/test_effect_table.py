@@ -5,15 +5,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QRect, Qt
+from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QComboBox
 from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.effect_cells import _fitted
 from occ_gui.accuracy.effect_detail import EffectDetail
-from occ_gui.accuracy.effect_rows import ELSE, rows_of, slowest_of
-from occ_gui.accuracy.effect_table import EFFECT, ERROR, HIGHEST_ROW, STAGE, TIME, EffectTable
+from occ_gui.accuracy.effect_rows import ELSE, rows_of
+from occ_gui.accuracy.effect_table import HIGHEST_ROW, EffectTable
+from occ_gui.accuracy.row_order import EFFECT, ERROR, STAGE, SWITCH, TIME, slowest_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import (
     EffectCrop,
@@ -67,7 +68,8 @@ def test_every_effect_has_a_row_in_the_order_that_light_travels(
     rows = table.effects.rows
     assert [row.effect for row in rows[:-1]] == [d.effect for d in frame.plan.decisions]
     assert rows[-1].effect == ELSE
-    stages = [row.stage for row in rows if row.stage]
+    shown = [table.effects.index(place, STAGE).data() for place in range(len(rows))]
+    stages = [stage for stage in shown if stage]
     assert stages == ["Light", "Optics", "Sensor", "File"]
     assert cell(table, "led-edges", STAGE) == "Light"
 
@@ -203,6 +205,74 @@ def test_the_effect_shown_first_is_the_slowest_in_the_picture(frame: Frame) -> N
     slower = replace(frame, timings={**frame.timings, "led-edges": 0.05})
     assert slowest_of(rows_of(slower, costs_of(slower), new=())) == "led-edges"
     assert slowest_of([row for row in rows if row.effect == ELSE]) == ""
+
+
+def test_the_effect_shown_first_is_not_changed_by_what_times_scatter(frame: Frame) -> None:
+    longer = replace(frame, timings={**frame.timings, "led-edges": 0.032})
+    rows = rows_of(longer, costs_of(longer), new=())
+    assert slowest_of(rows) == "led-edges"
+    assert slowest_of(rows, "sensor-noise") == "sensor-noise"
+
+
+def click_on(table: EffectTable, column: int, qtbot: QtBot) -> list[str]:
+    """Click on the title of a column; give the effects in their order."""
+    header = table.horizontalHeader()
+    place = QPoint(header.sectionViewportPosition(column) + 12, header.height() // 2)
+    qtbot.mouseClick(header.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    return [row.effect for row in table.effects.rows]
+
+
+def test_a_click_on_a_title_sorts_and_takes_the_switches_along(
+    table: EffectTable, frame: Frame, qtbot: QtBot
+) -> None:
+    measured = {"sensor_noise": difference("sensor-noise", 3.0)}
+    measured["led_edges"] = difference("led-edges", 7.0)
+    table.show_rows(rows_of(frame, costs_of(frame, **measured), new=()))
+    light = [row.effect for row in table.effects.rows]
+    table.choose("led-edges")
+    for column, first in ((TIME, "sensor-noise"), (ERROR, "led-edges")):
+        order = click_on(table, column, qtbot)
+        assert order[0] == first, "the most comes first"
+        assert order[-1] == ELSE
+        place = order.index("led-edges")
+        switch = table.indexWidget(table.effects.index(place, SWITCH))
+        assert switch is table.switches["led-edges"]
+        assert table.currentIndex().row() == place
+        assert cell(table, "led-edges", STAGE) == "Light"
+    order = click_on(table, ERROR, qtbot)
+    assert order.index("sensor-noise") < order.index("led-edges"), "the least first"
+    names = click_on(table, EFFECT, qtbot)[:-1]
+    labels = {row.effect: row.label for row in table.effects.rows}
+    assert names == sorted(names, key=lambda name: labels[name].casefold())
+    assert click_on(table, STAGE, qtbot) == light
+
+
+def test_times_that_are_measured_again_shuffle_no_rows(
+    table: EffectTable, frame: Frame, qtbot: QtBot
+) -> None:
+    def show(**seconds: float) -> list[str]:
+        timings = {name.replace("_", "-"): time for name, time in seconds.items()}
+        again = replace(frame, timings={**frame.timings, **timings})
+        table.show_rows(rows_of(again, costs_of(again), new=()))
+        return [row.effect for row in table.effects.rows][:2]
+
+    show(led_edges=0.030, sensor_noise=0.031)
+    assert click_on(table, TIME, qtbot)[:2] == ["sensor-noise", "led-edges"]
+    assert show(led_edges=0.033, sensor_noise=0.031) == ["sensor-noise", "led-edges"]
+    assert show(led_edges=0.060, sensor_noise=0.031) == ["led-edges", "sensor-noise"]
+    assert show(led_edges=0.031, sensor_noise=0.033) == ["led-edges", "sensor-noise"]
+
+
+def test_of_some_runs_each_effect_takes_its_fastest() -> None:
+    runs = [
+        TimeShares({"jpeg": jpeg, "defocus": defocus}, {"image": image}, {}, True)
+        for jpeg, defocus, image in ((4.0, 1.0, 3.0), (2.0, 9.0, 4.0), (2.5, 1.5, 8.0))
+    ]
+    found = TimeShares.of_runs(runs)
+    assert (found.effects, found.stages) == ({"jpeg": 2.0, "defocus": 1.0}, {"image": 3.0})
+    assert found.scatter == {"jpeg": 0.5, "defocus": 0.5}
+    assert found.seconds == 6.0
+    assert TimeShares.of_runs(runs[:1]).scatter == {"jpeg": 0.0, "defocus": 0.0}
 
 
 def test_at_the_height_it_asks_for_the_rows_are_as_high_as_they_can_be(table: EffectTable) -> None:

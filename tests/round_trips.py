@@ -1,12 +1,10 @@
 """Photos of known scenes, matched: how far off what is found is."""
 
-import os
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 
 import numpy as np
+from both_cores import on_both_cores
 from simulated_photos import random_scene, take
 
 import occ_model as occ
@@ -58,10 +56,5 @@ def round_trip(seed: int) -> Found:
 
 
 def round_trips(seeds: Sequence[int]) -> Iterator[Found]:
-    """Match many photos, on two cores where the tests do not use them all already."""
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        yield from map(round_trip, seeds)
-        return
-    # Processes that begin anew: a fork of one that has run Qt may hang.
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(round_trip, seeds, chunksize=5)
+    """Match many photos."""
+    return on_both_cores(round_trip, seeds)

@@ -1,12 +1,10 @@
 """What a match says of pictures without an LED, of other codes, of unknown chips."""
 
-import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 
 import numpy as np
+from both_cores import on_both_cores
 from photo_world.negatives import negative
 from simulated_photos import random_scene, take
 
@@ -82,13 +80,8 @@ def said_of_unknown_chips(seed: int) -> Said:
 
 
 def said_of(say: Callable[[int], Said], seeds: Sequence[int]) -> Iterator[Said]:
-    """Match many pictures, on two cores where the tests do not use them all already."""
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        yield from map(say, seeds)
-        return
-    # Processes that begin anew: a fork of one that has run Qt may hang.
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(say, seeds, chunksize=5)
+    """Match many pictures."""
+    return on_both_cores(say, seeds)
 
 
 def _told(scene: Scene) -> Scene:

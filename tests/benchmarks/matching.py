@@ -6,6 +6,7 @@ the model. ``negatives``: 400 pictures without stripes of an LED. ``others``: 20
 code than the scene's. ``unknown``: 300 photos of unknown chips, 1.5 to 20 periods in view, half of
 them saturated. ``known`` (the default): 500 simulated photos with noise, vignetting, blur and JPEG
 of quality 60 to 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three.
+``--plot FILE`` draws the errors of ``coverage`` beside their Cramer-Rao bounds.
 """
 
 import argparse
@@ -22,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from photo_world.trials import trials
 from round_trips import Found, round_trips
-from stated_errors import table
+from stated_errors import plot, table
 from verdicts import Said, said_of, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 
@@ -92,13 +93,17 @@ def main() -> None:
     parser.add_argument("count", nargs="?", type=int, help="number of photographs")
     parser.add_argument("first", nargs="?", type=int, default=0, help="seed to begin with")
     parser.add_argument("--full", action="store_true", help="everything, as many as are asked for")
+    parser.add_argument("--plot", type=Path, help="picture of the errors of coverage")
     words = parser.parse_args()
     for what in WHAT if words.full else [words.what]:
         most, match, tell = WHAT[what]
         count = most if words.full or words.count is None else words.count
         found = match(range(words.first, words.first + count))
-        lines = tell(list(tqdm(found, what, count)))
-        print("\n".join([f"{what}, seeds {words.first} to {words.first + count - 1}", *lines]))
+        results = list(tqdm(found, what, count))
+        seeds = f"{what}, seeds {words.first} to {words.first + count - 1}"
+        print("\n".join([seeds, *tell(results)]), flush=True)
+        if what == "coverage" and words.plot:
+            plot(results, words.plot)
 
 
 if __name__ == "__main__":

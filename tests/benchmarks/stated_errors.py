@@ -1,19 +1,11 @@
-"""How well stated errors hold: ``python tests/benchmarks/stated_errors.py [photos] [first]``.
+"""How well stated errors hold: the share of true values within one and two standard deviations."""
 
-600 photographs (or as many as named) of a world that is wider than the model are matched; the table
-tells which share of the true values lies within one and two of the stated standard deviations.
-"""
-
-import sys
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from tqdm import tqdm
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
-from photo_world.trials import SATURATION_THIRDS, Trial, trials
+from matplotlib.figure import Figure
+from photo_world.trials import SATURATION_THIRDS, Trial
 
 HEAD = (
     "| saturated | photos | sure | what | within 1 | within 2 | largest | median error | stated "
@@ -65,8 +57,23 @@ def table(found: list[Trial]) -> list[str]:
     return [*lines, *(row("all", found, what) for what in ("readout", "exposure"))]
 
 
-if __name__ == "__main__":
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 600
-    first = int(sys.argv[2]) if len(sys.argv) > 2 else 0
-    found = trials(range(first, first + count))
-    print("\n".join(table(list(tqdm(found, "photographs", count)))))
+def plot(found: list[Trial], path: Path) -> None:
+    """Draw each sure error, and what is stated, over the Cramer-Rao bound."""
+    figure = Figure((9.0, 4.4), layout="constrained")
+    for axes, what in zip(figure.subplots(1, 2), ("readout", "exposure"), strict=True):
+        sure = [one for one in found if one.is_sure_of(what)]
+        number = ("readout", "exposure").index(what)
+        bound = np.array([one.picture_bounds[number] for one in sure])
+        stated = np.array([getattr(one, f"{what}_deviation") for one in sure])
+        error = np.abs([getattr(one, what) for one in sure])
+        ends = np.array([bound.min(), bound.max()])
+        axes.loglog(bound, stated, "o", ms=4, mfc="none", color="#c05000", label="stated deviation")
+        axes.loglog(bound, error, ".", ms=5, color="#1f6fb4", label="error")
+        axes.loglog(ends, ends, "-", color="0.2", lw=1.5, label="Cram\u00e9r-Rao bound")
+        axes.set_xlabel("bound of the standard deviation, relative")
+        axes.set_title(f"{what} time, {len(sure)} photographs")
+        axes.grid(visible=True, alpha=0.25)
+        axes.legend(loc="upper left", framealpha=0.9)
+        axes.set_ylim(bottom=0.05 * bound.min())
+    figure.axes[0].set_ylabel("error, relative")
+    figure.savefig(path, dpi=110)

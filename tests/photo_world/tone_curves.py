@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -17,48 +18,50 @@ class ToneCurve:
     apply: Curve
 
 
+def _power(light: np.ndarray, gamma: float) -> np.ndarray:
+    return np.asarray(light ** (1.0 / gamma))
+
+
+def _srgb(light: np.ndarray) -> np.ndarray:
+    return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055)
+
+
+def _rec709(light: np.ndarray) -> np.ndarray:
+    return np.where(light < 0.018, 4.5 * light, 1.099 * light**0.45 - 0.099)
+
+
+def _contrasty(light: np.ndarray, strength: float) -> np.ndarray:
+    value = _power(light, 2.2)
+    return (1.0 - strength) * value + strength * value**2 * (3.0 - 2.0 * value)
+
+
+def _shoulder(light: np.ndarray, knee: float) -> np.ndarray:
+    return _power(light * (1.0 + knee) / (light + knee), 2.2)
+
+
 def power(gamma: float) -> ToneCurve:
     """Give the curve of a plain gamma."""
-    return ToneCurve(f"gamma {gamma:.2f}", gamma, lambda light: light ** (1.0 / gamma))
+    return ToneCurve(f"gamma {gamma:.2f}", gamma, partial(_power, gamma=gamma))
 
 
 def srgb() -> ToneCurve:
     """Give the curve of IEC 61966-2-1."""
-    return ToneCurve(
-        "sRGB",
-        None,
-        lambda light: np.where(
-            light <= 0.0031308, 12.92 * light, 1.055 * light ** (1.0 / 2.4) - 0.055
-        ),
-    )
+    return ToneCurve("sRGB", None, _srgb)
 
 
 def rec709() -> ToneCurve:
     """Give the curve of ITU-R BT.709, which video cameras have."""
-    return ToneCurve(
-        "BT.709",
-        None,
-        lambda light: np.where(light < 0.018, 4.5 * light, 1.099 * light**0.45 - 0.099),
-    )
+    return ToneCurve("BT.709", None, _rec709)
 
 
 def contrasty(strength: float) -> ToneCurve:
     """Give a gamma of 2.2 with an S on it: deeper shadows and brighter lights, as phones add."""
-
-    def apply(light: np.ndarray) -> np.ndarray:
-        value = light ** (1.0 / 2.2)
-        return (1.0 - strength) * value + strength * value**2 * (3.0 - 2.0 * value)
-
-    return ToneCurve(f"S of {strength:.2f}", None, apply)
+    return ToneCurve(f"S of {strength:.2f}", None, partial(_contrasty, strength=strength))
 
 
 def shoulder(knee: float) -> ToneCurve:
     """Give a gamma of 2.2 whose lights are compressed, as in film and in pictures of HDR."""
-    return ToneCurve(
-        f"shoulder of {knee:.2f}",
-        None,
-        lambda light: (light * (1.0 + knee) / (light + knee)) ** (1.0 / 2.2),
-    )
+    return ToneCurve(f"shoulder of {knee:.2f}", None, partial(_shoulder, knee=knee))
 
 
 def unknown_curve(random: np.random.Generator) -> ToneCurve:

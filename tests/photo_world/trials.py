@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from both_cores import on_both_cores
 from simulated_photos import photo_of
 
 import occ_model as occ
@@ -92,6 +93,11 @@ def trial(world: World) -> Trial:
     )
 
 
+def trial_of(seed: int) -> Trial:
+    """Draw a world, take a photograph of it and match that."""
+    return trial(random_world(seed))
+
+
 def trials(seeds: Iterable[int]) -> Iterator[Trial]:
-    """Match the photographs of some seeds, one after the other."""
-    return (trial(random_world(seed)) for seed in seeds)
+    """Match the photographs of some seeds."""
+    return on_both_cores(trial_of, seeds)

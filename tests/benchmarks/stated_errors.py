@@ -73,7 +73,7 @@ def plot(found: list[Trial], path: Path) -> None:
         axes.set_xlabel("bound of the standard deviation, relative")
         axes.set_title(f"{what} time, {len(sure)} photographs")
         axes.grid(visible=True, alpha=0.25)
-        axes.legend(loc="upper left", framealpha=0.9)
+        axes.legend(loc="lower right")
         axes.set_ylim(bottom=0.05 * bound.min())
     figure.axes[0].set_ylabel("error, relative")
     figure.savefig(path, dpi=110)

@@ -14,7 +14,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
 from occ_gui.bench import bench_plot
-from occ_gui.bench.bench_choice import BITS as EFFORTS
 from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
 from occ_gui.bench.bench_controller import BenchController
 from occ_gui.bench.bench_measurement import request_of
@@ -241,10 +240,14 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for(measuring: Me
         assert len(x) > 1
 
 
-def test_each_number_of_bits_is_one_of_whole_payloads() -> None:
-    whole = BenchRequest().payload_bits
-    assert all(bits % whole == 0 for bits in EFFORTS)
-    assert list(EFFORTS) == sorted(set(EFFORTS))
+def test_each_number_of_bits_that_is_offered_is_one_of_whole_payloads(
+    measuring: Measuring,
+) -> None:
+    effort, whole = measuring.pane.effort, BenchRequest().payload_bits
+    offered = [int(effort.itemData(place)) for place in range(effort.count())]
+    assert len(offered) > 1
+    assert all(bits % whole == 0 for bits in offered)
+    assert offered == sorted(set(offered))
 
 
 def test_a_measurement_that_somebody_waits_for_goes_before_the_map(measuring: Measuring) -> None:

@@ -19,6 +19,7 @@ from occ_model.photo.fit.joint_estimate import (
     _with_step_of,
     _with_steps_of_all,
     _with_width,
+    refined,
 )
 from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.fit.least_squares import StripeFit
@@ -129,3 +130,23 @@ def test_other_exposures_of_a_square_wave_start_from_the_best_fit(
     assert starts[0][:3] == pytest.approx([0.11, 1.2, 3.0])
     assert starts[1] == pytest.approx([0.1, 1.2, *FIT.values[2:]])
     assert len(starts) == 2
+
+
+@pytest.mark.parametrize(("chips", "columns"), [(2, 20), (6, 60), (8, 80), (30, 80)])
+def test_a_lamps_brightness_is_looked_for_within_a_period_or_a_few_chips(
+    chips: int, columns: int
+) -> None:
+    """So long it is surely on for once; without such pixels the first fits stay."""
+    asked: list[int] = []
+
+    def profiles(width: int) -> list[object]:
+        asked.append(width)
+        return []
+
+    explanation: Any = SimpleNamespace(
+        chips=np.arange(chips) % 2, fits=(stripe_fit(0.1),),
+        camera=SimpleNamespace(enhancement="none"),
+    )  # fmt: skip
+    cells: Any = SimpleNamespace(profiles=profiles)
+    assert refined(SimpleNamespace(), cells, explanation, 2.2).fits is explanation.fits  # type: ignore[arg-type]
+    assert asked == [columns]

@@ -1,6 +1,7 @@
 """Within one move of a slider the user sees which effect came in, and what it costs."""
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,12 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy import controller
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.app.application import Application
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results import Forecast
 
 
 @pytest.fixture
@@ -212,3 +217,18 @@ def test_behind_another_pane_no_study_is_made(
     qtbot.wait(50)
     assert application.study.is_idle
     assert not application.study.runner.is_running
+
+
+def test_nothing_is_drawn_of_a_pane_that_is_not_seen(
+    qtbot: QtBot, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    view = AccuracyView()
+    qtbot.addWidget(view)
+    snapshot = snapshot_of()
+    view.show_snapshot(snapshot)
+    view.show_costs(SceneCosts(snapshot.request))
+    view.show_forecast(snapshot.request, Forecast(snapshot.frame.plan, 0.1, 0.0, is_measured=True))
+    assert not view.summary._full
+    view.set_seen(True)
+    assert view.summary._full
+    assert view.table.model().rowCount() > 3

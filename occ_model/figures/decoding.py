@@ -1,6 +1,6 @@
 """Draw the steps of decoding for print: signal, threshold and chips, run lengths or templates."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from itertools import zip_longest
 from typing import Any
 
@@ -25,6 +25,8 @@ _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
 
 def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     """Draw the steps of decoding, up to the code or to the step that failed.
+
+    The table gives columns of the region, as they are drawn, and of the whole picture.
 
     Parameters
     ----------
@@ -52,9 +54,18 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     chips = result.chips.tolist()
 
     def rows() -> Iterable[tuple[object, ...]]:
-        yield from zip_longest(range(len(signal)), signal, starts, chips)
+        columns = range(len(signal))
+        yield from zip_longest(whole(columns), columns, signal, whole(starts), starts, chips)
 
-    header = ("column of the region", "signal (grey level)", "chip from column", "chip")
+    def whole(places: Sequence[float]) -> list[float | None]:
+        if result.region is None:
+            return [None] * len(places)
+        return [result.region.first_column + place for place in places]
+
+    header = (
+        "column of the picture", "column of the region", "signal (grey level)",
+        "chip from column of the picture", "chip from column of the region", "chip",
+    )  # fmt: skip
     title = f"Decoding, {message}: {caption(scene)}"
     return Drawing(f"decoding-{result.decoder}", title, draw, header, rows)
 

@@ -80,6 +80,13 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     assert signal is not None
     read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]
     assert [float(value) for value in read if value] == signal.tolist()
+    region = occ.decode(FRAME.image, SCENE).region
+    assert region is not None
+    for row in rows(folder / "decoding-threshold.csv"):
+        for name in ("column", "chip from column"):
+            within, whole = row[f"{name} of the region"], row[f"{name} of the picture"]
+            assert (within == "") == (whole == "")
+            assert not within or float(whole) - float(within) == region.first_column
     first = rows(folder / "picture.csv")[0]
     assert len(first) == 1 + FRAME.image.shape[1] // 4
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import combinations, product
+from typing import TypeAlias
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QPen
@@ -18,6 +19,9 @@ _OVER = 3.0
 """Pixels by which a name at one side of its mark reaches to the other side."""
 
 _DIGITS = 4
+_Text: TypeAlias = tuple[str, QRectF]
+"""A text with its place."""
+
 _NEAR = 6.0
 """Pixels from a mark within which its tooltip is shown."""
 
@@ -92,21 +96,35 @@ class SliderScale(QWidget):
         metrics = QFontMetricsF(font)
         painter.setFont(font)
         ink = self.palette().color(QPalette.ColorRole.WindowText)
-        taken = self._draw_ends(painter, metrics)
+        ends, names = self._texts(metrics)
+        painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
+        for text, box in ends:
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
         painter.setPen(QPen(ink, 1.5))
         for mark in self.marks:
             x = self._x(mark.value)
             painter.drawLine(QPointF(x, 0.0), QPointF(x, _TICK))
-        for text, box in self._names(metrics, taken):
+        for text, box in names:
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
         painter.end()
 
-    def _names(self, metrics: QFontMetricsF, taken: Sequence[QRectF]) -> list[tuple[str, QRectF]]:
+    def _texts(self, metrics: QFontMetricsF) -> tuple[list[_Text], list[_Text]]:
+        """Return the end values and the marks' names, each with its place.
+
+        An end value that leaves a mark no place for its name is left out: where the slider ends is
+        seen, but what a mark is told by nothing else.
+        """
+        low, high = self._ends(metrics)
+        choices: tuple[list[_Text], ...] = ([low, high], [low], [high], [])
+        named = [(ends, self._names(metrics, [box for _, box in ends])) for ends in choices]
+        return max(named, key=lambda texts: len(texts[1]))  # the first of equal ones
+
+    def _names(self, metrics: QFontMetricsF, taken: Sequence[QRectF]) -> list[_Text]:
         """Return the marks' names with their places: as many as there is space for.
 
         A name stands in the middle under its mark, or to one side, where that leaves more space.
         """
-        places: list[list[tuple[str, QRectF] | None]] = []
+        places: list[list[_Text | None]] = []
         for mark in self.marks:
             text, x = mark.label.replace("t_LED", "1 chip"), self._x(mark.value)
             width = metrics.horizontalAdvance(text)
@@ -118,7 +136,7 @@ class SliderScale(QWidget):
                 for left in lefts
             ]
             places.append([*((text, box) for box in boxes if _is_free(box, taken)), None])
-        best: list[tuple[str, QRectF]] = []
+        best: list[_Text] = []
         for chosen in product(*places):
             named = [name for name in chosen if name is not None]
             apart = all(_is_free(one[1], [other[1]]) for one, other in combinations(named, 2))
@@ -126,19 +144,14 @@ class SliderScale(QWidget):
                 best = named
         return best
 
-    def _draw_ends(self, painter: QPainter, metrics: QFontMetricsF) -> list[QRectF]:
-        """Draw the values at both ends, and return where they stand."""
-        painter.setPen(self.palette().color(QPalette.ColorRole.PlaceholderText))
+    def _ends(self, metrics: QFontMetricsF) -> tuple[_Text, _Text]:
+        """Return the values at both ends with their places."""
         low, high = (self._quantity.format(value, _DIGITS) for value in self._quantity.slider)
-        height = metrics.height()
-        width = metrics.horizontalAdvance(high)
-        boxes = [
-            QRectF(0.0, _TICK + 1.0, metrics.horizontalAdvance(low), height),
-            QRectF(self.width() - width, _TICK + 1.0, width, height),
-        ]
-        for box, text in zip(boxes, (low, high), strict=True):
-            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
-        return boxes
+        height, width = metrics.height(), metrics.horizontalAdvance(high)
+        return (
+            (low, QRectF(0.0, _TICK + 1.0, metrics.horizontalAdvance(low), height)),
+            (high, QRectF(self.width() - width, _TICK + 1.0, width, height)),
+        )
 
 
 def _is_free(box: QRectF, taken: Sequence[QRectF]) -> bool:

@@ -66,3 +66,20 @@ def test_no_name_stands_over_the_value_of_an_end(qtbot: QtBot) -> None:
         for _, box in scale._names(metrics, ends):
             assert not any(box.intersects(end) for end in ends)
         assert bool(scale._names(metrics, ends)) == (share in {0.2, 0.5, 0.8})
+
+
+def test_a_mark_is_named_wherever_it_stands_and_an_end_gives_way(qtbot: QtBot) -> None:
+    _whole, scale = scale_of(qtbot, 170)
+    metrics = QFontMetricsF(scale._font())
+    low, high = GAMMA.slider
+    kept = []
+    for share in np.linspace(0.0, 1.0, 41):
+        scale.show_marks([MarkedValue(float(low + share * (high - low)), "t = 1 chip", "")])
+        ends, names = scale._texts(metrics)
+        assert [name for name, _ in names] == ["t = 1 chip"]
+        assert not any(box.intersects(names[0][1]) for _, box in ends)
+        kept.append(len(ends))
+    assert set(kept) == {1, 2}
+    assert kept[20] == 2, "in the middle both ends keep their values"
+    scale.show_marks([])
+    assert len(scale._texts(metrics)[0]) == 2

@@ -182,3 +182,11 @@ def test_no_period_nearby_explains_more_than_the_one_found(seed: int) -> None:
     share = unrepeated_share(wave, period)
     for off in (-1.0, -0.3, -0.2, 0.2, 0.3, 1.0):
         assert share <= unrepeated_share(wave, period + off * uncertainty)
+
+
+def test_a_match_begins_at_nothing_done() -> None:
+    told: list[float] = []
+    grey = photo_of(np.full((40, 60), 90, dtype=np.uint8))
+    with pytest.raises(occ.MatchError):
+        occ.match_photo(grey, occ.Scene(), progress=told.append)
+    assert told == [0.0]

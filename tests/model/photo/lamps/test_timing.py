@@ -1,0 +1,72 @@
+"""Whether lamps blink in time, and how wide their stripes are."""
+
+import numpy as np
+import pytest
+
+from occ_model.photo.lamps.edges import Edges
+from occ_model.photo.lamps.segments import _LEAST_EDGES, _clipped, _progressions
+from occ_model.photo.lamps.timing import LampTiming
+
+
+def timing_of(
+    places: list[float], first_rises: bool = True, spacing: float = 20.0, *, is_code: bool = False
+) -> LampTiming:
+    place = np.array(places)
+    rises = (np.arange(len(place)) % 2 == 0) == first_rises
+    levels = np.zeros(len(place)), np.full(len(place), 100.0)
+    edges = Edges(place, rises, *levels)
+    return LampTiming(
+        spacing, 0.01, float(place[rises][0] % spacing), float(place[~rises][0] % spacing),
+        is_code, 0.0, edges,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("first_rises", "widest"), [(True, 9.0), (False, 14.0)])
+def test_the_widest_bright_stripe_goes_from_a_rising_edge_to_a_falling_one(
+    first_rises: bool, widest: float
+) -> None:
+    assert timing_of([0.0, 8.0, 20.0, 29.0, 43.0], first_rises).longest_stripe == widest
+
+
+def test_without_a_whole_stripe_it_is_as_wide_as_the_spacing() -> None:
+    assert timing_of([5.0, 17.0], False).longest_stripe == 20.0
+
+
+PULSES = [0.0, 8.0, 20.0, 28.0, 40.0, 48.0, 60.0, 68.0]
+
+
+@pytest.mark.parametrize(
+    ("later", "longer", "agrees"),
+    [(0.0, 0.0, True), (40.0, 0.0, True), (0.3, 0.0, True), (6.0, 0.0, False), (0.0, 1.0, False)],
+)
+def test_lamps_agree_whose_edges_lie_on_the_same_lattices(
+    later: float, longer: float, agrees: bool
+) -> None:
+    spacing = 20.0 + longer
+    other = [later + place * spacing / 20.0 for place in PULSES]
+    assert timing_of(PULSES).agrees(timing_of(other, spacing=spacing)) == agrees
+    assert timing_of(PULSES).chip == 10.0
+    assert timing_of(PULSES, is_code=True).chip == 20.0
+
+
+def test_a_part_of_a_code_that_alternates_is_that_codes() -> None:
+    code = timing_of([0.0, 10.0, 20.0, 40.0, 50.0, 60.0], spacing=10.0, is_code=True)
+    pulses = timing_of([100.0, 110.0, 120.0, 130.0, 140.0, 150.0], spacing=20.0)
+    assert code.agrees(pulses)
+    assert not pulses.agrees(code)
+
+
+def test_parts_of_progressions_are_kept_that_have_edges_enough() -> None:
+    least = _LEAST_EDGES
+    parts = [(0, 10, 20.0), (8, 30, 25.0)]
+    assert _clipped(parts, 10 - least, 40) == [(10 - least, 10, 20.0), (8, 30, 25.0)]
+    assert _clipped(parts, 11 - least, 40) == [(8, 30, 25.0)]
+    assert _clipped(parts, 0, 8 + least) == [(0, 10, 20.0), (8, 8 + least, 25.0)]
+
+
+def test_edges_of_which_every_second_is_a_period_farther_progress() -> None:
+    one = [0.0, 8.0, 20.0, 28.0, 40.0, 48.0, 60.0]
+    other = [75.0, 85.0, 105.0, 115.0, 135.0, 145.0]
+    found = _progressions(np.array([*one, *other]), 1.0)
+    assert found[0] == (0, 7, pytest.approx(20.0))
+    assert (7, 13, pytest.approx(30.0)) in found

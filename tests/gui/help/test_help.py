@@ -303,3 +303,12 @@ def test_the_bar_of_the_manual_stays_where_it_is(manual: HelpWindow) -> None:
     bars = manual.findChildren(QToolBar)
     assert bars
     assert not any(bar.isMovable() for bar in bars)
+
+
+def test_the_titles_of_the_pages_are_read_whole_and_every_part_has_a_name(
+    manual: HelpWindow,
+) -> None:
+    pages = manual.page_list
+    assert pages.viewport().width() >= pages.sizeHintForColumn(0)
+    for part in (pages, manual.browser, manual.search):
+        assert part.accessibleName()

@@ -1,10 +1,14 @@
 """The photo's pane is idle where nothing works for it."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from gui.user import User
 
+from occ_gui.app.application import Application
 from occ_gui.photo.wiring import PhotoWiring
+from occ_model.results import Region
 
 RUN = ("photos", "matching", "many", "lamps")
 NEWEST = ("comparison", "chips")
@@ -21,3 +25,14 @@ def wiring(busy: str) -> SimpleNamespace:
 @pytest.mark.parametrize("busy", ["", *RUN, *NEWEST])
 def test_the_photo_is_idle_where_none_of_its_controllers_works(busy: str) -> None:
     assert PhotoWiring.is_idle.fget(wiring(busy)) is not bool(busy)  # type: ignore[attr-defined]
+
+
+def test_a_rectangle_that_is_drawn_is_the_one_matched(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    wiring = application.photo_wiring
+    wiring.lamps.set_by_hand(True)
+    wiring.outlines.drawn.emit(Region(5, 25, 10, 40))
+    assert wiring.lamps.by_hand == wiring.matching._region == Region(5, 25, 10, 40)

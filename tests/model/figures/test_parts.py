@@ -11,7 +11,7 @@ from occ_model.figures.accuracy import _draw_part
 from occ_model.figures.bench import _draw_bits
 from occ_model.figures.circuit_symbols import ground, transistor
 from occ_model.figures.decoding import _draw_signal
-from occ_model.figures.paper import _shown_columns
+from occ_model.figures.paper import _padded, _shown_columns
 from occ_model.figures.sweep import _axis_label
 from occ_model.figures.window_panes import _show
 from occ_model.results import DecodeResult
@@ -136,3 +136,11 @@ def test_a_report_shows_what_was_seen_where_it_has_room(
     step = SimpleNamespace(match=None, scene="the scene")
     lesson_steps._draw_seen(Mock(), step, top, 0.1)  # type: ignore[arg-type]
     assert draw.called is is_drawn
+
+
+@pytest.mark.parametrize("length", [2, 4, 9])
+def test_a_photos_profile_has_the_columns_of_the_simulated_one(length: int) -> None:
+    padded = _padded(np.array([1.0, 2.0, 3.0, 4.0]), length)
+    assert len(padded) == length
+    assert padded[:4].tolist() == [1.0, 2.0, 3.0, 4.0][:length]
+    assert np.isnan(padded[4:]).all()

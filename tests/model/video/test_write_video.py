@@ -215,3 +215,10 @@ def test_what_cannot_be_written_is_refused_before_any_frame_is_simulated(
     endless = occ.render_video(SCENE, None, occ.Recording(frame_rate=60.0))
     with pytest.raises(occ.OutputError):
         occ.write_video(endless, tmp_path / name)
+
+
+def test_an_animated_picture_is_played_again_and_again(tmp_path: Path, film: occ.Video) -> None:
+    for ending in (".png", ".gif"):
+        occ.write_video(film, tmp_path / f"film{ending}")
+        with Image.open(tmp_path / f"film{ending}") as picture:
+            assert picture.info["loop"] == 0

@@ -174,7 +174,7 @@ class MapView(QWidget):
             card.setVisible(with_cards)
         # In a low pane it needs no line of its own.
         line = self._searches if with_cards else self._state
-        if line.indexOf(self.advise) < 0:
+        if line.indexOf(self.advise) == -1:
             line.addWidget(self.advise)
 
     def _connect(self) -> None:

@@ -342,3 +342,10 @@ def test_pictures_are_as_high_as_they_need_in_any_width(qtbot: QtBot) -> None:
         low, high = (detail.pictures.height_in(room + off) for off in (-8, 8))
         assert low <= heights[-1] <= high
     assert heights[0] < heights[1]
+
+
+def test_each_row_is_one_line(table: EffectTable) -> None:
+    """A long name ends in dots: half of a second line would be seen otherwise."""
+    assert not table.wordWrap()
+    heights = {table.rowHeight(place) for place in range(table.model().rowCount())}
+    assert max(heights) < 2 * table.fontMetrics().height()

@@ -304,3 +304,10 @@ def test_the_column_shown_first_is_in_the_panels_first_packet(
 def test_every_control_says_what_it_does(plot: ExposurePlot) -> None:
     for control in (plot.column, plot.hold):
         assert control.toolTip().endswith(".")
+
+
+def test_a_click_on_hold_is_told(plot: ExposurePlot, qtbot: QtBot) -> None:
+    for held in (True, False):
+        with qtbot.waitSignal(plot.hold_chosen) as told:
+            plot.hold.click()
+        assert told.args == [held]

@@ -1,11 +1,14 @@
 """Where in the period of what is sent a stretch of chips can be, as its headers show."""
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.transmitter.packet import sent_chips
-from occ_model.video.partial_payload import written
+from occ_model.video.partial_payload import known_bits, written
 from occ_model.video.period import period_of
 
 
@@ -49,3 +52,19 @@ def test_a_payload_is_written_in_its_form_and_what_is_missing_by_dots(
     assert written(bits, scene) == whole
     bits[-1] = -1
     assert written(bits, scene).endswith(partly)
+
+
+@pytest.mark.parametrize("framing", ["paper", "raw", "preamble"])
+def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) -> None:
+    scene = occ.Scene().replace(payload="hex:5ac3", framing=framing)
+    period = period_of(scene)
+    assert period.scheme is not None
+    sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+    chips = period.scheme.encode(sent)
+    ratios = np.where(chips == 1, 9.0, -9.0)
+    whole: Any = SimpleNamespace(ratios=ratios, known=np.ones(len(chips), dtype=bool))
+    assert known_bits(whole, period).tolist() == sent.tolist()
+    half: Any = SimpleNamespace(ratios=ratios, known=np.arange(len(chips)) < 0.5 * len(chips))
+    found = known_bits(half, period)
+    assert 0 < np.count_nonzero(found >= 0) < len(sent)
+    assert (found[found >= 0] == sent[found >= 0]).all()

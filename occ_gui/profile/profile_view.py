@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.profile.band_drift import drift_sentence
 from occ_gui.profile.chip_strip import ChipStrip
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.residual_plot import ResidualPlot
@@ -81,7 +82,7 @@ class ProfileView(QWidget):
         self.reason = QLabel()
         self.reason.setWordWrap(True)
         self.reason.setTextFormat(Qt.TextFormat.PlainText)
-        self.reason.setAccessibleName(self.tr("Why the band model is undefined"))
+        self.reason.setAccessibleName(self.tr("Why the band model drifts or is undefined"))
         self._make_controls()
         self.plot.getAxis("left").setWidth(self._axis_width())
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
@@ -250,8 +251,8 @@ class ProfileView(QWidget):
         band = reading.enhanced_band if enhanced else reading.band
         _draw(self.simulation, profile)
         _draw(self.band, band)
-        self.reason.setText(reading.band_undefined)
-        self.reason.setVisible(bool(reading.band_undefined))
+        self.reason.setText(reading.band_undefined or drift_sentence(reading))
+        self.reason.setVisible(bool(self.reason.text()))
         region = decoded.region
         for item in self._outside:
             item.setVisible(region is not None)

@@ -13,7 +13,7 @@ from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
 from occ_model.results import DecodeResult, Frame
 from occ_model.scene.scene import Scene
-from occ_model.simulation.band_model import enhanced_band_profile
+from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with
 from occ_model.study.profile_reading import read_profile
 
@@ -29,6 +29,7 @@ class _Beside(TypedDict):
     band: FloatArray | None
     enhanced_band: FloatArray | None
     band_undefined: str
+    band_drift: float
 
 
 def reading_by_profile(
@@ -123,10 +124,11 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
 
 
 def _beside(scene: Scene) -> _Beside:
-    band, enhanced_band, undefined = None, None, ""
+    band, enhanced_band, undefined, drift = None, None, "", 0.0
     try:
         band = occ.band_profile(scene)
         enhanced_band = enhanced_band_profile(scene, band)
+        drift = band_drift(scene)
     except occ.BandModelUndefined as reason:
         undefined = str(reason)
     transmitter = scene.transmitter
@@ -137,6 +139,7 @@ def _beside(scene: Scene) -> _Beside:
         "band": band,
         "enhanced_band": enhanced_band,
         "band_undefined": undefined,
+        "band_drift": drift,
     }
 
 

@@ -76,6 +76,8 @@ class Reading:
         The same as a receiver would enhance it.
     band_undefined
         A sentence, empty where there is a profile.
+    band_drift
+        Columns by which that profile is ahead of the simulated one after each packet.
     called_for
         Effects that were left out and the studies of the same scene take in, by label.
     has_picture
@@ -95,6 +97,7 @@ class Reading:
     band: FloatArray | None
     enhanced_band: FloatArray | None
     band_undefined: str
+    band_drift: float = 0.0
     called_for: tuple[str, ...] = ()
     has_picture: bool = False
 

@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.decoding.verdict import result_of
+from occ_gui.profile.band_drift import drift_of, why_it_drifts
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
@@ -22,7 +23,6 @@ from occ_gui.story.stripes_row import StripesRow
 from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results import DecodeResult
 from occ_model.results.frame import PICTURES
-from occ_model.scene.parameters import PARAMETERS
 
 RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
@@ -83,7 +83,7 @@ class StoryRows(QWidget):
                 "photo": (thin(PHOTO), self.tr("photo")),
                 "threshold": (thin(THRESHOLD, line.DashDotLine), self.tr("threshold")),
             },
-            usual=("simulation", "band", "threshold"),
+            usual=("simulation", "threshold", "band"),
         )
         part = LegendLine(self.legend)
         part.setContentsMargins(GUTTER, 0, MARGIN, 0)
@@ -92,25 +92,15 @@ class StoryRows(QWidget):
 
     def _show_legend(self) -> None:
         profile = self.profile
-        found = {
-            "simulation": profile.levels, "band": profile.band, "photo": profile.photo,
-            "threshold": profile.threshold,
+        found = {  # the band model last: the remark is on it
+            "simulation": profile.levels, "photo": profile.photo,
+            "threshold": profile.threshold, "band": profile.band,
         }  # fmt: skip
         undefined = "" if self._reading is None else self._reading.band_undefined
-        note = self.tr("no band model here") if undefined else ""
+        drift = "" if self._reading is None else drift_of(self._reading)
+        note = self.tr("no band model here") if undefined else drift
         keys = tuple(key for key, value in found.items() if value is not None)
-        self.legend.show_lines(keys, note, undefined or self._meaning_of_band())
-
-    def _meaning_of_band(self) -> str:
-        """Say why the band model's curve runs off the simulation's, where it does."""
-        reading = self._reading
-        if reading is None or reading.scene.model.band_reading != "literal":
-            return ""
-        return self.tr(
-            "The band model counts whole columns for each chip and for each change of state. What "
-            "it rounds off adds up along the picture, so that its bands drift away from those of "
-            "the simulation. The field “{field}” under Model takes exact run lengths instead."
-        ).format(field=PARAMETERS["band_reading"].label)
+        self.legend.show_lines(keys, note, undefined or (drift and why_it_drifts()))
 
     def show_picture(self, picture: Picture) -> None:
         """Show the stripes of this picture in place of the previous ones."""

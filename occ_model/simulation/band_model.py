@@ -75,6 +75,31 @@ def band_profile(scene: Scene) -> FloatArray:
     return saturate(dark + (bright - dark) * values)
 
 
+def band_drift(scene: Scene) -> float:
+    """Return by how many columns the band model is ahead of what is sent after each packet.
+
+    The literal reading rounds every band, and between two equal chips it has no columns for the
+    exposure: a run of n of them lasts n t_LED, but n h_c + h_t are (n - 1) t less.
+
+    Returns
+    -------
+    float
+        Below zero where the model's packet is longer; 0 for the charitable reading.
+
+    Raises
+    ------
+    BandModelUndefined
+        The exposure time is longer than the switching period.
+    """
+    complete, transition = band_lengths(scene)
+    if scene.model.band_reading == "charitable":
+        return 0.0
+    chips = sent_chips(scene.transmitter)
+    changes = int(np.count_nonzero(chips != np.roll(chips, -1)))
+    counted = len(chips) * round(complete) + changes * round(transition)
+    return len(chips) * (complete + transition) - counted
+
+
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
     """Return the band model's column profile as the scene's receiver would enhance it.
 

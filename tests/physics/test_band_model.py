@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.scene.scene import Scene
+from occ_model.simulation.band_model import band_drift
 
 
 @pytest.mark.parametrize(
@@ -103,6 +104,21 @@ def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
     np.testing.assert_allclose(literal[:22], literal[22:])
     exact = occ.column_profile(scene)
     assert not np.allclose(exact[:22], exact[22:])
+
+
+@given(share=st.floats(0.02, 1.0), code=st.integers(0, 1023), readout=st.floats(2e-6, 2e-5))
+def test_the_drift_is_what_a_packet_of_the_model_is_shorter(
+    share: float, code: int, readout: float
+) -> None:
+    scene = Scene().replace(
+        code=code, switching_frequency=2e3, exposure_time=share / 2e3, readout_time=readout
+    )
+    sent = len(occ.packet(scene)) / (2e3 * readout)
+    counted = round(sent - band_drift(scene))
+    assert counted == pytest.approx(sent - band_drift(scene), abs=1e-6)
+    profile = occ.band_profile(scene.replace(columns=2 * counted))
+    np.testing.assert_allclose(profile[:counted], profile[counted:], atol=1e-9)
+    assert band_drift(scene.replace(band_reading="charitable")) == 0.0
 
 
 def test_a_packet_that_rounds_to_no_column_is_refused() -> None:

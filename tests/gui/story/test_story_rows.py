@@ -315,7 +315,7 @@ def test_bits_without_columns_say_so_and_refused_ones_are_not_ticked(
 def test_the_legend_names_what_is_drawn(
     rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
 ) -> None:
-    assert rows.legend.shown == ("simulation", "band", "threshold")
+    assert rows.legend.shown == ("simulation", "threshold", "band")
     rows.show_reading(bare_snapshot_of(exposure_time=136e-6))
     assert rows.legend.shown == ("simulation", "threshold")
     assert rows.legend.note == "no band model here"
@@ -327,8 +327,13 @@ def test_the_legend_says_why_the_band_model_drifts_or_ends(
     rows.show_reading(bare_snapshot_of())
     assert "whole columns" in rows.legend.toolTip()
     assert "drift" in rows.legend.toolTip()
+    assert rows.legend.note.startswith("drifts ")
     rows.show_reading(bare_snapshot_of(band_reading="charitable"))
-    assert rows.legend.toolTip() == ""
+    assert (rows.legend.note, rows.legend.toolTip()) == ("", "")
+    # Whole columns for each band, and no equal chips beside each other: nothing is lost.
+    whole = {"pattern": "10", "switching_frequency": 12.5e3, "exposure_time": 40e-6}
+    rows.show_reading(bare_snapshot_of(**whole, readout_time=8e-6))
+    assert (rows.legend.note, rows.legend.toolTip()) == ("", "")
     ended = bare_snapshot_of(exposure_time=136e-6)
     rows.show_reading(ended)
     assert rows.legend.toolTip() == ended.band_undefined

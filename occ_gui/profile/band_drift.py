@@ -1,0 +1,42 @@
+"""Words for the band model's drift: its bands run off those of the simulation."""
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.simulation.snapshot import Reading
+from occ_model.scene.parameters import PARAMETERS
+
+_LEAST = 0.05
+"""Columns a packet below which nothing is seen of it."""
+
+
+def drift_of(reading: Reading) -> str:
+    """Say by how much the band model drifts; empty where it does not."""
+    columns = abs(reading.band_drift)
+    if columns < _LEAST:
+        return ""
+    text = (
+        _tr("drifts {columns} columns a cycle")
+        if reading.scene.transmitter.pattern
+        else _tr("drifts {columns} columns a packet")
+    )
+    return text.format(columns=f"{columns:.0f}" if columns >= 10.0 else f"{columns:.1f}")
+
+
+def drift_sentence(reading: Reading) -> str:
+    """Say so with the reason in a line; empty where it does not."""
+    drift = drift_of(reading)
+    text = _tr("The band model {drift}: it rounds, and skips the exposure between equal chips.")
+    return text.format(drift=drift) if drift else ""
+
+
+def why_it_drifts() -> str:
+    """Say why, and what can be done about it."""
+    return _tr(
+        "The band model rounds each band to whole columns, and leaves out the exposure between two "
+        "equal chips. Both add up along the picture, so that its bands drift away from those of "
+        "the simulation. The field “{field}” under Model takes exact run lengths instead."
+    ).format(field=PARAMETERS["band_reading"].label)
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("BandDrift", text)

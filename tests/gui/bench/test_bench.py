@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -266,3 +267,17 @@ def stages_of(measuring: Measuring) -> list[Stage]:
     measuring.pane.measure.click()
     assert put
     return put
+
+
+def test_what_theory_says_is_drawn_and_the_state_has_the_room_that_is_left(
+    measuring: Measuring,
+) -> None:
+    measuring.measure()
+    pane = measuring.pane
+    for plots in pane.plots.values():
+        for axis, plot in plots.plots.items():
+            assert plots._bounds[axis] in plot.getPlotItem().items
+    pane.resize(700, 500)
+    pane.show()
+    QApplication.processEvents()
+    assert pane.state.width() > 0.6 * pane.width()

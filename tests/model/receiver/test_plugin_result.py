@@ -72,3 +72,14 @@ def test_a_result_has_a_code_with_its_bits_or_says_why_not(
 def test_each_number_has_its_range(name: str, value: object, is_refused: bool) -> None:
     result = occ.DecodeResult("own", failure="Nothing was read.", **{name: value})  # type: ignore[arg-type]
     assert (problem_of(result, columns=10) is not None) is is_refused
+
+
+@pytest.mark.parametrize("bad", [0, 1])
+def test_each_histogram_is_looked_at(bad: int) -> None:
+    good = RunHistogram(np.array([3, 4]), None)
+    pair = [good, good]
+    result = occ.DecodeResult("own", failure="Nothing was read.", histograms=(good, good))
+    assert problem_of(result, columns=10) is None
+    pair[bad] = RunHistogram(np.array([3.5, 4.0]), None)
+    result = occ.DecodeResult("own", failure="Nothing was read.", histograms=(pair[0], pair[1]))
+    assert problem_of(result, columns=10) is not None

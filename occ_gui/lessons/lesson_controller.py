@@ -11,6 +11,7 @@ from occ_gui.files.session import UserState
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.photo.kept_photo import KeptPhoto
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
@@ -86,10 +87,13 @@ class LessonController(QObject):
         self._current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
-        self._open: Path | None = None
+        self._open: Path | None = photos.path  # opened before this pane was first shown
         self._user: UserState | None = None
         self._last: Lesson | None = None
         self._match: Callable[[], Match | None] = lambda: None
+        self._keep_photo: Callable[[], KeptPhoto | None] = lambda: None
+        self._give_back: Callable[[KeptPhoto], None] = lambda _kept: None
+        self._kept: KeptPhoto | None = None
         photos.opened.connect(self._note_photo)
         answers.checked.connect(self._show_checked)
         answers.failed.connect(self._show_failed)
@@ -107,6 +111,12 @@ class LessonController(QObject):
     def use_match(self, match: Callable[[], Match | None]) -> None:
         """Compare answers about a photo with the match that this function gives."""
         self._match = match
+
+    def keep_photos_by(
+        self, keep: Callable[[], KeptPhoto | None], give_back: Callable[[KeptPhoto], None]
+    ) -> None:
+        """Keep the user's photo by one function, and show it again by the other one."""
+        self._keep_photo, self._give_back = keep, give_back
 
     def set_seen(self, seen: bool) -> None:
         """Read the lessons when their pane is shown, unless one is under way."""
@@ -191,11 +201,13 @@ class LessonController(QObject):
             self.begun.emit()
             settings = self._scenes.settings.settings
             self._user = UserState(self._scenes.scene, settings, self._open)
+            self._kept = self._keep_photo()
             self._scenes.settings.restore(FIRST_SETTINGS)
 
     def restore_user(self) -> None:
         """Restore what the user was working on; the scene in one step that can be undone."""
         user, self._user = self.users_own(), None
+        kept, self._kept = self._kept, None
         self.columns_held.emit(None)
         if user is None:
             return
@@ -206,6 +218,8 @@ class LessonController(QObject):
             return
         if user.photo is None:
             self._photos.close()
+        elif kept is not None and kept.photo.path == user.photo:
+            self._give_back(kept)  # with what was found in it: a photo read anew has no match
         else:
             self._photos.open(user.photo)
 

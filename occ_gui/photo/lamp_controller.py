@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
 from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.photo.kept_photo import KeptRegion
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import region_within
@@ -82,6 +83,15 @@ class LampController(QObject):
     def keep(self, path: Path, region: Region) -> None:
         """Match this rectangle of a photo when it is opened next, if the photo still has it."""
         self._kept = path, region
+
+    def kept(self) -> KeptRegion:
+        """Return the lamps, and what is matched, to be given back with the photo."""
+        return KeptRegion(self.lamps, self.chosen, self.by_hand)
+
+    def give_back(self, kept: KeptRegion) -> None:
+        """Show these lamps again, and match what was matched."""
+        self.lamps, self.chosen, self.by_hand = kept.lamps, kept.chosen, kept.by_hand
+        self._show()
 
     def show_photo(self, photo: Photo | None) -> None:
         """Search this photo in place of the previous one, or none."""

@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.background.cancellable import Cancellable
 from occ_gui.photo.assumption import is_certain
+from occ_gui.photo.kept_photo import KeptMatch
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_request import MatchRequest, Refusal, match, request_of
 from occ_gui.scene.scene_store import SceneStore
@@ -188,6 +189,18 @@ class MatchController(QObject):
 
         (self._asked_known,) = (name for name in ESTIMATES if name not in found.uncertainties)
         self._take(found)
+
+    def kept(self) -> KeptMatch | None:
+        """Return the match, to be given back with its photo."""
+        if self.match is None:
+            return None
+        return KeptMatch(self.match, self._matched_region)
+
+    def give_back(self, kept: KeptMatch) -> None:
+        """Show a match again that was made before another photo was opened."""
+        self.take_over(kept.match)
+        self._matched_region = kept.region
+        self._show_age()
 
     def cancel(self) -> None:
         """Cancel the running match."""

@@ -1,5 +1,7 @@
 """Form of a match: its choices, the button that starts it, and its progress."""
 
+from collections.abc import Mapping
+
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -219,6 +221,21 @@ class MatchForm(QWidget):
             estimate=self.estimate.key(),
             fit_gamma=self.gamma.isChecked(),
         )
+
+    @property
+    def certain_values(self) -> dict[str, float]:
+        """The known values that the user has confirmed, in SI units by name."""
+        return dict(self._certain)
+
+    def show_choice(self, choice: MatchChoice, certain: Mapping[str, float]) -> None:
+        """Show the choices that belong to a photo, and which known values are confirmed."""
+        self.sent.show_key(choice.sent)
+        self.square.set_value(choice.square_frequency)
+        self.estimate.show_key(choice.estimate)
+        self.gamma.setChecked(choice.fit_gamma)
+        self._certain = dict(certain)
+        self._show_known()
+        self.certain_changed.emit(dict(certain))
 
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene."""

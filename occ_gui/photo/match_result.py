@@ -30,7 +30,8 @@ class MatchResult(QWidget):
         self._match: Match | None = None
         self._noted: float | None = None
         self._scene: Scene | None = None
-        self._given = math.nan
+        self.given = math.nan
+        """The known value of the scene when the match was made, in SI units."""
         self._certain: Mapping[str, float] = {}
         self.verdict, self.figures = VerdictView(), MatchValues()
         self.paste = PasteLines()
@@ -91,7 +92,7 @@ class MatchResult(QWidget):
         """
         self._match, self._noted, self._turned = match, noted, turned
         if self._scene is not None:
-            self._given = float(self._scene.value(known_of(match)))
+            self.given = float(self._scene.value(known_of(match)))
         self._show_stale()
         self.verdict.show_verdict(match.verdict, match.all_reasons)
         self._show_figures(match)
@@ -118,6 +119,11 @@ class MatchResult(QWidget):
         for button in (self.apply, self.save):
             button.setEnabled(usable)
 
+    def show_given(self, given: float) -> None:
+        """Show a match again that was made while the scene's known value was this."""
+        self.given = given
+        self._show_stale()
+
     def show_scene(self, scene: Scene) -> None:
         """Show whether the match was made with the known value of this scene."""
         self._scene = scene
@@ -135,4 +141,4 @@ class MatchResult(QWidget):
                 then=declared.format(then), now=declared.format(now)
             )
         )
-        self.stale.setVisible(now not in {then, self._given})
+        self.stale.setVisible(now not in {then, self.given})

@@ -73,7 +73,8 @@ class PhotoController(QObject):
         super().__init__()
         self._panes = panes
         self._wanted: Path | None = None
-        self._path: Path | None = None
+        self.photo: Photo | None = None
+        """The photo that is shown, None if none is open."""
         self.reading = PhotoReading()
         self.runner: Cancellable[tuple[Path, PhotoReading], Photo] = Cancellable(
             _read, "reading of the photo"
@@ -81,6 +82,11 @@ class PhotoController(QObject):
         self.runner.reported.connect(self.progressed.emit)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self._fail)
+
+    @property
+    def path(self) -> Path | None:
+        """The path of the photo that is shown, None if none is open."""
+        return None if self.photo is None else self.photo.path
 
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
@@ -92,7 +98,7 @@ class PhotoController(QObject):
         """Cancel the reading; the previous photo stays."""
         if self.runner.is_running:
             self.runner.cancel()
-            self._wanted = self._path
+            self._wanted = self.path
             self.ended.emit()
 
     def scan_along(self, scan_axis: str) -> None:
@@ -112,20 +118,27 @@ class PhotoController(QObject):
     def close(self) -> None:
         """Close the photo."""
         self.cancel()
-        self._wanted = self._path = None
+        self._wanted = None
         self._show_on_panes(None)
+
+    def show_again(self, photo: Photo, reading: PhotoReading) -> None:
+        """Show a photo that has been read before, in these options."""
+        self.cancel()
+        self.reading, self._wanted = reading, photo.path
+        self.reading_changed.emit(reading)
+        self._show_on_panes(photo)
 
     def _show(self, photo: Photo) -> None:
         self.ended.emit()
-        self._path = photo.path
         self._show_on_panes(photo)
 
     def _fail(self, sentence: str) -> None:
         self.ended.emit()
-        self._wanted = self._path
+        self._wanted = self.path
         self.failed.emit(sentence)
 
     def _show_on_panes(self, photo: Photo | None) -> None:
+        self.photo = photo
         for pane in self._panes:
             pane.show_photo(photo)
         self.opened.emit(photo)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.photo.chip_controller import ChipController
 from occ_gui.photo.comparison_controller import ComparisonController
+from occ_gui.photo.kept_photo import KeptPhoto
 from occ_gui.photo.lamp_controller import LampController
 from occ_gui.photo.lamp_outlines import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
@@ -133,6 +134,32 @@ class PhotoWiring(QObject):
         runs = (self.photos.runner, self.matching.runner, self.many.runner, self.lamps.runner)
         newest = (self.comparison.runner, self.chips.runner)
         return all(run.is_idle for run in newest) and not any(run.is_running for run in runs)
+
+    def kept(self) -> KeptPhoto | None:
+        """Return the open photo with all that is known of it; None if none is open."""
+        if self.photos.photo is None:
+            return None
+        return KeptPhoto(
+            self.photos.photo,
+            self.photos.reading,
+            self.lamps.kept(),
+            self.matching.kept(),
+            self._pane.result.given,
+            self._pane.form.choice(),
+            self._pane.form.certain_values,
+            self.placements.placement if self.placements.is_by_hand else None,
+        )
+
+    def give_back(self, kept: KeptPhoto) -> None:
+        """Show a photo again with all that was known of it, after another one was open."""
+        self.photos.show_again(kept.photo, kept.reading)
+        self._pane.form.show_choice(kept.choice, kept.certain)
+        self.lamps.give_back(kept.region)
+        if kept.match is not None:
+            self.matching.give_back(kept.match)
+            self._pane.result.show_given(kept.given)
+        if kept.placement is not None:
+            self.placements.move(kept.placement)
 
     def match(self) -> None:
         """Match the photo with the choices of the pane."""

@@ -12,12 +12,14 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
+from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import Session, SessionFile, UserState
 from occ_gui.lessons import lesson_controller
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_model.effects.registry import NAMES
 from occ_model.errors import SceneFileError
+from occ_model.results import Region
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 
@@ -264,6 +266,43 @@ def test_the_users_photo_returns_after_a_lesson(
     guide.step.all.click()
     user.wait_until_idle()
     assert application.desktop._photo == photo_file
+
+
+def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that_was_found(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    photo, sample = application.photo, sample_photos()[0]
+    application.open_photo(sample)
+    user.wait_until_idle()
+    photo.form.sent.show_key("square")
+    photo.form.sent.chosen.emit("square")
+    application.photo_wiring.lamps.draw(Region(100, 800, 0, 900))
+    user.choose("&Match photo")
+
+    def state() -> tuple[object, ...]:
+        shown = {name: label.text() for name, label in photo.result.values.items()}
+        title = photo.verdict.heading
+        return (
+            application.photo_wiring.matching.match, photo.form.choice(),
+            photo.form.certain_values, photo.form.certain.isChecked(),
+            application.photo_wiring.lamps.region, shown, title, photo.result.isHidden(),
+            photo.result.stale.isHidden(), application.photos.path,
+        )  # fmt: skip
+
+    before = state()
+    assert before[0] is not None
+    assert before[3]
+    user.choose("&Lessons")
+    guide = application.learning.lessons_pane
+    qtbot.waitUntil(lambda: bool(guide.list.choices))
+    guide.list.choices[5].click()
+    guide.step.next.click()
+    user.wait_until_idle()
+    assert application.photos.path != sample
+    photo.form.sent.show_key("read")
+    guide.step.all.click()
+    user.wait_until_idle()
+    assert state() == before
 
 
 def test_a_photo_opened_during_a_lesson_stays_open(

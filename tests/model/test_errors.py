@@ -54,3 +54,8 @@ def test_control_characters_are_shown_escaped() -> None:
 
 def test_a_long_name_is_cut() -> None:
     assert len(one_line("n" * 10**7)) == 200
+
+
+def test_a_name_of_just_the_length_allowed_is_not_cut() -> None:
+    assert one_line("n" * 200) == "n" * 200
+    assert one_line("n" * 201) == "n" * 199 + "…"

@@ -12,7 +12,7 @@ import pytest
 
 from occ_model import plugins
 from occ_model.errors import OccError
-from occ_model.program import Interrupts, run_program
+from occ_model.program import Interrupts, _open_streams, run_program
 
 
 class ProcessEnded(BaseException):
@@ -174,3 +174,65 @@ def test_a_plug_in_of_no_package_has_a_name_all_the_same(monkeypatch: pytest.Mon
     monkeypatch.setattr(plugins, "_found", lambda group: entries)
     said = [plugins.described("group", name) for name in ("own", "other", "missing")]
     assert [one.partition(" of the package ")[2] for one in said] == ["'?'", "'pack'", "'?'"]
+
+
+def test_work_that_is_interrupted_may_clear_up(
+    usual: None, written: list[tuple[int, bytes]], capsys: pytest.CaptureFixture[str]
+) -> None:
+    cleared: list[int] = []
+
+    def work() -> int:
+        try:
+            ctrl_c()
+        finally:
+            cleared.append(1)
+        return 0
+
+    assert run_program("own", lambda: work, is_process=True) == 130
+    assert cleared
+    assert not written
+    assert capsys.readouterr().err == "own: interrupted.\n"
+
+
+@pytest.mark.parametrize("closed", [0, 1, 2])
+def test_a_stream_that_is_closed_is_opened_to_the_null_device(
+    monkeypatch: pytest.MonkeyPatch, closed: int
+) -> None:
+    """Otherwise the next file that is opened would be taken for it."""
+    opened: list[str] = []
+
+    def fstat(descriptor: int) -> None:
+        if descriptor == closed:
+            raise OSError
+
+    with monkeypatch.context() as closing:
+        closing.setattr(os, "fstat", fstat)
+        closing.setattr(os, "open", lambda path, _flags: opened.append(path))
+        _open_streams(needs_output=True)
+    assert opened == [os.devnull]
+
+
+def nested() -> int:
+    raise KeyError("a")
+
+
+@pytest.mark.parametrize(
+    ("error", "said"),
+    [
+        (OSError(28, "No space left"), "Writing or reading failed: No space left."),
+        (OSError(2, "No such file", "a.png"), "a.png: No such file."),
+        (MemoryError(), "There is too little memory for this."),
+        (None, "A mistake in this program, line {line} of test_program_within.py: KeyError: 'a'."),
+    ],
+)
+def test_what_nobody_has_foreseen_is_a_line_that_says_what_and_where(
+    error: Exception | None, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def work() -> int:
+        if error is not None:
+            raise error
+        return nested()
+
+    assert run_program("own", lambda: work, is_process=False) == 1
+    line = nested.__code__.co_firstlineno + 1
+    assert capsys.readouterr().err == f"own: {said.format(line=line)}\n"

@@ -8,6 +8,7 @@ import skimage.filters
 from hypothesis import given
 from hypothesis import strategies as st
 
+import occ_model as occ
 from occ_model.receiver.signal import otsu_split
 
 histograms = st.lists(st.integers(0, 1000) | st.just(0), min_size=2, max_size=40)
@@ -97,3 +98,11 @@ def test_it_agrees_with_skimage_on_two_humps(
     assert split is not None
     assert abs(split - theirs) <= 1
     assert dark < split < bright
+
+
+@pytest.mark.parametrize("far", [1e9, -1e9])
+def test_a_single_value_that_is_no_grey_level_is_refused_with_it(far: float) -> None:
+    image = np.full((4, 30), 100.0)
+    image[2, 7] = far
+    with pytest.raises(occ.DecodeInputError, match=r"holds the value 1e\+09"):
+        occ.decode(image, occ.Scene())

@@ -55,6 +55,10 @@ def test_the_steps_of_a_result_are_the_chips_that_columns_see(small_signal: Any)
     assert len(result.chips) == len(starts) == len(result.chip_likelihoods)
     assert result.correlation is not None
     assert result.correlation > 0.9
+    assert result.light is not None
+    assert result.light_model is not None
+    expected = np.corrcoef(result.light, result.light_model)[0, 1]
+    assert result.correlation == pytest.approx(expected)
 
 
 @pytest.fixture(scope="module")
@@ -124,3 +128,15 @@ def test_noise_of_independent_rows_stays_in_sums_and_what_is_alike_adds_up() -> 
     assert white.ratios() == pytest.approx(1.0 / (2.0 * white.noise_of_sums()))
     assert white.unexplained() < 0.06
     assert alike.unexplained() > 0.6
+
+
+@pytest.mark.parametrize(("rows", "is_refused"), [(90, True), (300, False)])
+def test_less_than_a_packet_is_refused_where_a_packet_has_one_length(
+    rows: int, is_refused: bool
+) -> None:
+    timing = Timing(1.0, 0.2, 0.0)
+    said = decoder._why_not(timing, rows, Scene())
+    assert (said is not None) is is_refused
+    if said is not None:
+        assert said.startswith(f"Less than one packet: {rows // 5} of 24 chips")
+    assert decoder._why_not(timing, rows, Scene().replace(pattern="0110")) is None

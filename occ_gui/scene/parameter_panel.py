@@ -15,6 +15,9 @@ from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
+_MARGINS = (9, 9, 9, 2)
+"""Pixels beside the rows; below them stands the margin of the pane."""
+
 
 class ParameterPanel(QWidget):
     """Rows of controls for some of the parameters, created from their declarations.
@@ -46,7 +49,10 @@ class ParameterPanel(QWidget):
         self.labels: dict[str, QLabel] = {}
         layout = QVBoxLayout(self)
         layout.setSpacing(2)
-        for name in names:
+        layout.setContentsMargins(*_MARGINS)
+        for place, name in enumerate(names):
+            if place:
+                layout.addSpacing(6)
             if name in headings:
                 layout.addWidget(_heading(headings[name]))
             row = row_for(PARAMETERS[name])
@@ -56,7 +62,6 @@ class ParameterPanel(QWidget):
             line.addWidget(self.labels[name], 1)
             layout.addLayout(line)
             layout.addWidget(row)
-            layout.addSpacing(6)
             if with_scales and isinstance(row, QuantityRow):
                 self._add_scale(name, row, line)
         layout.addStretch(1)

@@ -5,6 +5,7 @@ from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import CountRow, QuantityRow
 from occ_gui.scene.refusal_notice import RefusalNotice
@@ -96,3 +97,16 @@ def test_a_row_whose_value_was_refused_shows_that_of_the_scene(panel: ParameterP
     distance.slider.setValue(300)
     panel.show_scene(scene)
     assert distance.field.value() == 0.7
+
+
+def test_below_the_last_slider_is_room_for_the_foot_and_for_nothing_else(qtbot: QtBot) -> None:
+    """In a low window it is the foot, what the colours mean, that has to go."""
+    panel, foot = ParameterPanel(MAIN, with_scales=True), QLabel("foot")
+    qtbot.addWidget(panel)
+    panel.add_foot(foot)
+    panel.resize(400, panel.sizeHint().height())
+    panel.show()
+    last = panel.rows[MAIN[-1]].geometry()
+    assert foot.height() == foot.sizeHint().height()
+    assert panel.height() - foot.geometry().bottom() <= 4
+    assert foot.geometry().top() - last.bottom() <= 6

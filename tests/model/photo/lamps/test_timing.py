@@ -5,6 +5,7 @@ import pytest
 
 from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import _LEAST_EDGES, _clipped, _progressions
+from occ_model.photo.lamps.shape import _rectangles
 from occ_model.photo.lamps.timing import LampTiming
 
 
@@ -70,3 +71,19 @@ def test_edges_of_which_every_second_is_a_period_farther_progress() -> None:
     found = _progressions(np.array([*one, *other]), 1.0)
     assert found[0] == (0, 7, pytest.approx(20.0))
     assert (7, 13, pytest.approx(30.0)) in found
+
+
+def test_a_lamps_rectangle_has_every_column_that_its_edges_touch() -> None:
+    """In each strip, smoothed over those beside it, and never beyond the photo."""
+    bounds = np.array([0, 10, 20, 30, 40])
+    sides = (3.2, 9.4)
+    found = _rectangles({1: sides, 2: sides}, bounds, 50)
+    assert found[:, :2].tolist() == [[10, 20], [20, 30]]
+    for left, right in found[:, 2:].tolist():
+        assert (left, right - 1) == (3, 10)
+    (rim,) = _rectangles({0: (-2.5, 60.0)}, bounds, 50)
+    assert rim.tolist() == [0, 10, 0, 50]
+    assert _rectangles({}, bounds, 50).shape == (0, 4)
+    # A strip in which it is not seen is as wide as those to either side.
+    gap = _rectangles({0: sides, 2: sides}, bounds, 50)
+    assert gap[1].tolist() == [10, 20, 3, 11]

@@ -201,8 +201,8 @@ class BenchPlots(QWidget):
             curves = self._curves[axis]
             for item in (*(i for c in curves for i in c.items), self._bounds[axis]):
                 x, y = item.getData()
-                at += [] if x is None else list(x)
-                values += [] if y is None else list(y)
+                at += list(x)
+                values += list(y)
             if at:
                 margin = _MARGIN * (max(at) - min(at)) or 1.0
                 plot.setXRange(min(at) - margin, max(at) + margin, padding=0)

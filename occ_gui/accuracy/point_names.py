@@ -24,8 +24,8 @@ _STEPS = 20
 _PARTS = (24, 96, 384)
 """Where the possible places, from near to far, are divided to be looked at one part at a time."""
 
-_LINE_POINTS = 12
-"""Points of a line at which it is checked that it crosses no name."""
+_LINE_POINTS = 24
+"""Points of a line at which it is checked that it crosses no name and passes no point."""
 
 _FONT_SHARE = 0.9
 """Size of the names, in that of the other texts."""
@@ -158,6 +158,7 @@ class _FreePlaces:
         self._points = np.array([(point.x(), point.y()) for point in points]).reshape(-1, 2)
         self._taken = [_around(point, _POINT, _POINT) for point in points]
         self._names: list[QRectF] = []
+        self._lines = np.empty((0, 2))
 
     def take(self, point: QPointF, size: QSizeF) -> QRectF | None:
         """Take the nearest place for the name of a point; None where there is none."""
@@ -171,18 +172,21 @@ class _FreePlaces:
             alone = free[~self._is_by_another(free, size, at)]
             best = alone[~self._is_crossing(alone, size, at)]
             if len(best):
-                return self._fill(best[0], size)
+                return self._fill(best[0], size, at)
             last = [
                 former if len(former) else new
                 for former, new in zip(last, (alone, free), strict=True)
             ]
         found = next((places for places in last if len(places)), None)
-        return None if found is None else self._fill(found[0], size)
+        return None if found is None else self._fill(found[0], size, at)
 
-    def _fill(self, centre: FloatArray, size: QSizeF) -> QRectF:
+    def _fill(self, centre: FloatArray, size: QSizeF, at: FloatArray) -> QRectF:
         rect = _around(QPointF(*centre.tolist()), size.width(), size.height())
         self._taken.append(rect)
         self._names.append(rect)
+        along = _lines_to(centre[None, :], size, at)[0]
+        if np.hypot(*(along[-1] - at)) >= _LED_FROM:
+            self._lines = np.concatenate([self._lines, along])
         return rect
 
     def _is_free(self, centres: FloatArray, size: QSizeF) -> BoolArray:
@@ -202,15 +206,29 @@ class _FreePlaces:
         return np.asarray((others <= own[:, None]).any(axis=1), dtype=np.bool_)
 
     def _is_crossing(self, centres: FloatArray, size: QSizeF, at: FloatArray) -> BoolArray:
-        """Return which names' lines would cross another name."""
-        ends = np.clip(at, *_corners(centres, size))
-        shares = np.linspace(0.0, 1.0, _LINE_POINTS + 1)
-        along = at + (ends[:, None] - at) * shares[:, None]
-        crossed = np.zeros(len(centres), dtype=np.bool_)
+        """Return which names would lie on another's line, or their own on a name or a point."""
+        along = _lines_to(centres, size, at)
+        crossed = _holds(centres, size, self._lines).any(axis=1)
         for rect in _ends(self._names):
             within = (along >= rect[:2]) & (along <= rect[2:])
             crossed |= within.all(axis=2).any(axis=1)
-        return crossed
+        others = self._points[np.hypot(*(self._points - at).T) > _POINT]
+        away = np.hypot(*np.moveaxis(along[:, :, None] - others, -1, 0))
+        return np.asarray(crossed | (away < _POINT / 2.0).any(axis=(1, 2)), dtype=np.bool_)
+
+
+def _lines_to(centres: FloatArray, size: QSizeF, at: FloatArray) -> FloatArray:
+    """Return points of the lines from a point to its possible names, shape (names, points, 2)."""
+    ends = np.clip(at, *_corners(centres, size))
+    shares = np.linspace(0.0, 1.0, _LINE_POINTS + 1)
+    return np.asarray(at + (ends[:, None] - at) * shares[:, None])
+
+
+def _holds(centres: FloatArray, size: QSizeF, points: FloatArray) -> BoolArray:
+    """Return which rectangles hold which points, shape (rectangles, points)."""
+    low, high = _corners(centres, size)
+    held = (points >= low[:, None]) & (points <= high[:, None])
+    return np.asarray(held.all(axis=2), dtype=np.bool_)
 
 
 @lru_cache(maxsize=64)

@@ -97,12 +97,14 @@ def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder(
 
 
 @pytest.mark.parametrize("size", [QSize(352, 200), QSize(640, 190), QSize(720, 240)], ids=str)
-def test_every_point_is_named_and_no_name_covers_another(plot: AccuracyPlot, size: QSize) -> None:
+def test_points_are_named_and_no_name_covers_another(plot: AccuracyPlot, size: QSize) -> None:
+    """In the smallest plot one name has no room: rather none than one at another's point."""
     plot.resize(size)
     measure(plot, tuple(crowd()))
     QApplication.processEvents()
     places = plot.names.places
-    assert set(places) == {way.name for way in ways_shown(crowd())}
+    unnamed = {way.name for way in ways_shown(crowd())} - set(places)
+    assert len(unnamed) <= (1 if size.width() < 400 else 0)
     for one, other in combinations(places, 2):
         assert not places[one].intersects(places[other]), (one, other)
     area = plot.plot.getViewBox().sceneBoundingRect()
@@ -227,3 +229,20 @@ def test_the_line_to_a_name_does_not_cross_another_name() -> None:
     at = np.array([here.x(), here.y()])
     other = 2.0 * at - centre
     assert places._is_crossing(np.concatenate([centre, other]), size, at).tolist() == [True, False]
+
+
+def test_a_name_does_not_lie_on_the_line_to_another_name() -> None:
+    one, other, size = np.array([50.0, 200.0]), np.array([200.0, 300.0]), QSizeF(40.0, 10.0)
+    places = _FreePlaces(QRectF(0.0, 0.0, 400.0, 400.0), [QPointF(*one), QPointF(*other)])
+    places._fill(np.array([350.0, 200.0]), size, one)
+    on_the_line, beside_it = np.array([[200.0, 200.0]]), np.array([[200.0, 320.0]])
+    assert places._is_crossing(on_the_line, size, other).tolist() == [True]
+    assert places._is_crossing(beside_it, size, other).tolist() == [False]
+
+
+def test_the_line_to_a_name_does_not_pass_another_point() -> None:
+    here, between, size = np.array([50.0, 200.0]), QPointF(150.0, 202.0), QSizeF(40.0, 10.0)
+    places = _FreePlaces(QRectF(0.0, 0.0, 400.0, 400.0), [QPointF(*here), between])
+    behind_it, elsewhere = np.array([[250.0, 200.0]]), np.array([[50.0, 100.0]])
+    assert places._is_crossing(behind_it, size, here).tolist() == [True]
+    assert places._is_crossing(elsewhere, size, here).tolist() == [False]

@@ -55,6 +55,8 @@ class MatchForm(QWidget):
         super().__init__(parent)
         self._scene: Scene | None = None
         self._certain: dict[str, float] = {}
+        self._forgotten: dict[str, float] = {}
+        """The values that were confirmed of the photos before."""
         self.sent = KeyedComboBox(
             self.tr("What was sent"),
             self.tr(
@@ -157,6 +159,7 @@ class MatchForm(QWidget):
         self._set_certain(name, self.known[name].value() if certain else None)
 
     def _set_certain(self, name: str, value: float | None) -> None:
+        self._forgotten.pop(name, None)
         if value is None:
             self._certain.pop(name, None)
         else:
@@ -165,7 +168,8 @@ class MatchForm(QWidget):
         self.certain_changed.emit(dict(self._certain))
 
     def forget_certain(self) -> None:
-        """Take no value as confirmed: another photo is open."""
+        """Take no value as confirmed, and say so of those that were: another photo is open."""
+        self._forgotten |= self._certain
         self._certain.clear()
         self._show_known()
         self.certain_changed.emit({})
@@ -233,7 +237,7 @@ class MatchForm(QWidget):
         self.square.set_value(choice.square_frequency)
         self.estimate.show_key(choice.estimate)
         self.gamma.setChecked(choice.fit_gamma)
-        self._certain = dict(certain)
+        self._certain, self._forgotten = dict(certain), {}
         self._show_known()
         self.certain_changed.emit(dict(certain))
 
@@ -276,9 +280,18 @@ class MatchForm(QWidget):
         if square:
             self.known[_FREQUENCY].set_value(CHIPS_OF_A_CYCLE * self.square.value())
         name = self._known_name()
-        self.certain.setChecked(is_certain(name, self.known[name].value(), self._certain))
-        blinking = self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE
-        self.hint.setText(
-            self.tr("chips: a blinking LED of {cycles}").format(cycles=HERTZ.format(blinking, 4))
-        )
-        self.hint.setVisible(of_frequency)
+        known = self.known[name].value()
+        self.certain.setChecked(is_certain(name, known, self._certain))
+        lines = []
+        if of_frequency:
+            blinking = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
+            lines.append(self.tr("chips: a blinking LED of {cycles}").format(cycles=blinking))
+        if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
+            lines.append(
+                self.tr(
+                    "Only assumed here: it was certain of another photo. Tick “certain” if it "
+                    "holds for this one."
+                )
+            )
+        self.hint.setText("\n".join(lines))
+        self.hint.setVisible(bool(lines))

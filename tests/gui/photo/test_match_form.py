@@ -1,6 +1,7 @@
 """Form of a match: every choice of the model, known values, progress and cancelling."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from gui.combo_box import choose
@@ -247,3 +248,27 @@ def test_what_was_confirmed_of_a_square_wave_ends_with_it(view: PhotoView) -> No
     view.form._take_sent("auto")
     assert view.form._certain == {}
     assert not view.form.certain.isChecked()
+
+
+@pytest.mark.parametrize("how", ["another photo", "several photos"])
+def test_what_was_certain_of_one_photo_is_said_to_be_assumed_of_the_next(
+    view: PhotoView, photo: Photo, qtbot: QtBot, how: str
+) -> None:
+    view.show_photo(photo)
+    choose(qtbot, view.form.sent, "square")
+    assert view.form.certain.isChecked()
+    assert "assumed" not in view.form.hint.text()
+    others = [Path("b.png"), Path("c.png")]
+    if how == "several photos":
+        view.many.show_files(others)
+    view.show_photo(replace(photo, path=others[0]))
+    assert (view.form.sent.key(), view.form.certain.isChecked()) == ("square", False)
+    assert view.form.hint.isVisible()
+    assert "Only assumed here" in view.form.hint.text()
+    choose(qtbot, view.form.sent, "auto")  # the scene's frequency was never confirmed
+    assert "assumed" not in view.form.hint.text()
+    choose(qtbot, view.form.sent, "square")
+    assert view.form.certain.isChecked()
+    view.form.certain.click()
+    view.form.certain.click()
+    assert "assumed" not in view.form.hint.text()

@@ -42,15 +42,15 @@ class LessonAnswers(QObject):
     checked = Signal(Lesson, int)
     """The lesson and the place of the step whose answer has been checked."""
 
-    failed = Signal(str)
-    """Why an answer cannot be checked."""
-
     def __init__(self) -> None:
         super().__init__()
         self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
+        self._waiting: list[_Asked] = []
+        """What is being checked, and after it what is to be checked: none of it is forgotten."""
         self.runner: LatestWins[_Asked, tuple[_Asked, CheckedAnswer]] = LatestWins(_check, "lesson")
         self.runner.finished.connect(self._keep)
-        self.runner.failed.connect(self.failed)
+        self.runner.failed.connect(self._keep_failure)
+        self.runner.idle.connect(self._check_next)
 
     def check(
         self, lesson: Lesson, place: int, text: str, scene: Scene, photo: MatchedPhoto
@@ -58,7 +58,15 @@ class LessonAnswers(QObject):
         """Check an answer to a step, given while ``scene`` was shown and ``photo`` open."""
         if not lesson.steps[place].own_photo:
             photo = MatchedPhoto()
-        self.runner.submit(_Asked(lesson, place, text, scene, photo))
+        pending = CheckedAnswer(text, None, self.tr("The model computes…"))
+        self._given[lesson.name, place] = (pending, scene, photo)  # the one before is outdated
+        self._waiting.append(_Asked(lesson, place, text, scene, photo))
+        if self.runner.is_idle:
+            self._check_next()
+
+    def is_checking(self, lesson: Lesson) -> bool:
+        """Return whether an answer to a lesson is still being checked."""
+        return any(asked.lesson.name == lesson.name for asked in self._waiting)
 
     def of(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
         """Return the answer to a step; None where there is none."""
@@ -80,10 +88,21 @@ class LessonAnswers(QObject):
             found.append(AnsweredStep(step, answer, scene, photo.match, photo.name))
         return tuple(found)
 
+    def _check_next(self) -> None:
+        if self._waiting:
+            self.runner.submit(self._waiting[0])
+
+    def _keep_failure(self, sentence: str) -> None:
+        asked = self._waiting[0]
+        self._keep((asked, CheckedAnswer(asked.text.strip(), None, sentence)))
+
     def _keep(self, done: tuple[_Asked, CheckedAnswer]) -> None:
         asked, answer = done
-        self._given[asked.lesson.name, asked.place] = (answer, asked.scene, asked.photo)
-        self.checked.emit(asked.lesson, asked.place)
+        del self._waiting[0]
+        key = (asked.lesson.name, asked.place)
+        if key not in {(later.lesson.name, later.place) for later in self._waiting}:
+            self._given[key] = (answer, asked.scene, asked.photo)
+            self.checked.emit(asked.lesson, asked.place)
 
 
 def _check(asked: _Asked) -> tuple[_Asked, CheckedAnswer]:

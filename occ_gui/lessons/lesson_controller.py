@@ -21,7 +21,7 @@ from occ_gui.widgets.plot import PACKETS_IN_VIEW
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
-from occ_model.results.lessons import CheckedAnswer, Lesson, LessonList, Step
+from occ_model.results.lessons import Lesson, LessonList, Step
 from occ_model.teaching.explanations import explanation
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
@@ -96,7 +96,6 @@ class LessonController(QObject):
         self._kept: KeptPhoto | None = None
         photos.opened.connect(self._note_photo)
         answers.checked.connect(self._show_checked)
-        answers.failed.connect(self._show_failed)
         scenes.changed.connect(self._follow_scene)
         pane.list.chosen.connect(self.choose)
         pane.list_asked.connect(self.leave)
@@ -161,9 +160,13 @@ class LessonController(QObject):
         self._last, self._current = self._current, None
         self.control_wanted.emit("")
         self.restore_user()
-        given = [each.answer for each in self._answers.all_of(self._last)]
+        self._show_end(self._last)
+
+    def _show_end(self, done: Lesson) -> None:
+        given = [each.answer for each in self._answers.all_of(done)]
         following = self._following()
-        self._pane.show_end(self._last, given, "" if following is None else following.title)
+        self._pane.show_end(done, given, "" if following is None else following.title)
+        self._pane.end.report.setEnabled(not self._answers.is_checking(done))
 
     def _following(self) -> Lesson | None:
         """Return the lesson that follows in the list on the one that is done, None after the last.
@@ -315,9 +318,8 @@ class LessonController(QObject):
         if lesson is self._current and place == self._places[lesson.name] and answer is not None:
             self._pane.step.answer_field.show_checked(answer)
             self._mark_answer()
-
-    def _show_failed(self, sentence: str) -> None:
-        self._pane.step.answer_field.show_checked(CheckedAnswer("", None, sentence))
+        if lesson is self._last:  # its end is shown already, before this answer was checked
+            self._show_end(lesson)
 
     def _ask_action(self) -> None:
         step = self._step()

@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 from pathlib import Path
+from threading import Event
+from typing import Any
 
 import pytest
 from gui.user import User
@@ -11,9 +13,12 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.lessons import answers
 from occ_gui.lessons.lesson_list import LessonList
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.step_page import StepPage
+from occ_model.results.lessons import CheckedAnswer
+from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import lessons
 
 
@@ -48,6 +53,37 @@ def test_a_number_is_checked_against_the_model_and_kept(guide: LessonView, user:
     assert guide.step.answer_field.field.text() == "62.5"
     assert "Right" in guide.step.answer_field.sentence.text()
     user.wait_until_idle()
+
+
+def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is(
+    application: Application, guide: LessonView, user: User, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    go_on, given = Event(), guide.step.answer_field
+
+    def slow(*question: Any) -> CheckedAnswer:
+        assert go_on.wait(20)
+        return check_answer(*question)
+
+    guide.list.choices[0].click()
+    answer(guide, user, "65")  # near, and recorded until another one is given
+    monkeypatch.setattr(answers, "check_answer", slow)
+    for text, button in (("62.5", guide.step.next), ("25", guide.step.next)):
+        given.field.setText(text)
+        given.check.click()
+        button.click()
+    given.field.setText("27.6")
+    given.check.click()
+    guide.step.next.click()
+    assert guide.end.isVisible()
+    assert guide.end.answers.text().count("The model computes…") == 3
+    assert "Look once more" not in guide.end.answers.text()
+    assert not guide.end.report.isEnabled()
+    go_on.set()
+    user.wait_until_idle()
+    assert "62.5 columns. Right." in guide.end.answers.text()
+    assert "27.6 ms. Right." in guide.end.answers.text()
+    assert "computes" not in guide.end.answers.text()
+    assert guide.end.report.isEnabled()
 
 
 def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(

@@ -272,3 +272,15 @@ def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(benc
     assert (corner.x() + size.x(), corner.y() + size.y()) == (39.5, 24.5)
     for handle in bench.outlines.rectangle.handles:
         assert handle["pos"] + handle["center"] == pg.Point(1.0, 1.0)
+
+
+def test_a_lamps_number_stands_above_it_and_hides_nothing_of_it(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    bench.find(monkeypatch, qtbot)
+    for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
+        assert (number.pos().x(), number.pos().y()) == (
+            lamp.region.first_column, lamp.region.first_row,
+        )  # fmt: skip
+        # Its lower left corner is there.
+        assert (number.anchor.x(), number.anchor.y()) == (0.0, 1.0)

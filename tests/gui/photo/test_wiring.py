@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from gui.user import User
+from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.photo.wiring import PhotoWiring
@@ -28,7 +29,7 @@ def test_the_photo_is_idle_where_none_of_its_controllers_works(busy: str) -> Non
 
 
 def test_a_rectangle_that_is_drawn_is_the_one_matched(
-    application: Application, user: User, photo_file: Path
+    application: Application, user: User, qtbot: QtBot, photo_file: Path
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
@@ -36,3 +37,11 @@ def test_a_rectangle_that_is_drawn_is_the_one_matched(
     wiring.lamps.set_by_hand(True)
     wiring.outlines.drawn.emit(Region(5, 25, 10, 40))
     assert wiring.lamps.by_hand == wiring.matching._region == Region(5, 25, 10, 40)
+    form = application.photo.lamps
+    form.whole_asked.emit()
+    assert wiring.lamps.by_hand is None
+    form.by_hand_chosen.emit(True)
+    assert wiring.lamps.by_hand is not None
+    with qtbot.waitSignal(wiring.lamps.searching):
+        form.find_asked.emit()
+    user.wait_until_idle()

@@ -13,6 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from amount import amount
 from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
 from gui.soak_errands import install_plugins
 from PySide6.QtGui import QGuiApplication
@@ -22,7 +23,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import GarbageCollector
 from occ_gui.lessons import lesson_controller as lessons_room
 
-ACTIONS = int(os.environ.get("OCC_SOAK", "200"))
+ACTIONS = int(os.environ.get("OCC_SOAK", amount(100, 200)))
 _LONG = 5_000
 """Actions after whose first fifth all that is kept on purpose has been filled."""
 

@@ -54,9 +54,10 @@ def test_row_spans_are_those_of_rational_arithmetic(quad: np.ndarray) -> None:
     for row in range(rows):
         ends = crossings(quad, row) or [Fraction(columns)] * 2
         left, right = ends[0], ends[-1]
+        # A whole number is at or beyond a place where it is so of the whole number above that.
+        inside = range(math.ceil(left), math.ceil(right))
         for column in range(columns):
-            found = bool(first[row] <= column < last[row])
-            if found != (left <= column < right):
+            if bool(first[row] <= column < last[row]) != (column in inside):
                 worst = max(worst, min(abs(column - left), abs(column - right)))
     size = max(float(np.abs(quad).max()), columns)
     error = float(worst) / size
@@ -86,8 +87,9 @@ def test_sharp_coverage_is_that_of_rational_arithmetic(star: np.ndarray) -> None
     worst = Fraction(0)
     for row in range(rows):
         ends = crossings(star, row)
+        firsts = [math.ceil(end) for end in ends]
         for column in range(columns):
-            inside = sum(end <= column for end in ends) % 2 == 1
+            inside = sum(first <= column for first in firsts) % 2 == 1
             if inside != bool(found[row, column]):
                 worst = max(worst, min((abs(column - end) for end in ends), default=Fraction(99)))
     size = max(float(np.abs(star).max()), columns)

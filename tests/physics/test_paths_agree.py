@@ -1,7 +1,5 @@
 """The profile path and the image path give the same success rates, as far as counting can tell."""
 
-from functools import cache
-
 import numpy as np
 import pytest
 from physics.paths import TwoPaths, compared, significance
@@ -11,7 +9,6 @@ from occ_model.results import RateSettings
 from occ_model.study.success_rate import right_bits
 
 
-@cache
 def found(scenes: int, images: int) -> list[TwoPaths]:
     return list(compared(scenes, images, seed=5))
 

@@ -6,7 +6,7 @@ from round_trips import Found, round_trip, round_trips
 
 pytestmark = pytest.mark.first
 
-SAMPLE, WHOLE = 10, 16  # tests/benchmarks/matching.py: hundreds
+SAMPLE, WHOLE = 6, 16  # tests/benchmarks/matching.py: hundreds
 
 
 @pytest.fixture(scope="module")

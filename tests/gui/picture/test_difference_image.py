@@ -18,7 +18,7 @@ def noise(rows: int, columns: int) -> Grey:
 
 def by_hand(image: Grey, grid: QRectF, shape: tuple[int, int]) -> NDArray[np.float64]:
     """Cut every pixel into 16 x 16 parts and average those in each cell."""
-    fine = np.kron(image.astype(np.float64), np.ones((16, 16)))
+    fine = image.astype(np.float64).repeat(16, axis=0).repeat(16, axis=1)
     top, left = round(16 * grid.top()), round(16 * grid.left())
     part = fine[top : top + round(16 * grid.height()), left : left + round(16 * grid.width())]
     high, wide = part.shape[0] // shape[0], part.shape[1] // shape[1]

@@ -2,6 +2,7 @@
 
 import math
 import re
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -20,8 +21,14 @@ PHOTO = take(SCENE)
 KNOWN = SCENE.replace(readout_time=1e-6, exposure_time=1e-3, start_time=0.0)
 
 
+@cache
+def matched() -> occ.Match:
+    """Match the photo once for all who only look at what was found."""
+    return occ.match_photo(PHOTO, KNOWN)
+
+
 def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
-    match = occ.match_photo(PHOTO, KNOWN)
+    match = matched()
     frame = occ.render(match.scene, tolerance=math.inf)
     assert frame.image.shape == PHOTO.samples.shape
     assert frame.corners.min(axis=0) == pytest.approx(
@@ -44,14 +51,14 @@ def test_the_fitted_scene_lies_on_the_photo_through_a_bent_lens(k1: float) -> No
 
 
 def test_the_residual_is_the_photo_less_the_aligned_profile() -> None:
-    match = occ.match_photo(PHOTO, KNOWN)
+    match = matched()
     assert np.allclose(match.residual, match.stripes.profile - match.profile)
     assert match.rmse == pytest.approx(float(np.sqrt(np.mean(match.residual**2))))
 
 
 def test_frequency_or_readout_time_is_estimated_from_the_other() -> None:
     readout, frequency = SCENE.camera.readout_time, SCENE.transmitter.switching_frequency
-    one = occ.match_photo(PHOTO, KNOWN)
+    one = matched()
     other = occ.match_photo(
         PHOTO,
         KNOWN.replace(readout_time=readout, switching_frequency=1e3),
@@ -110,7 +117,7 @@ def test_what_the_camera_noted_goes_into_the_scene() -> None:
 
 
 def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
-    assert occ.match_photo(PHOTO, KNOWN).scene.model.averaging == SCENE.model.averaging
+    assert matched().scene.model.averaging == SCENE.model.averaging
     given = occ.match_photo(PHOTO, KNOWN, averaging="pixel-value")
     assert given.scene.model.averaging == "pixel-value"
 

@@ -8,8 +8,13 @@ from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.read_pattern import read_patterns
 
 BY_EDGES = np.array([1, 0, 0, 1, 1, 0], dtype=np.uint8)
-BY_LINES = np.array([1, 0, 0, 1, 0, 0], dtype=np.uint8)
+BY_LINES = np.array([1, 1, 1, 0, 1, 0], dtype=np.uint8)
 LINE = np.tile(np.repeat([0.0, 1.0], 10), 12)
+
+
+def turned(chips: np.ndarray) -> list[int]:
+    """Give one and the same turn of chips that go round."""
+    return min(np.roll(chips, turn).tolist() for turn in range(len(chips)))
 
 
 def read(
@@ -20,7 +25,7 @@ def read(
     monkeypatch.setattr(read_pattern, "_fewest", lambda *_: edges)
     monkeypatch.setattr(read_pattern, "_chips_by_lines", lambda *_: lines)
     found = read_patterns(LINE, LINE, 60.0, lambda: None, by_edges_only=by_edges_only)
-    return [one.chips.tolist() for one in found]
+    return [turned(one.chips) for one in found]
 
 
 @pytest.mark.parametrize(
@@ -31,7 +36,7 @@ def test_clear_edges_of_short_exposures_need_no_other_reading(
     monkeypatch: pytest.MonkeyPatch, explained: float, exposure: float, both: bool
 ) -> None:
     edges = ReadPattern(BY_EDGES, explained, exposure, 0.0)
-    expected = [BY_EDGES.tolist(), BY_LINES.tolist()]
+    expected = [turned(BY_EDGES), turned(BY_LINES)]
     assert read(monkeypatch, edges) == expected[: 1 + both]
     assert read(monkeypatch, edges, by_edges_only=True) == expected[:1]
 
@@ -39,9 +44,9 @@ def test_clear_edges_of_short_exposures_need_no_other_reading(
 def test_without_edges_the_harmonics_are_read_unless_edges_alone_are_asked_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    assert read(monkeypatch, None) == [BY_LINES.tolist()]
+    assert read(monkeypatch, None) == [turned(BY_LINES)]
     assert read(monkeypatch, None, by_edges_only=True) == []
 
 
 def test_chips_that_are_read_in_both_ways_are_given_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert read(monkeypatch, ReadPattern(BY_LINES, 0.9, 0.5, 0.0)) == [BY_LINES.tolist()]
+    assert read(monkeypatch, ReadPattern(BY_LINES, 0.9, 0.5, 0.0)) == [turned(BY_LINES)]

@@ -183,7 +183,7 @@ class Written:
         monkeypatch.setattr(
             paper,
             "load_preset",
-            lambda name: occ.load_preset(name).replace(rows=60, panel_height=0.05),
+            lambda name: occ.load_preset(name).replace(rows=60, panel_height=0.02),
         )
 
 

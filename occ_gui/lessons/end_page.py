@@ -3,12 +3,14 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from occ_gui.lessons.step_page import LEAST
 from occ_gui.lessons.texts import button, heading, paragraph
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.lessons import CheckedAnswer, Lesson
+
+_LONGEST_NAME = 120
 
 
 class EndPage(QWidget):
@@ -25,6 +27,10 @@ class EndPage(QWidget):
             self.tr("Save the report…"),
             self.tr("Save one page with your answers and figures, as PDF."),
         )
+        self.author = QLineEdit()
+        self.author.setPlaceholderText(self.tr("Your name, for the report"))
+        self.author.setAccessibleName(self.tr("Your name, as it shall stand on the report"))
+        self.author.setMaxLength(_LONGEST_NAME)
         self.all = button(
             self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")
         )
@@ -44,6 +50,9 @@ class EndPage(QWidget):
         row = QHBoxLayout()
         row.setContentsMargins(8, 0, 8, 4)
         row.setSpacing(8)
+        named = QHBoxLayout()
+        named.setContentsMargins(8, 0, 8, 4)
+        named.addWidget(self.author)
         # Where the button was that ended the lesson stands one that a second click may press.
         row.addWidget(self.report, 1)
         row.addWidget(self.all, 1)
@@ -54,6 +63,7 @@ class EndPage(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(ScrollPane(content, LEAST), 1)
         layout.addLayout(above)
+        layout.addLayout(named)
         layout.addLayout(row)
 
     def show_answers(

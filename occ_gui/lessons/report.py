@@ -6,7 +6,7 @@ from datetime import date
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtWidgets import QFileDialog, QInputDialog, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.files.preferences import Preferences
@@ -46,14 +46,13 @@ class LessonReports(QObject):
         self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
 
-    def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep]) -> None:
-        """Let the user enter a name and choose a file, and write the report."""
-        author, wanted = QInputDialog.getText(
-            self._window, self.tr("Report"), self.tr("Your name, as it shall stand on the report:"),
-            text=self._preferences.recall(_AUTHOR),
-        )  # fmt: skip
-        if not wanted:
-            return
+    @property
+    def author(self) -> str:
+        """The name of the student on the last report; empty before."""
+        return self._preferences.recall(_AUTHOR)
+
+    def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
+        """Let the user choose a file, and write the report with this name of the student."""
         author = one_line(author.strip())
         self._preferences.keep(_AUTHOR, author)
         start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")

@@ -50,6 +50,8 @@ class LessonWiring(QObject):
         self.answers = LessonAnswers()
         self.controller = LessonController(scenes, photos, pane, self.answers)
         self.reports = LessonReports(pane, preferences)
+        self._end = pane.end
+        self._end.author.setText(self.reports.author)
         self.spotlight = Spotlight(controls)
         self._equations = EquationController(scenes, pane.step)
         self.controller.control_wanted.connect(self.spotlight.show_only)
@@ -88,4 +90,4 @@ class LessonWiring(QObject):
         self.reports.runner.stop()
 
     def _write_report(self, lesson: Lesson) -> None:
-        self.reports.ask(lesson, self.answers.all_of(lesson))
+        self.reports.ask(lesson, self.answers.all_of(lesson), self._end.author.text())

@@ -12,7 +12,7 @@ from gui.wheel import turn_wheel, views_of
 from PIL import Image
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QFileDialog, QInputDialog
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -72,7 +72,7 @@ def short_film() -> list[VideoFrame]:
 
 
 class FileDialogs:
-    """Answers every dialog that asks for a path with the one laid ready, and gives a name."""
+    """Answers every dialog that asks for a path with the one laid ready."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.path = Path()
@@ -80,7 +80,6 @@ class FileDialogs:
             monkeypatch.setattr(QFileDialog, name, lambda *_: (str(self.path), ""))
         monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *_: ([str(self.path)], ""))
         monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(self.path))
-        monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("Ada", True))
 
     def lay_ready(self, path: Path) -> None:
         """Answer the next dialogs with this path."""

@@ -9,7 +9,7 @@ import pytest
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QDesktopServices
-from PySide6.QtWidgets import QFileDialog, QInputDialog
+from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -271,12 +271,13 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     assert "62.5 columns. Right." in guide.end.answers.text()
     assert guide.end.answers.text().count("no answer") == 2
     path = tmp_path / "report"
-    monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("Ada $x_1$", True))
+    guide.end.author.setText("Ada $x_1$ ")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     guide.end.report.click()
     user.wait_until_idle()
     assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
     assert user.message == "Saved report.pdf"
+    assert application.learning.lessons.reports.author == "Ada $x_1$"
 
 
 def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
@@ -309,9 +310,6 @@ def test_a_report_that_is_not_wanted_writes_nothing(
     guide.list.choices[0].click()
     for _ in range(3):
         guide.step.next.click()
-    monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("", False))
-    guide.end.report.click()
-    monkeypatch.setattr(QInputDialog, "getText", lambda *_, **__: ("", True))
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
     guide.end.report.click()
     user.wait_until_idle()

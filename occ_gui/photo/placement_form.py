@@ -46,6 +46,10 @@ SCALE = Quantity(
 )  # fmt: skip
 
 
+_FIELD = 12
+"""Digits for which a field has room at the least, its arrows and frame among them."""
+
+
 class PlacementForm(QWidget):
     """Shift and scale of the photo, by numbers or by the mouse, and a reset button."""
 
@@ -94,6 +98,8 @@ class PlacementForm(QWidget):
         field.setAccessibleName(declared.label)
         field.setToolTip(explain(declared))
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
+        # Qt would keep room for the farthest place that can be entered.
+        field.setMinimumWidth(_FIELD * field.fontMetrics().horizontalAdvance("0"))
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
         notice = self.notices[field] = RefusalNotice(field)

@@ -162,6 +162,9 @@ class StoryView(QWidget):
             kind = kinds.Expanding if page is self._pages.currentWidget() else kinds.Ignored
             if page is not None:
                 page.setSizePolicy(kind, kind)
+        # At once: who is shown beside it next would else find the width of the page before.
+        self._pages.updateGeometry()
+        self.updateGeometry()
 
     @property
     def shows_whole_picture(self) -> bool:

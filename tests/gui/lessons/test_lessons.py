@@ -305,6 +305,20 @@ def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that
     assert state() == before
 
 
+def test_a_lesson_beside_its_photo_fits_into_a_small_window(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    window = application.window
+    window.modes.switch("lessons")
+    window.resize(1000, 700)
+    user.wait_until_idle()
+    guide.list.choices[5].click()
+    user.wait_until_idle()
+    qtbot.waitUntil(lambda: application.photo.placement.isVisible())
+    assert window.minimumSizeHint().width() <= 1000
+    assert window.width() == 1000
+
+
 def test_a_photo_opened_during_a_lesson_stays_open(
     application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:

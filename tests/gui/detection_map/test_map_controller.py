@@ -367,3 +367,13 @@ def test_a_map_is_full_of_its_own_scene_alone_and_its_first_answer_awaited_once(
     bench.scenes.change(iso=200.0)
     assert controller.full is None
     assert not controller.is_first_answer_awaited
+
+
+def test_the_pane_follows_what_is_shown_and_the_pictures_a_second(
+    bench_of: Callable[..., Bench],
+) -> None:
+    bench = bench_of()
+    bench.controller._frame_rate.show("bits")
+    assert bench.pane.bits[0] == "bits"
+    bench.controller._frame_rate.change(12.0)
+    assert bench.pane.bits == ("bits", 12.0)

@@ -120,3 +120,12 @@ def test_a_fit_states_what_noise_does_to_it() -> None:
         assert 0.65 < np.std(found) / stated < 1.5
         assert abs(found.mean() - getattr(TRUE, name)) < stated
     assert all(fit.covariance[3, 3] == 0.0 for fit in fits)
+
+
+def test_stripes_that_vanish_are_taken_for_a_twentieth_of_the_highest_ones() -> None:
+    """Whoever flattens divides by their height: it is never next to nothing."""
+    shapes = smooth_shapes(COLUMNS, 2)
+    fading = shapes @ [61.0, 60.0]
+    fit = model_of(30.0 + fading * LIT).described(TRUE, np.zeros((4, 4)))
+    assert fit.swing.max() == pytest.approx(121.0, rel=0.02)
+    assert fit.swing.min() == pytest.approx(0.05 * fit.swing.max())

@@ -186,6 +186,8 @@ class Application(QObject):
         self.photo.form.edited.connect(self.editor.edit)
         self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
         self.photo.many.save_asked.connect(self.files.ask_to_save_table)
+        for copying in (self.photo.many, self.photo.result.paste, self.profile.chips):
+            copying.copied.connect(self.window.say)
         self.photo_wiring.matching.matched.connect(self._on_match)
         self.photo_wiring.matching.failed.connect(self.messages.show_match_failure)
         self.preferences.changed.connect(self._list_recent)

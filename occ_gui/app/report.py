@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 import occ_model as occ
+from occ_gui.widgets.copying import copy_text
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -79,13 +80,14 @@ def show_report(window: QWidget, text: str) -> None:
     shown.setAccessibleName(window.tr("Text of the report"))
     buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
     copy = buttons.addButton(window.tr("&Copy"), QDialogButtonBox.ButtonRole.ActionRole)
-    copy.clicked.connect(lambda: QGuiApplication.clipboard().setText(text))
     buttons.rejected.connect(dialog.reject)
     layout = QVBoxLayout(dialog)
     advice = QLabel(
         window.tr("Copy this into a report of a mistake. Read it first: a message may name a file.")
     )
     advice.setWordWrap(True)
+    # The status line is behind the dialog.
+    copy.clicked.connect(lambda: advice.setText(copy_text(text)))
     for widget in (advice, shown, buttons):
         layout.addWidget(widget)
     dialog.resize(*_SIZE)

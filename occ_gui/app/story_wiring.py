@@ -3,7 +3,6 @@
 from typing import Protocol
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt
-from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 
 from occ_gui.app.learning_panes import LearningPanes
@@ -18,6 +17,7 @@ from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.story.story_view import StoryView
+from occ_gui.widgets.copying import copy_text
 from occ_gui.window.main_window import MainWindow
 
 
@@ -77,7 +77,7 @@ def story_menu(parts: Parts) -> QMenu:
     text = parts.story.readout.toolTip()
     menu.addAction(
         QCoreApplication.translate("StoryMenu", "Copy the &values at the crosshair"),
-        lambda: QGuiApplication.clipboard().setText(text),
+        lambda: parts.window.say(copy_text(text)),
     )
     for name in ("copy_figure", "export_profile", "export_picture", "measure", "fit"):
         if name in actions:

@@ -2,8 +2,7 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QLabel,
@@ -12,11 +11,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from occ_gui.widgets.copying import copy_text
 from occ_model.photo.many.other_programs import note_on
 
 
 class PasteLines(QWidget):
     """A line for each program."""
+
+    copied = Signal(str)
+    """A text was copied: a sentence that says so."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -68,7 +71,7 @@ class PasteLines(QWidget):
             copy.setText(self.tr("Copy"))
             copy.setToolTip(self.tr("Copy the line for {program}.").format(program=program))
             copy.clicked.connect(
-                lambda _checked=False, text=line: QGuiApplication.clipboard().setText(text)
+                lambda _checked=False, text=line: self.copied.emit(copy_text(text))
             )
             row, parts = len(self.lines), (QLabel(program), field, copy)
             for place, part in enumerate(parts):

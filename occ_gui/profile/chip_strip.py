@@ -1,10 +1,11 @@
 """Strip of chips under the profile: those read from a photo, each below its columns."""
 
-from PySide6.QtCore import QPointF, QRectF, QSize
-from PySide6.QtGui import QColor, QGuiApplication, QPainter, QPaintEvent
+from PySide6.QtCore import QPointF, QRectF, QSize, Signal
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 
 from occ_gui.widgets.chip_cell import draw_chips
+from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.plot import PHOTO, Plot
 from occ_model.results import ChipReading
@@ -23,6 +24,9 @@ class ChipStrip(QWidget):
     left
         Pixels of the plot's axis, where the button has its place.
     """
+
+    copied = Signal(str)
+    """A text was copied: a sentence that says so."""
 
     def __init__(self, plot: Plot, left: int) -> None:
         super().__init__()
@@ -63,7 +67,7 @@ class ChipStrip(QWidget):
 
     def _copy(self) -> None:
         if self.cells.reading is not None:
-            QGuiApplication.clipboard().setText(self.cells.reading.text)
+            self.copied.emit(copy_text(self.cells.reading.text))
 
 
 class _Cells(QWidget):

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QModelIndex, Qt, Signal
-from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -21,6 +20,7 @@ from occ_gui.photo.many.rows_model import NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_choice import KNOWN
 from occ_gui.photo.match_values import label_of, what_errors_mean, with_uncertainty
 from occ_gui.photo.paste_lines import PasteLines
+from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.many.other_programs import (
     frame_readout_time,
@@ -44,6 +44,9 @@ class ManyPhotosView(QWidget):
 
     match_asked = Signal()
     """The user matches all photos."""
+
+    copied = Signal(str)
+    """A text was copied: a sentence that says so."""
 
     save_asked = Signal(str)
     """The user saves the table: its text as CSV."""
@@ -81,6 +84,7 @@ class ManyPhotosView(QWidget):
             )
         )
         self.paste = PasteLines()
+        self.paste.copied.connect(self.copied)
         for label in (self.mean, self.exposure, self.frame):
             label.setToolTip(what_errors_mean())
         self.stale = _text(self.tr("Whether the table still belongs to the known value"))
@@ -115,7 +119,7 @@ class ManyPhotosView(QWidget):
         self.start.clicked.connect(self.match_asked)
         self.copy = QPushButton(self.tr("&Copy table"))
         self.copy.setToolTip(self.tr("Copy the table as CSV, with the scene that it belongs to."))
-        self.copy.clicked.connect(lambda: _to_clipboard(self.csv()))
+        self.copy.clicked.connect(lambda: self.copied.emit(copy_text(self.csv())))
         self.save = QPushButton(self.tr("&Save table…"))
         self.save.setToolTip(
             self.tr("Save the table as a CSV file, with the scene that it belongs to.")
@@ -316,7 +320,3 @@ def _text(name: str) -> QLabel:
     label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     label.setAccessibleName(name)
     return label
-
-
-def _to_clipboard(text: str) -> None:
-    QGuiApplication.clipboard().setText(text)

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from gui.user import User
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QApplication, QDialog, QPlainTextEdit, QPushButton
+from PySide6.QtWidgets import QApplication, QDialog, QLabel, QPlainTextEdit, QPushButton
 
 import occ_model as occ
 from occ_gui.app.application import Application
@@ -53,5 +53,6 @@ def test_the_menu_shows_and_copies_it(application: Application, user: User) -> N
     (copy,) = [b for b in dialog.findChildren(QPushButton) if b.text() == "&Copy"]
     copy.click()
     assert QGuiApplication.clipboard().text() == shown
+    assert any(label.text().startswith("Copied: ") for label in dialog.findChildren(QLabel))
     dialog.reject()
     QApplication.sendPostedEvents()

@@ -62,8 +62,11 @@ def test_only_chips_in_view_are_drawn(view: ProfileView) -> None:
 
 
 def test_chips_are_copied_as_text_and_told_in_words(view: ProfileView, qtbot: QtBot) -> None:
+    said: list[str] = []
+    view.chips.copied.connect(said.append)
     qtbot.mouseClick(view.chips.copy, Qt.MouseButton.LeftButton)
     assert QGuiApplication.clipboard().text() == "10110"
+    assert said == ["Copied: 10110"]
     cells = view.chips.cells
     assert cells.toolTip() == (
         "5 chips read from the photo, 10.00 columns each; all of them are right with a "

@@ -64,5 +64,6 @@ def test_the_context_menu_copies_the_values_at_the_crosshair(
     entries = {action.text(): action for action in story_menu(application).actions()}
     entries["Copy the &values at the crosshair"].trigger()
     assert QGuiApplication.clipboard().text().startswith("column ")
+    assert user.message.startswith("Copied: column ")
     assert "Meas&ure" in entries
     assert "Copy fi&gure" in entries

@@ -137,9 +137,13 @@ def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot)
     view.show_certain(CERTAIN)
     view.show_table(table())
     assert list(view.paste.lines) == ["OpenDroneMap", "Gyroflow"]
+    said: list[str] = []
+    view.copied.connect(said.append)
     for button in view.findChildren(QToolButton):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-        assert QGuiApplication.clipboard().text() in {f.text() for f in view.paste.lines.values()}
+        copied = QGuiApplication.clipboard().text()
+        assert copied in {f.text() for f in view.paste.lines.values()}
+        assert said.pop() == f"Copied: {copied}"
     view.show_begun("readout_time", occ.Scene())
     assert view.paste.lines == {}
     assert view.mean.isHidden()
@@ -151,12 +155,16 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
     for button in (view.copy, view.save):
         assert not button.isEnabled()
     view.show_table(table())
+    said: list[str] = []
+    view.copied.connect(said.append)
     for condition in ("if f = 10 kHz: ", ""):
         paste = stated_lines(table(), condition)
         assert [line.split(":")[0] for line in paste[:2]] == ["OpenDroneMap", "Gyroflow"]
         assert paste[0].startswith(f"OpenDroneMap: {condition}")
         qtbot.mouseClick(view.copy, Qt.MouseButton.LeftButton)
         assert QGuiApplication.clipboard().text() == csv_text(table(), paste, condition)
+        first = csv_text(table(), paste, condition).splitlines()[0]
+        assert said.pop() == f"Copied: {first} …"
         with qtbot.waitSignal(view.save_asked) as saved:
             qtbot.mouseClick(view.save, Qt.MouseButton.LeftButton)
         assert saved.args == [csv_text(table(), paste, condition)]

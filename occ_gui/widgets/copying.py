@@ -1,0 +1,17 @@
+"""Copy a text to the clipboard, and say so: nothing else on the screen shows that it was."""
+
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtGui import QGuiApplication
+
+from occ_model.errors import one_line
+
+_MOST = 80
+"""Characters of a copied text that are told."""
+
+
+def copy_text(text: str) -> str:
+    """Copy a text, and return the sentence for the status line."""
+    QGuiApplication.clipboard().setText(text)
+    told = QCoreApplication.translate("Copying", "Copied: {text}")
+    first, _, more = text.strip().partition("\n")
+    return told.format(text=one_line(f"{first} …" if more else first, _MOST))

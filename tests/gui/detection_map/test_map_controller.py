@@ -377,3 +377,16 @@ def test_the_pane_follows_what_is_shown_and_the_pictures_a_second(
     assert bench.pane.bits[0] == "bits"
     bench.controller._frame_rate.change(12.0)
     assert bench.pane.bits == ("bits", 12.0)
+
+
+@pytest.mark.parametrize("with_image_effects", [False, True])
+def test_only_rows_of_pictures_take_long(
+    small_scene: Scene, monkeypatch: pytest.MonkeyPatch, with_image_effects: bool
+) -> None:
+    monkeypatch.setattr(module, "left_out", lambda *_: ("jpeg",))
+    request = module.MapRequest(
+        small_scene, FREQUENCY, DISTANCE, SettingsStore().settings, with_image_effects
+    )
+    told: list[int] = []
+    request.stages(np.zeros(SHAPE, dtype=int), False, lambda: told.append(1))
+    assert bool(told) == with_image_effects

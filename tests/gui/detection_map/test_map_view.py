@@ -22,6 +22,7 @@ from occ_gui.app.application import Application
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
+from occ_gui.detection_map.map_legend import _SAMPLE
 from occ_gui.detection_map.map_plot import MapPlot
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.rate_map import (
@@ -437,3 +438,12 @@ def test_logarithmic_axes_have_the_usual_round_numbers(name: str, most: int) -> 
     assert declared.scale == "log"
     begins = {f"{float(tick.text):e}"[0] for tick in ticks(declared, most)}
     assert begins <= {"1", "2", "5"} or begins <= {"1", "3"}
+
+
+def test_the_samples_of_the_legend_have_all_points_of_a_fine_screen(
+    view: MapView, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(type(view.legend), "devicePixelRatioF", lambda _: 2.0)
+    sample = view.legend._sample(Qt.PenStyle.DashLine)
+    assert sample.devicePixelRatio() == 2.0
+    assert sample.size() == _SAMPLE * 2

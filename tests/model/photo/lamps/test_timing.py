@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
+from simulated_photos import photo_of
 
+import occ_model as occ
 from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import _LEAST_EDGES, _clipped, _progressions
 from occ_model.photo.lamps.shape import _rectangles
@@ -87,3 +89,11 @@ def test_a_lamps_rectangle_has_every_column_that_its_edges_touch() -> None:
     # A strip in which it is not seen is as wide as those to either side.
     gap = _rectangles({0: sides, 2: sides}, bounds, 50)
     assert gap[1].tolist() == [10, 20, 3, 11]
+
+
+def test_a_search_for_lamps_goes_from_nothing_to_all() -> None:
+    told: list[float] = []
+    stripes = np.tile(np.repeat([20, 200], 10), 12).astype(np.uint8)
+    occ.find_lamps(photo_of(np.tile(stripes, (40, 1))), told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1.0

@@ -40,6 +40,9 @@ _TINT.setAlpha(48)
 LOWEST_ROW, HIGHEST_ROW = 16, 28
 """Pixels of a row in a low pane and in a high one."""
 
+_LEAST_ROWS = 4
+"""Rows in view at the least, so that no window grows beyond its screen: the others scroll."""
+
 _ROWS = 11
 """Rows that the table has room for before it has any."""
 
@@ -326,9 +329,8 @@ class EffectTable(QTableView):
             self.verticalHeader().setDefaultSectionSize(height)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size at which all rows are in view."""
-        lines = 1 + (len(self.effects.rows) or _ROWS)
-        height = lines * LOWEST_ROW + 2 * self.frameWidth()
+        """Return the size at which a few rows are in view."""
+        height = (1 + _LEAST_ROWS) * LOWEST_ROW + 2 * self.frameWidth()
         return QSize(super().minimumSizeHint().width(), height)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name

@@ -50,6 +50,12 @@ class DockWindow(Protocol):
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front, unless what it shows is seen already."""
 
+    def put_away(self, name: str) -> None:
+        """Hide a pane that the present mode does not show by itself."""
+
+    def is_put_away(self, name: str) -> bool:
+        """Return whether a pane is hidden."""
+
 
 class LearningPanes(QObject):
     """The panes that explain and compare, with their controllers, in docks of a window.
@@ -105,6 +111,8 @@ class LearningPanes(QObject):
         self._profile = profile
         self._controls, self._preferences = controls, preferences
         self._snapshot: Snapshot | None = None
+        self._brought = ""
+        """The pane that a step has opened; empty for none."""
         self.before = BeforeController(scenes, [profile, image.before])
         self.pins = PinController(scenes, self, self._is_present)
         self._add_docks()
@@ -169,7 +177,7 @@ class LearningPanes(QObject):
             self._scenes, self._photos.photos, self.lessons_pane, self._controls, self._preferences
         )
         wiring.status_message.connect(self.status_message)
-        wiring.controller.pane_wanted.connect(self._window.bring_into_view)
+        wiring.controller.pane_wanted.connect(self._show_pane_of_step)
         wiring.controller.begun.connect(self.lesson_begun)
         wiring.controller.columns_held.connect(self.columns_held)
         wiring.controller.action_wanted.connect(self._do)
@@ -180,6 +188,17 @@ class LearningPanes(QObject):
     def _do(self, action: str) -> None:
         """Do what a step of a lesson has a button for: an entry of the menus."""
         self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
+
+    def _show_pane_of_step(self, name: str) -> None:
+        """Show the pane that a step refers to, in place of the one that an earlier step opened."""
+        if self._brought not in {"", name}:  # beside it the next one might need a larger screen
+            self._window.put_away(self._brought)
+            self._brought = ""
+        if name:
+            is_new = self._window.is_put_away(name)
+            self._window.bring_into_view(name)
+            if is_new and not self._window.is_put_away(name):
+                self._brought = name
 
     def users_own(self) -> UserState | None:
         """Return what the user was working on, if a lesson is under way."""

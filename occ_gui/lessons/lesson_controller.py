@@ -53,7 +53,7 @@ class LessonController(QObject):
     """A lesson is about to replace what the user is working on."""
 
     pane_wanted = Signal(str)
-    """The name of the pane that a step refers to."""
+    """The name of the pane that a step refers to; empty for none."""
 
     control_wanted = Signal(str)
     """The name of the parameter that a step is about; empty for none."""
@@ -217,14 +217,19 @@ class LessonController(QObject):
         self._scenes.settings.restore(user.settings)
         title = self.tr("end of the lesson")
         self._scenes.put(user.scene, title, new_gesture(), force=user.settings.force)
-        if self._open == user.photo:
+        self._return_photo(user.photo, kept)
+        self.pane_wanted.emit("")
+
+    def _return_photo(self, photo: Path | None, kept: KeptPhoto | None) -> None:
+        """Open the photo again that was open before the lesson."""
+        if self._open == photo:
             return
-        if user.photo is None:
+        if photo is None:
             self._photos.close()
-        elif kept is not None and kept.photo.path == user.photo:
+        elif kept is not None and kept.photo.path == photo:
             self._give_back(kept)  # with what was found in it: a photo read anew has no match
         else:
-            self._photos.open(user.photo)
+            self._photos.open(photo)
 
     def set_again(self) -> None:
         """Set the scene of the step again, undoing all changes to it."""
@@ -246,13 +251,13 @@ class LessonController(QObject):
 
     def _set(self, lesson: Lesson, place: int) -> None:
         step = lesson.steps[place]
+        self._scenes.settings.restore(FIRST_SETTINGS)  # not the tolerance of the step before
         title = self.tr("step {number} of “{title}”").format(number=place + 1, title=lesson.title)
         self._scenes.put(step.scene, title, new_gesture(), force={})
         packet = QUANTITIES["packet-columns"].compute(step.scene, "")
         self.columns_held.emit(PACKETS_IN_VIEW * packet)
         self._open_photo(step)
-        if step.pane:
-            self.pane_wanted.emit(step.pane)
+        self.pane_wanted.emit(step.pane)
 
     def _open_photo(self, step: Step) -> None:
         samples = {path.stem: path for path in sample_photos()}

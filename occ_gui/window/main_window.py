@@ -30,7 +30,7 @@ from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar
 
-_OPENED_BELOW, _OPENED_BESIDE = 0.34, 0.26
+_OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
 """Shares of the window's height and width of a pane that opens below the middle, or beside it."""
 
 _FIRST_SIZE = QSize(1280, 800)
@@ -192,6 +192,15 @@ class MainWindow(QMainWindow):
         if name == _WITH_PICTURE:
             self._story.show_whole_picture(True)
         self._raise(name)
+
+    def put_away(self, name: str) -> None:
+        """Hide a pane that the present mode does not show by itself."""
+        if name not in MODES[self.modes.mode].panes:
+            self.docks[name].hide()
+
+    def is_put_away(self, name: str) -> bool:
+        """Return whether a pane is hidden."""
+        return self.docks[name].isHidden()
 
     def _show_page(self, page: str) -> None:
         """Show the story in the middle, the whole picture in its place, or neither."""

@@ -28,6 +28,8 @@ def arrange(window: QMainWindow, docks: Mapping[str, QDockWidget], mode: Mode) -
         window.removeDockWidget(dock)
     corner = _AREA.BottomDockWidgetArea if mode.is_bottom_wide else _AREA.LeftDockWidgetArea
     window.setCorner(Qt.Corner.BottomLeftCorner, corner)
+    corner = _AREA.RightDockWidgetArea if mode.is_right_high else _AREA.BottomDockWidgetArea
+    window.setCorner(Qt.Corner.BottomRightCorner, corner)
     for area, groups in (
         (_AREA.LeftDockWidgetArea, mode.left),
         (_AREA.RightDockWidgetArea, mode.right),

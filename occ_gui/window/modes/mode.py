@@ -25,6 +25,8 @@ class Mode:
         The pane that the mode is about, or PICTURE.
     is_bottom_wide
         Whether the panes at the bottom reach below those at the left.
+    is_right_high
+        Whether the panes at the right reach down beside those at the bottom.
     widths, heights
         First sizes in pixels by pane, of those whose size matters.
     """
@@ -35,6 +37,7 @@ class Mode:
     right: Groups = ()
     bottom: Groups = ()
     is_bottom_wide: bool = False
+    is_right_high: bool = False
     widths: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
     heights: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
 
@@ -81,6 +84,8 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             main="lessons",
             left=(("controls",),),
             right=(("lessons",),),
+            is_bottom_wide=True,
+            is_right_high=True,  # a lesson's text has all the height, whatever pane it shows below
             widths={"controls": 320, "lessons": 340},
         ),
         "video": Mode(

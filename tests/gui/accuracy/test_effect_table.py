@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.accuracy.effect_cells import _fitted
 from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import ELSE, rows_of
-from occ_gui.accuracy.effect_table import HIGHEST_ROW, EffectTable
+from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
 from occ_gui.accuracy.row_order import EFFECT, ERROR, STAGE, SWITCH, TIME, slowest_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import (
@@ -193,9 +193,13 @@ def test_a_row_out_of_sight_is_brought_into_view(table: EffectTable) -> None:
     assert table.viewport().rect().intersects(shown)
 
 
-def test_all_rows_are_in_view_at_the_least_size(table: EffectTable) -> None:
-    table.resize(table.width(), table.minimumSizeHint().height())
+def test_rows_are_low_where_all_fit_so_and_scroll_in_a_lower_pane(table: EffectTable) -> None:
     last = table.effects.index(table.effects.rowCount() - 1, EFFECT)
+    table.resize(table.width(), (2 + table.effects.rowCount()) * LOWEST_ROW)
+    assert table.viewport().rect().contains(table.visualRect(last))
+    table.resize(table.width(), table.minimumSizeHint().height())
+    assert table.verticalScrollBar().maximum() > 0
+    table.scrollTo(last)
     assert table.viewport().rect().contains(table.visualRect(last))
 
 

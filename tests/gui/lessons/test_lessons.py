@@ -242,6 +242,7 @@ def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(
     user.wait_until_idle()
     assert application.settings.settings == FIRST_SETTINGS
     application.store.force("vignetting", True)
+    application.settings.set_tolerance(30.0)
     application.store.change(distance=2.0)
     guide.step.next.click()
     assert application.settings.settings == FIRST_SETTINGS

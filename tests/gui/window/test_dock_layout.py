@@ -27,6 +27,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.picture.photo_overlay import MODES
+from occ_gui.window.modes.mode import MODES as WINDOW_MODES
+from occ_model.teaching.lessons import lessons
 
 CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
 SIZES = [QSize(1000, 700), QSize(1280, 800), QSize(1920, 1080)]
@@ -204,6 +206,49 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
         assert_faultless(qtbot, window, "answer")
         learning.lessons_pane.step.all.click()
     assert window.size() == size
+
+
+def test_no_mode_and_no_step_of_a_lesson_needs_a_higher_window_than_the_least_screen_has(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    window, least = application.window, QSize(1000, 700)
+    window.resize(least)
+    for mode in WINDOW_MODES:
+        window.modes.switch(mode)
+        QApplication.processEvents()
+        assert window.minimumSizeHint().height() <= least.height(), mode
+    user.choose("&Lessons")
+    guide, found = application.learning.lessons_pane, lessons().lessons
+    qtbot.waitUntil(lambda: bool(guide.list.choices))
+    for place, lesson in enumerate(found):
+        guide.list.choices[place].click()
+        for step in lesson.steps:
+            if step.pane == "accuracy":
+                user.wait_until_idle()  # its table is filled
+            QApplication.processEvents()
+            needed = window.minimumSizeHint().height()
+            assert needed <= least.height(), (lesson.title, step.goal)
+            guide.step.next.click()
+        guide.end.all.click()
+    assert window.height() == least.height()
+
+
+def test_a_lesson_has_the_height_of_the_window_beside_what_it_shows_below(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    user.choose("&Lessons")
+    guide, docks = application.learning.lessons_pane, window.docks
+    qtbot.waitUntil(lambda: bool(guide.list.choices))
+    (place,) = (i for i, each in enumerate(lessons().lessons) if each.steps[0].pane == "accuracy")
+    guide.list.choices[place].click()
+    qtbot.waitUntil(lambda: not docks["accuracy"].visibleRegion().isEmpty())
+    user.wait_until_idle()
+    qtbot.waitUntil(lambda: docks["lessons"].height() > 600)
+    assert docks["accuracy"].geometry().right() < docks["lessons"].geometry().left()
+    guide.step.all.click()
+    assert docks["accuracy"].isHidden()
 
 
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")

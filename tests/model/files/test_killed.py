@@ -64,7 +64,13 @@ def shown(folder: Path) -> dict[str, bytes]:
 
 
 @pytest.mark.parametrize(
-    ("kind", "last"), [("film", 1), ("table", 1), ("report", 2), ("sketch", 3)]
+    ("kind", "last"),
+    [
+        ("film", 1),
+        pytest.param("table", 1, marks=pytest.mark.whole),
+        pytest.param("report", 2, marks=pytest.mark.whole),
+        ("sketch", 3),
+    ],
 )
 def test_what_kill_9_leaves_is_whole_or_absent(tmp_path: Path, kind: str, last: int) -> None:
     assert run(tmp_path / "whole" / "it", kind, 0) == 0

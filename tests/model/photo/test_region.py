@@ -1,5 +1,7 @@
 """A photo is matched within a rectangle given by hand, as if it were a photo of its own."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from simulated_photos import photo_of, random_scene, take
@@ -8,6 +10,12 @@ import occ_model as occ
 
 SCENE = random_scene(6)
 KNOWN = SCENE.replace(readout_time=1e-6)
+
+
+@cache
+def matched() -> occ.Match:
+    """Match the whole photo, to which those of regions are compared."""
+    return occ.match_photo(take(SCENE), KNOWN)
 
 
 def beside_a_fence() -> tuple[occ.Photo, tuple[int, int, int, int]]:
@@ -21,7 +29,7 @@ def beside_a_fence() -> tuple[occ.Photo, tuple[int, int, int, int]]:
 def test_a_region_hides_what_lies_outside_it() -> None:
     photo, region = beside_a_fence()
     found = occ.match_photo(photo, KNOWN, region=region)
-    alone = occ.match_photo(take(SCENE), KNOWN)
+    alone = matched()
     assert found.readout_time == pytest.approx(alone.readout_time, rel=1e-9)
     assert found.region == alone.region
 
@@ -42,7 +50,7 @@ def test_a_region_counts_in_the_photos_own_rows_and_columns() -> None:
 
 def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
     photo = take(SCENE)
-    whole = occ.match_photo(photo, KNOWN)
+    whole = matched()
     inner = whole.region
     part = (0, photo.samples.shape[0], inner.first_column + 130, inner.last_column)
     late = occ.match_photo(photo, KNOWN, region=part).start_time - whole.start_time

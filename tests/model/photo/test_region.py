@@ -8,7 +8,7 @@ from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
 
-SCENE = random_scene(6)
+SCENE = random_scene(3)
 KNOWN = SCENE.replace(readout_time=1e-6)
 
 

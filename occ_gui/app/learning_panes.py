@@ -91,6 +91,9 @@ class LearningPanes(QObject):
     columns_held = Signal(object)
     """How many columns a lesson keeps in view; None for as many as usual."""
 
+    photo_explained = Signal(bool)
+    """Whether the step of a lesson that is shown is about the photo."""
+
     exposure_made = Signal(QWidget)
     """A pane has been created that shows results."""
 
@@ -182,6 +185,7 @@ class LearningPanes(QObject):
         wiring.controller.columns_held.connect(self.columns_held)
         wiring.controller.action_wanted.connect(self._do)
         wiring.controller.use_match(lambda: self._photos.matching.match)
+        wiring.controller.frequency_told.connect(self._photos.confirm_frequency)
         wiring.controller.keep_photos_by(self._photos.kept, self._photos.give_back)
         return wiring
 
@@ -199,6 +203,7 @@ class LearningPanes(QObject):
             self._window.bring_into_view(name)
             if is_new and not self._window.is_put_away(name):
                 self._brought = name
+        self.photo_explained.emit(name == "photo")
 
     def users_own(self) -> UserState | None:
         """Return what the user was working on, if a lesson is under way."""

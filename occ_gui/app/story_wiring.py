@@ -104,6 +104,7 @@ def _tell_verdicts_apart(parts: Parts) -> None:
     naming = _SimulationNaming(parts)
     parts.window.modes.changed.connect(naming.show)
     parts.photos.opened.connect(naming.show)
+    parts.learning.photo_explained.connect(naming.note_step)
     story.verdict.changed.connect(
         lambda: photo.show_simulation(story.verdict.state, story.verdict.heading)
     )
@@ -118,10 +119,17 @@ class _SimulationNaming(QObject):
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._story, self._photo, self._modes = parts.story, parts.photo, parts.window.modes
+        self._is_step_about_photo = False
+
+    def note_step(self, about_photo: bool) -> None:
+        """Note whether the step of a lesson is about the photo."""
+        self._is_step_about_photo = about_photo
+        self.show()
 
     def show(self) -> None:
         """Name it as the mode and the photo of the moment ask for."""
-        is_about_photo = self._modes.mode == "photo"
+        in_step = self._modes.mode == "lessons" and self._is_step_about_photo
+        is_about_photo = self._modes.mode == "photo" or in_step
         self._story.be_about_photo(is_about_photo)
         self._story.verdict.name_simulation(is_about_photo or self._photo.has_photo)
 

@@ -58,6 +58,7 @@ class LessonAnswers(QObject):
         """Check an answer to a step, given while ``scene`` was shown and ``photo`` open."""
         if not lesson.steps[place].own_photo:
             photo = MatchedPhoto()
+        scene = lesson.steps[place].judged_at(scene)
         pending = CheckedAnswer(text, None, self.tr("The model computes…"))
         self._given[lesson.name, place] = (pending, scene, photo)  # the one before is outdated
         self._waiting.append(_Asked(lesson, place, text, scene, photo))
@@ -76,7 +77,9 @@ class LessonAnswers(QObject):
     def is_at(self, lesson: Lesson, place: int, scene: Scene) -> bool:
         """Return whether an answer holds beside a scene: it was checked there, or judges none."""
         given, step = self._given.get((lesson.name, place)), lesson.steps[place]
-        return given is None or step.check is None or step.own_photo or given[1] == scene
+        if given is None or step.check is None or step.own_photo:
+            return True
+        return given[1] == step.judged_at(scene)
 
     def all_of(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
         """Return the steps of a lesson with their answers."""

@@ -65,6 +65,9 @@ class LessonController(QObject):
     equation_wanted = Signal(str)
     """The name of the equation that explains a step; empty for none."""
 
+    frequency_told = Signal(float)
+    """The switching frequency in Hz of the sample photo that a step has opened."""
+
     action_wanted = Signal(str)
     """What a step has a button for, as the step names it."""
 
@@ -222,8 +225,8 @@ class LessonController(QObject):
 
     def _return_photo(self, photo: Path | None, kept: KeptPhoto | None) -> None:
         """Open the photo again that was open before the lesson."""
-        if self._open == photo:
-            return
+        if self._open == photo and photo not in sample_photos():
+            return  # with what the user has found in it meanwhile
         if photo is None:
             self._photos.close()
         elif kept is not None and kept.photo.path == photo:
@@ -268,13 +271,23 @@ class LessonController(QObject):
             self.status_message.emit(
                 self.tr("The photo {name} is missing.").format(name=step.photo)
             )
-        elif wanted is not None and wanted != self._open:
+        elif wanted is not None and wanted == self._open:
+            self._tell_frequency(step)
+        elif wanted is not None:
             self._photos.open(wanted)
         elif not step.photo and self._open in samples.values():
             self._photos.close()  # but not a photo of the user's
 
     def _note_photo(self, photo: Photo | None) -> None:
         self._open = None if photo is None else photo.path
+        step = self._step()
+        if step is not None:
+            self._tell_frequency(step)
+
+    def _tell_frequency(self, step: Step) -> None:
+        """Tell what a step says of the sample that it shows: how fast its lamp switches."""
+        if step.photo and self._open in sample_photos() and self._open.stem == step.photo:
+            self.frequency_told.emit(step.scene.transmitter.switching_frequency)
 
     @property
     def lesson_under_way(self) -> Lesson | None:

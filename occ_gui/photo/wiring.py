@@ -161,6 +161,10 @@ class PhotoWiring(QObject):
         if kept.placement is not None:
             self.placements.move(kept.placement)
 
+    def confirm_frequency(self, frequency: float) -> None:
+        """Take the switching frequency of the open photo as certain, in Hz."""
+        self._pane.form.confirm("switching_frequency", frequency)
+
     def match(self) -> None:
         """Match the photo with the choices of the pane."""
         self.matching.start(self._pane.form.choice())

@@ -94,6 +94,14 @@ class Step:
         """The scene that the question and the explanation are about."""
         return self.scene if self.check is None else self.check.scene
 
+    def judged_at(self, shown: Scene) -> Scene:
+        """Return the scene that an answer is checked at, given while another one was shown.
+
+        While the step's own is shown nothing has been set yet: the answer is a prediction for the
+        scene that the question is about.
+        """
+        return self.asked if shown == self.scene else shown
+
     def with_unit(self, given: str) -> str:
         """Return a given answer with the unit that it was asked in, where it is a number alone."""
         unit = "" if self.check is None else self.check.asked_in

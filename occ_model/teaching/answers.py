@@ -25,8 +25,9 @@ def check_answer(
 ) -> CheckedAnswer:
     """Check what a student typed.
 
-    The model's value is that of the scene which the student sees. Where the question names values
-    and that scene has others, nothing is judged: they are to be set first. Where the step is about
+    The model's value is that of the scene which the student sees, or that of the question while
+    nothing has been changed: a prediction. Where the question names values and the student has set
+    others, nothing is judged: they are to be set first. Where the step is about
     a photo of the student's, the value is that of the photo's match. A wrong answer does not give
     it away.
 
@@ -54,7 +55,7 @@ def check_answer(
     if step.own_photo and match is None:
         return CheckedAnswer(text, None, "Match the photo first: your answer is compared with it.")
     own = match if step.own_photo else None
-    scene = check.scene if scene is None else scene
+    scene = check.scene if scene is None else step.judged_at(scene)
     first = "" if own else _to_set_first(check, scene)
     if first:
         return CheckedAnswer(text, None, first)
@@ -72,6 +73,10 @@ def check_answer(
         value = result_text(quantity.unit, expected)
         source = "The match" if own else "The model"
         return CheckedAnswer(text, "right", f"Right. {source} gives {value}.")
+    if quantity.called:
+        return CheckedAnswer(
+            text, "wrong", f"Not yet: that is not the {quantity.called}. Try again."
+        )
     side = "high" if given > expected else "low"
     if difference <= max(_NEAR * check.tolerance, _LEAST_NEAR):
         return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look once more.")
@@ -90,9 +95,7 @@ def _to_set_first(check: Check, scene: Scene) -> str:
             is_set = now == asked
         if not is_set:
             declared = PARAMETERS[name]
-            differing.append(
-                f"{declared.label} to {declared.format(asked)} (it is {declared.format(now)})"  # type: ignore[arg-type]
-            )
+            differing.append(f"{declared.label} to {declared.format(asked)}")  # type: ignore[arg-type]
     if not differing:
         return ""
     return f"First set {' and '.join(differing)}: the question is about that."

@@ -35,12 +35,16 @@ class LessonQuantity:
     compute
         Function of the scene, and of the name of the step's photo or a match of another one, that
         gives its value in SI units.
+    called
+        What a number is called that is a name, as a code is: no other one is near it. Empty for a
+        quantity.
     """
 
     meaning: str
     unit: Unit
     asked_in: str
     compute: Callable[[Scene, str | Match], float]
+    called: str = ""
 
 
 def _limit(decoder: str) -> Callable[[Scene, str | Match], float]:
@@ -185,6 +189,7 @@ QUANTITIES: dict[str, LessonQuantity] = {
         NONE,
         "",
         lambda scene, photo: _code(_matched(scene, photo)),
+        called="code",
     ),
 }
 """The quantities, by the name that a lesson's file uses."""

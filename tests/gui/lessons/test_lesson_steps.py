@@ -128,8 +128,14 @@ def test_what_a_question_names_is_to_be_set_before_an_answer_is_judged(
 ) -> None:
     guide.list.choices[0].click()
     guide.step.next.click()
+    sentence = guide.step.answer_field.sentence
+    assert "Right" in answer(guide, user, "25")  # a prediction
+    application.store.change(readout_time=20e-6)
+    assert "has changed" not in sentence.text()  # it was about this
+    application.store.change(readout_time=19e-6)
+    assert "has changed" in sentence.text()
     said = answer(guide, user, "25")
-    assert said.startswith("→  First set Readout time to 20 µs (it is 8 µs)")
+    assert said == "→  First set Readout time to 20 µs: the question is about that."
     application.store.change(readout_time=20e-6)
     assert "Right" in answer(guide, user, "25")
     assert "own scene" not in guide.step.answer.text()

@@ -175,7 +175,7 @@ def test_the_photos_give_the_numbers_that_the_answers_state(
     for expected in ("12.8", "8.9"):
         user.choose("&Match photo")
         found = application.photo.result.values["readout_time"].text()
-        value = float(found.partition(": ")[2].split()[0])
+        value = float(found.split()[0])  # with no condition: the frequency is told
         assert f"{value:.1f}" == expected, found
         if expected == "12.8":
             guide.step.next.click()
@@ -196,6 +196,34 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
     guide = application.learning.lessons_pane
     qtbot.waitUntil(lambda: "<song>" in guide.list.message.text())
     assert guide.list.choices == []
+
+
+def test_a_step_about_a_photo_shows_its_verdict_first_and_takes_its_frequency_as_certain(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    story, photo = application.story, application.photo
+    guide.list.choices[5].click()
+    for frequency in (2e3, 6e3):
+        user.wait_until_idle()
+        assert photo.form.certain.isChecked()
+        assert photo.form.certain_values == {"switching_frequency": frequency}
+        assert photo.verdict.isVisible()
+        assert not story.verdict.isVisible()
+        guide.step.next.click()
+    user.wait_until_idle()
+    assert guide.end.isVisible()
+    assert story.verdict.isVisible()
+    assert not photo.verdict.isVisible()
+
+
+def test_the_frequency_of_a_step_with_a_sample_photo_is_that_of_the_sample() -> None:
+    truths = {path.stem: Scene.from_toml(path.with_suffix(".toml").read_text(encoding="utf-8"))
+              for path in sample_photos()}  # fmt: skip
+    steps = [step for lesson in lessons().lessons for step in lesson.steps if step.photo]
+    assert steps
+    for step in steps:
+        truth = truths[step.photo].transmitter.switching_frequency
+        assert step.scene.transmitter.switching_frequency == truth, step.goal
 
 
 def test_a_missing_photo_is_reported(

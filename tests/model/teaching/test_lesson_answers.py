@@ -236,10 +236,32 @@ def test_an_answer_is_checked_at_the_scene_that_is_shown(readout: float, columns
 
 def test_nothing_is_judged_while_another_value_is_set_than_the_question_names() -> None:
     asked = step(1, 2)
-    for readout, is_judged in ((8e-6, False), (19e-6, False), (20.1e-6, True), (20e-6, True)):
+    for readout, is_judged in ((8.1e-6, False), (19e-6, False), (20.1e-6, True), (20e-6, True)):
         answer = check_answer(asked, "25", scene=asked.scene.replace(readout_time=readout))
         assert (answer.outcome == "right") is is_judged
         assert ("First set Readout time to 20 µs" in answer.sentence) is not is_judged
+
+
+def test_a_prediction_is_judged_before_anything_is_set() -> None:
+    asked = step(1, 2)
+    assert asked.scene.camera.readout_time == 8e-6
+    assert check_answer(asked, "25", scene=asked.scene).sentence == (
+        "Right. The model gives 25 columns."
+    )
+    assert check_answer(asked, "62.5", scene=asked.scene).outcome == "wrong"
+
+
+def test_a_wrong_code_is_neither_near_nor_too_high(monkeypatch: pytest.MonkeyPatch) -> None:
+    code = replace(QUANTITIES["photo-code"], compute=lambda _scene, _photo: 345.0)
+    monkeypatch.setitem(QUANTITIES, "photo-code", code)
+    asked = step(6, 2)
+    for wrong in ("718", "346", "0"):
+        answer = check_answer(asked, wrong)
+        assert (answer.outcome, answer.sentence) == (
+            "wrong",
+            "Not yet: that is not the code. Try again.",
+        )
+    assert check_answer(asked, "345").outcome == "right"
 
 
 def test_an_explanation_says_of_which_scene_it_is_where_that_is_not_shown() -> None:

@@ -30,6 +30,9 @@ class EndPage(QWidget):
         self.author = QLineEdit()
         self.author.setPlaceholderText(self.tr("Your name, for the report"))
         self.author.setAccessibleName(self.tr("Your name, as it shall stand on the report"))
+        self.author.setToolTip(
+            self.tr("The name that stands on the report; it is kept for the next one.")
+        )
         self.author.setMaxLength(_LONGEST_NAME)
         self.all = button(
             self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")

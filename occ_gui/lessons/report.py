@@ -48,13 +48,16 @@ class LessonReports(QObject):
 
     @property
     def author(self) -> str:
-        """The name of the student on the last report; empty before."""
+        """The name of the student as it was entered last; empty before."""
         return self._preferences.recall(_AUTHOR)
+
+    def keep_author(self, author: str) -> None:
+        """Keep the name of the student for the reports to come."""
+        self._preferences.keep(_AUTHOR, one_line(author.strip()))
 
     def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
         """Let the user choose a file, and write the report with this name of the student."""
-        author = one_line(author.strip())
-        self._preferences.keep(_AUTHOR, author)
+        self.keep_author(author)
         start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")
         chosen, _ = QFileDialog.getSaveFileName(
             self._window, self.tr("Save the report"), str(start),
@@ -64,7 +67,8 @@ class LessonReports(QObject):
         )  # fmt: skip
         if chosen:
             path = Path(chosen)
-            self.write(path if path.suffix else path.with_suffix(_ENDING), lesson, steps, author)
+            path = path if path.suffix else path.with_suffix(_ENDING)
+            self.write(path, lesson, steps, self.author)
 
     def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
         """Write the report of a lesson to a file."""

@@ -52,6 +52,7 @@ class LessonWiring(QObject):
         self.reports = LessonReports(pane, preferences)
         self._end = pane.end
         self._end.author.setText(self.reports.author)
+        self._end.author.editingFinished.connect(self._keep_author)
         self.spotlight = Spotlight(controls)
         self._equations = EquationController(scenes, pane.step)
         self.controller.control_wanted.connect(self.spotlight.show_only)
@@ -88,6 +89,9 @@ class LessonWiring(QObject):
         """Stop all work in the background."""
         self.answers.runner.stop()
         self.reports.runner.stop()
+
+    def _keep_author(self) -> None:
+        self.reports.keep_author(self._end.author.text())
 
     def _write_report(self, lesson: Lesson) -> None:
         self.reports.ask(lesson, self.answers.all_of(lesson), self._end.author.text())

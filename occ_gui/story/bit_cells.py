@@ -33,6 +33,20 @@ def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
     return all(needed <= width - _PADDING for width in widths)
 
 
+def have_room_for_bits(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
+    """Return whether a digit fits into each cell, if only just: one row has all of them or none.
+
+    Parameters
+    ----------
+    metrics
+        Those of the text.
+    widths
+        The widths of the row's cells with bits, in pixels.
+    """
+    needed = max(map(metrics.horizontalAdvance, "01"))
+    return all(needed <= width for width in widths)
+
+
 def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     painter: QPainter,
     cell: QRectF,
@@ -42,6 +56,7 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     is_header: bool = False,
     state: State = State.NEUTRAL,
     is_marked: bool = False,
+    is_told: bool | None = None,
     within: QRectF | None = None,
 ) -> None:
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
@@ -62,6 +77,8 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
         Good for a bit that is right, bad for one that is wrong, else neutral.
     is_marked
         Whether a tick or a cross follows the bit.
+    is_told
+        Whether the text is drawn; None: where it fits.
     within
         The area that is seen: the text stands in the part of the cell within it.
     """
@@ -75,10 +92,17 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     mark = _MARKS.get(state, "") if is_marked else ""
     painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
     seen = inner if within is None else inner.intersected(within)
-    for shown in (texts[0] + mark, *texts):
-        if metrics.horizontalAdvance(shown) <= seen.width() - _PADDING + 2:
-            painter.drawText(seen, Qt.AlignmentFlag.AlignCenter, shown)
-            break
+    room = seen.width() - _PADDING + 2
+    fitting = [
+        each for each in (texts[0] + mark, *texts) if metrics.horizontalAdvance(each) <= room
+    ]
+    if is_told is None or (is_told and fitting):
+        shown = fitting[:1]
+    else:
+        shown = [texts[-1]] if is_told else []
+    for text in shown:
+        # About the middle of what is seen, and not cut where it is as wide as its cell.
+        painter.drawText(seen.adjusted(-2, 0, 2, 0), Qt.AlignmentFlag.AlignCenter, text)
     if state is State.BAD:
         painter.setPen(QPen(colours.ink, 1.5))
         painter.drawLine(QPointF(inner.bottomLeft()), QPointF(inner.topRight()))

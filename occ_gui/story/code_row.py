@@ -6,7 +6,12 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.decoding.verdict import wrong_places
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.story.bit_cells import draw_field, have_room_for_marks, header_texts
+from occ_gui.story.bit_cells import (
+    draw_field,
+    have_room_for_bits,
+    have_room_for_marks,
+    header_texts,
+)
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow
@@ -119,7 +124,11 @@ class CodeRow(StoryRow):
         """Draw header and bits under the columns that carry them."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
         widths = [right - left for bit, left, right in spans if bit is not None]
-        is_marked = have_room_for_marks(painter.fontMetrics(), widths)
+        metrics = painter.fontMetrics()
+        is_marked, is_told = (
+            have_room_for_marks(metrics, widths),
+            have_room_for_bits(metrics, widths),
+        )
         for bit, left, right in spans:
             cell = QRectF(left, place.top(), right - left, place.height())
             if bit is None:
@@ -129,7 +138,7 @@ class CodeRow(StoryRow):
             else:
                 texts = (str(int(decoded.bits[bit])),)
                 draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
-                           is_marked=is_marked)  # fmt: skip
+                           is_marked=is_marked, is_told=is_told)  # fmt: skip
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Say why there are no chips: none were read, or the decoder reads whole packets."""
@@ -159,11 +168,14 @@ class CodeRow(StoryRow):
         left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
         count = max(len(self._sent), decoded.bits.size)
         width = min(34.0, (place.right() - left) / count)
-        is_marked = have_room_for_marks(painter.fontMetrics(), [width])
+        metrics = painter.fontMetrics()
+        is_marked, is_told = (
+            have_room_for_marks(metrics, [width]), have_room_for_bits(metrics, [width]),
+        )  # fmt: skip
         for bit, value in enumerate(decoded.bits.tolist()):
             cell = QRectF(left + bit * width, place.top(), width, place.height())
             draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit),
-                       is_marked=is_marked)  # fmt: skip
+                       is_marked=is_marked, is_told=is_told)  # fmt: skip
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         """Name the lines."""

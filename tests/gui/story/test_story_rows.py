@@ -10,7 +10,7 @@ from unittest.mock import Mock
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetrics, QWheelEvent
+from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPalette, QWheelEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -18,7 +18,7 @@ import occ_model as occ
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story import code_row, stripes_row
-from occ_gui.story.bit_cells import have_room_for_marks
+from occ_gui.story.bit_cells import draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_means import resampled
 from occ_gui.story.column_values import in_words
@@ -491,3 +491,24 @@ def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
         rows.crosshair.choose(outside)  # on purpose
         rows.show_reading(snapshot_of(distance=2.1))
         assert rows.crosshair.column == round(outside)
+
+
+@pytest.mark.parametrize("narrow", [0.0, 0.6, 2.0])
+def test_a_row_of_bits_tells_all_digits_or_none(qapp: QApplication, narrow: float) -> None:
+    """One cell is just as wide as a digit, or a little narrower than that."""
+    told: list[str] = []
+
+    class Listening(QPainter):
+        def drawText(self, *what: Any) -> None:  # type: ignore[override]  # noqa: N802 - Qt's name
+            told.append(what[-1])
+
+    picture = QImage(400, 40, QImage.Format.Format_RGB32)
+    painter = Listening(picture)
+    digit = max(map(painter.fontMetrics().horizontalAdvance, "01"))
+    widths = [digit + 8.0, digit + 1.0 - narrow, digit + 8.0]
+    is_told = have_room_for_bits(painter.fontMetrics(), widths)
+    for place, width in enumerate(widths):
+        cell = QRectF(30.0 * place, 0.0, width, 20.0)
+        draw_field(painter, cell, ("1",), QPalette(), is_told=is_told)
+    painter.end()
+    assert told == (["1"] * 3 if narrow < 1.0 else [])

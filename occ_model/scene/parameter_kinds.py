@@ -40,6 +40,10 @@ def _read_whole(text: str) -> int:
         return int(text, 10)
 
 
+_LIMIT_DIGITS = 12
+"""Digits up to which a limit is written without a power of ten."""
+
+
 @dataclass(frozen=True, slots=True)
 class Quantity(Declaration):
     """A real number with a unit.
@@ -59,8 +63,12 @@ class Quantity(Declaration):
     def allowed(self) -> str:
         """The allowed range in words."""
         if self.high == math.inf:
-            return f"from {self.unit.format(self.low)}"
-        return f"{self.unit.format(self.low)} to {self.unit.format(self.high)}"
+            return f"from {self._limit(self.low)}"
+        return f"{self._limit(self.low)} to {self._limit(self.high)}"
+
+    def _limit(self, value: float) -> str:
+        """Write a limit in full, as 1000000 s and not 1e+06 s, unless that is too long to read."""
+        return self.unit.format(value, digits=_LIMIT_DIGITS)
 
     def check(self, value: object) -> float:
         """Return ``value`` as a float, or raise :class:`ParameterError`."""

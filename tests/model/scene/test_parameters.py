@@ -160,3 +160,11 @@ def test_only_choices_that_plug_ins_extend_are_given_as_such() -> None:
 def test_a_refusal_is_a_value_error_and_an_occ_error() -> None:
     assert issubclass(ParameterError, ValueError)
     assert issubclass(ParameterError, OccError)
+
+
+@every_quantity
+def test_limits_are_written_in_full_where_they_can_be_read_so(quantity: Quantity) -> None:
+    limits = quantity.allowed.removeprefix("from ").split(" to ")
+    for text, value in zip(limits, (quantity.low, quantity.high), strict=False):
+        assert quantity.unit.parse(text) == pytest.approx(value, rel=1e-12)
+        assert ("e+" in text) == (abs(value) >= 1e12)

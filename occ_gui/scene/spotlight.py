@@ -1,4 +1,4 @@
-"""Spotlight: one control is marked and scrolled into view, all others are dimmed."""
+"""Spotlight: one control is marked and scrolled into view, others are dimmed and take nothing."""
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
@@ -7,8 +7,9 @@ from PySide6.QtWidgets import QGraphicsOpacityEffect, QScrollArea, QTabWidget, Q
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.widgets.guarded_paint import guarded
+from occ_model.scene.parameters import PARAMETERS
 
-_DIMMED = 0.4
+_DIMMED = 0.6
 _MARGIN = 4
 
 
@@ -25,6 +26,8 @@ class Spotlight(QObject):
         super().__init__(controls)
         self._controls = controls
         self._dimmed: list[QWidget] = []
+        self._disabled: list[QWidget] = []
+        self._tool_tips: list[tuple[QWidget, str]] = []
         self._frame: _Frame | None = None
 
     @property
@@ -44,7 +47,11 @@ class Spotlight(QObject):
         for widget in self._dimmed:
             # PySide takes None here, which removes the effect, whatever its stubs say.
             widget.setGraphicsEffect(None)  # type: ignore[arg-type]
-        self._dimmed = []
+        for widget in self._disabled:
+            widget.setEnabled(True)
+        for widget, tool_tip in self._tool_tips:
+            widget.setToolTip(tool_tip)
+        self._dimmed, self._disabled, self._tool_tips = [], [], []
         if self._frame is not None:
             self._frame.hide()
             self._frame.setParent(None)
@@ -55,13 +62,29 @@ class Spotlight(QObject):
         row, label = panel.rows[name], panel.labels[name]
         _bring_into_view(panel, row)
         children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
+        marked = (row, label, panel.play_buttons.get(name))
+        why = self.tr(
+            "This step of the lesson is about “{control}”. The other controls of this page take "
+            "nothing until it is left."
+        ).format(control=PARAMETERS[name].label)
         for widget in children:
-            if widget not in (row, label):
-                effect = QGraphicsOpacityEffect(widget)
-                effect.setOpacity(_DIMMED)
-                widget.setGraphicsEffect(effect)
-                self._dimmed.append(widget)
+            if widget not in marked:
+                self._dim(widget, why)
         self._frame = _Frame(panel, label, row)
+
+    def _dim(self, widget: QWidget, why: str) -> None:
+        """Dim a widget, let it take nothing, and say why in its tool tips."""
+        effect = QGraphicsOpacityEffect(widget)
+        effect.setOpacity(_DIMMED)
+        widget.setGraphicsEffect(effect)
+        self._dimmed.append(widget)
+        if widget.isEnabledTo(self._controls):
+            widget.setEnabled(False)
+            self._disabled.append(widget)
+        for part in (widget, *widget.findChildren(QWidget)):
+            if part.toolTip():
+                self._tool_tips.append((part, part.toolTip()))
+                part.setToolTip(f"{why}\n\n{part.toolTip()}")
 
 
 def _bring_into_view(panel: QWidget, row: QWidget) -> None:

@@ -228,9 +228,21 @@ def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     assert rows["readout_time"].graphicsEffect() is None
     assert rows["iso"].graphicsEffect() is not None
     qtbot.waitUntil(lambda: not rows["readout_time"].visibleRegion().isEmpty())
+    for name, row in rows.items():
+        assert row.isEnabled() is (name == "readout_time")
+    field = user.row("exposure_time").field
+    told, before = field.toolTip(), application.store.scene
+    assert told.startswith("This step of the lesson is about “Readout time”.")
+    user.enter("exposure_time", "90 µs")
+    assert application.store.scene == before
+    user.enter("readout_time", "20 µs")
+    assert application.store.scene.camera.readout_time == 20e-6
     guide.step.all.click()
     assert not application.learning.lessons.spotlight.is_on
     assert rows["iso"].graphicsEffect() is None
+    assert all(row.isEnabled() for row in rows.values())
+    assert told.endswith(field.toolTip())
+    assert "This step" not in field.toolTip()
     user.wait_until_idle()
 
 

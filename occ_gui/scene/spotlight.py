@@ -9,7 +9,7 @@ from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.scene.parameters import PARAMETERS
 
-_DIMMED = 0.6
+_DIMMED = 0.75
 _MARGIN = 4
 
 

@@ -1,5 +1,6 @@
 """Lessons are read from files of anybody's, and a mistake in one is named with its line."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -28,6 +29,7 @@ def test_every_lesson_names_a_pane_and_photo_that_exist() -> None:
         assert lesson.summary.endswith(".")
         for step in lesson.steps:
             assert step.text.endswith((".", ")"))
+            assert not re.search(r"\*\w", step.text + step.question + step.answer)  # shown as it is
             assert step.question.endswith(("?", "?)"))
             assert step.answer.endswith(".")
             assert step.goal.endswith(".")

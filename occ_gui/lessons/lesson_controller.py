@@ -225,6 +225,7 @@ class LessonController(QObject):
 
     def _return_photo(self, photo: Path | None, kept: KeptPhoto | None) -> None:
         """Open the photo again that was open before the lesson."""
+        self._give_up_sample()
         if self._open == photo and photo not in sample_photos():
             return  # with what the user has found in it meanwhile
         if photo is None:
@@ -275,8 +276,15 @@ class LessonController(QObject):
             self._tell_frequency(step)
         elif wanted is not None:
             self._photos.open(wanted)
-        elif not step.photo and self._open in samples.values():
-            self._photos.close()  # but not a photo of the user's
+        elif not step.photo:
+            self._give_up_sample()
+            if self._open in samples.values():
+                self._photos.close()  # but not a photo of the user's
+
+    def _give_up_sample(self) -> None:
+        """Read no more the sample of a step that is left: it would be opened after it."""
+        if self._photos.awaited in sample_photos():
+            self._photos.cancel()
 
     def _note_photo(self, photo: Photo | None) -> None:
         self._open = None if photo is None else photo.path

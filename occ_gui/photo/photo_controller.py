@@ -88,6 +88,11 @@ class PhotoController(QObject):
         """The path of the photo that is shown, None if none is open."""
         return None if self.photo is None else self.photo.path
 
+    @property
+    def awaited(self) -> Path | None:
+        """The path of the photo that is being read, None if none is."""
+        return self._wanted if self.runner.is_running else None
+
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
         self._wanted = path

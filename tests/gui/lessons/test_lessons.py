@@ -226,6 +226,27 @@ def test_the_frequency_of_a_step_with_a_sample_photo_is_that_of_the_sample() -> 
         assert step.scene.transmitter.switching_frequency == truth, step.goal
 
 
+@pytest.mark.parametrize("is_left", [True, False])
+def test_a_sample_that_is_still_being_read_is_not_opened_after_its_step(
+    application: Application, guide: LessonView, user: User, is_left: bool
+) -> None:
+    (place,) = (i for i, each in enumerate(lessons().lessons) if each.name.startswith("lab-1"))
+    with_photo = [i for i, step in enumerate(lessons().lessons[place].steps) if step.photo]
+    photos = application.photos
+    guide.list.choices[place].click()
+    for _ in range(with_photo[0]):
+        guide.step.next.click()
+    assert photos.awaited is not None
+    if is_left:
+        guide.step.all.click()
+    else:
+        for _ in with_photo:
+            guide.step.next.click()
+    user.wait_until_idle()
+    assert photos.path is None
+    assert application.window.modes.mode == "lessons"
+
+
 def test_a_missing_photo_is_reported(
     application: Application,
     guide: LessonView,

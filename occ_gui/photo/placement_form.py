@@ -1,6 +1,6 @@
 """Form of the photo's placement on the simulated picture: shift and scale."""
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, QSize, Qt, Signal
 from PySide6.QtWidgets import (
     QGridLayout,
     QHBoxLayout,
@@ -50,6 +50,17 @@ _FIELD = 12
 """Digits for which a field has room at the least, its arrows and frame among them."""
 
 
+class _PlaceField(DecimalEdit):
+    """A field with room for the usual: Qt would keep it for the farthest place there may be."""
+
+    def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        return QSize(self.minimumSizeHint().width(), super().sizeHint().height())
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        width = _FIELD * self.fontMetrics().horizontalAdvance("0")
+        return QSize(width, super().minimumSizeHint().height())
+
+
 class PlacementForm(QWidget):
     """Shift and scale of the photo, by numbers or by the mouse, and a reset button."""
 
@@ -94,12 +105,10 @@ class PlacementForm(QWidget):
         self.show_placement(Placement(), by_hand=False)
 
     def _field(self, declared: Quantity, decimals: int) -> DecimalEdit:
-        field = DecimalEdit(declared, decimals)
+        field = _PlaceField(declared, decimals)
         field.setAccessibleName(declared.label)
         field.setToolTip(explain(declared))
         field.setAlignment(Qt.AlignmentFlag.AlignRight)
-        # Qt would keep room for the farthest place that can be entered.
-        field.setMinimumWidth(_FIELD * field.fontMetrics().horizontalAdvance("0"))
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
         notice = self.notices[field] = RefusalNotice(field)

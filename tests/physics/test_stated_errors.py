@@ -102,6 +102,15 @@ def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
     assert matches[1].verdict == matches[0].verdict
 
 
+@pytest.mark.whole
+def test_an_exposure_of_a_square_wave_in_bright_surroundings_is_doubted() -> None:
+    """Its 2.15 chips look like 0.15 of a lamp with less swing; a fit of 0.23 is the best."""
+    world = random_world(730036)
+    match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
+    assert match.verdict == "sure"
+    assert any("A square wave looks nearly the same" in why for why in match.exposure_reasons)
+
+
 def test_edges_hidden_by_white_are_doubted() -> None:
     """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)

@@ -31,6 +31,11 @@ _HOPELESS = 60.0
 _AS_LIKELY, _RATIO = 9.0, 1.3
 """Excess of the misfit, three deviations, and its ratio, to which another exposure is as likely."""
 
+_ALIKE = 3.0
+"""The same ratio from which another exposure of a square wave is surely worse: their stripes differ
+by blur and white only. An exposure of 2.2 chips had 1.5 to 2.4 times the misfit of one of 0.23,
+where 2.15 was right (seed 730036)."""
+
 _UNKNOWN_RAMP = 0.002
 """Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
 change a ramp's shape."""
@@ -117,7 +122,7 @@ def refined(
         stripes.profile, Waveform(chips), explanation.camera.tone, step,
         explanation.camera.rank_resolution,
     )  # fmt: skip
-    found = _modes(models, explanation, model.is_possible)
+    found, alike = _modes(models, explanation, model.is_possible)
     seen, unusual = (of(found[0].values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:
         found = [_with_step_of(mode, explanation) for mode in found]
@@ -128,17 +133,20 @@ def refined(
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fits[0].correlation < explanation.correlation - _CONTRADICTED:
         return Refined(
-            explanation.fits, (_CONTRADICTION, *_doubts(unusual)), _exposure_doubts(seen)
+            explanation.fits, (_CONTRADICTION, *_doubts(unusual)), _exposure_doubts(seen, alike)
         )
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
-    return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen))
+    return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen, alike))
 
 
 def _modes(
     models: Sequence[JointModel], explanation: Explanation, is_possible: Callable[[Timing], bool]
-) -> list[JointFit]:
-    """Find the exposures that are about as likely as the most likely one, that one first."""
+) -> tuple[list[JointFit], list[JointFit]]:
+    """Find the exposures that are about as likely as the most likely one, that one first.
+
+    Besides, for a square wave, those that are less likely, but too alike to be told apart surely.
+    """
     first = models[0]
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
     first.estimate_noise(first.start(best))
@@ -147,6 +155,7 @@ def _modes(
     for model in models[1:]:
         model.take_noise(first)
     groups = [possible_near(models, usual.values)]
+    is_square, alike = len(explanation.chips) == 2, list[JointFit]()
     # Of the same model: another one may explain every exposure better.
     least = min(one.fit.misfit for one in groups[0] if one.model is first)
     for start in _other_starts(
@@ -154,10 +163,13 @@ def _modes(
     ):
         other = first.fit(start)
         exposures = [one.fit.exposure for group in groups for one in group]
-        if other.misfit < least + _HOPELESS and all(
-            abs(other.exposure - exposure) > APART_CHIPS for exposure in exposures
-        ):
+        exposures += [fit.exposure for fit in alike]
+        if any(abs(other.exposure - exposure) <= APART_CHIPS for exposure in exposures):
+            continue
+        if other.misfit < least + _HOPELESS:
             groups.append([Possible(first, other)])
+        elif is_square and other.misfit < _ALIKE * least:
+            alike.append(other)
     likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
     likely.model.estimate_noise(likely.fit.values)
     for model in models:
@@ -171,9 +183,9 @@ def _modes(
     least = min(fit.misfit for fit in means)
     most = _RATIO * least + _AS_LIKELY
     # A square wave's first one stays: its stripes are those of the others, to the last column.
-    stays = means[0] if len(explanation.chips) == 2 else None
+    stays = means[0] if is_square else None
     kept = [fit for fit in means if fit.misfit < most or fit is stays]
-    return sorted(kept, key=lambda fit: fit.misfit)
+    return sorted(kept, key=lambda fit: fit.misfit), alike
 
 
 def _other_starts(
@@ -300,11 +312,19 @@ def _doubts(unusual: float) -> tuple[str, ...]:
     )
 
 
-def _exposure_doubts(seen: float) -> tuple[str, ...]:
-    if seen >= _LEAST_EDGES:
-        return ()
-    return (
-        f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
-        f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed to tell the "
-        "exposure time. Expose less.",
-    )
+def _exposure_doubts(seen: float, alike: Sequence[JointFit]) -> tuple[str, ...]:
+    doubts = []
+    if seen < _LEAST_EDGES:
+        doubts.append(
+            f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
+            f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed to tell the "
+            "exposure time. Expose less."
+        )
+    if alike:
+        *others, last = [f"{one:.2f}" for one in sorted(fit.exposure for fit in alike)]
+        chips = f"{', '.join(others)} or {last}" if others else last
+        doubts.append(
+            f"A square wave looks nearly the same at an exposure of {chips} chips, where the "
+            "surroundings are bright."
+        )
+    return tuple(doubts)

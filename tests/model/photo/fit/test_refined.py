@@ -101,7 +101,7 @@ def test_only_what_is_odd_is_doubted_with_its_figure() -> None:
     (sentence,) = _doubts(4.25)
     assert "4.2 standard deviations" in sentence
     assert _exposure_doubts(0.1, ()) == ()
-    (sentence,) = _exposure_doubts(0.04)
+    (sentence,) = _exposure_doubts(0.04, ())
     assert "only 4 % of their columns" in sentence
     assert "at least 10 %" in sentence
 

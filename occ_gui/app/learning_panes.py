@@ -185,7 +185,7 @@ class LearningPanes(QObject):
         wiring.controller.columns_held.connect(self.columns_held)
         wiring.controller.action_wanted.connect(self._do)
         wiring.controller.use_match(lambda: self._photos.matching.match)
-        wiring.controller.frequency_told.connect(self._photos.confirm_frequency)
+        wiring.controller.frequency_told.connect(self._photos.begin_form)
         wiring.controller.keep_photos_by(self._photos.kept, self._photos.give_back)
         return wiring
 

@@ -231,10 +231,6 @@ class MatchForm(QWidget):
         """The known values that the user has confirmed, in SI units by name."""
         return dict(self._certain)
 
-    def confirm(self, name: str, value: float) -> None:
-        """Take a known value of this photo as certain, in SI units."""
-        self._set_certain(name, value)
-
     def show_choice(self, choice: MatchChoice, certain: Mapping[str, float]) -> None:
         """Show the choices that belong to a photo, and which known values are confirmed."""
         self.sent.show_key(choice.sent)

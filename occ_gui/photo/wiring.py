@@ -11,6 +11,7 @@ from occ_gui.photo.kept_photo import KeptPhoto
 from occ_gui.photo.lamp_controller import LampController
 from occ_gui.photo.lamp_outlines import LampOutlines
 from occ_gui.photo.many.many_controller import ManyPhotosController
+from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.photo_controller import PhotoController, PhotoReading
 from occ_gui.photo.photo_view import PhotoView
@@ -161,9 +162,9 @@ class PhotoWiring(QObject):
         if kept.placement is not None:
             self.placements.move(kept.placement)
 
-    def confirm_frequency(self, frequency: float) -> None:
-        """Take the switching frequency of the open photo as certain, in Hz."""
-        self._pane.form.confirm("switching_frequency", frequency)
+    def begin_form(self, frequency: float) -> None:
+        """Begin with the form as at first, the photo's switching frequency in Hz being certain."""
+        self._pane.form.show_choice(MatchChoice(), {"switching_frequency": frequency})
 
     def match(self) -> None:
         """Match the photo with the choices of the pane."""

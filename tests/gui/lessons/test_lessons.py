@@ -202,9 +202,11 @@ def test_a_step_about_a_photo_shows_its_verdict_first_and_takes_its_frequency_as
     application: Application, guide: LessonView, user: User
 ) -> None:
     story, photo = application.story, application.photo
+    photo.form.sent.show_key("square")  # of the user's own photo before
     guide.list.choices[5].click()
     for frequency in (2e3, 6e3):
         user.wait_until_idle()
+        assert photo.form.sent.key() == "auto"
         assert photo.form.certain.isChecked()
         assert photo.form.certain_values == {"switching_frequency": frequency}
         assert photo.verdict.isVisible()

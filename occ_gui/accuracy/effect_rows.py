@@ -155,11 +155,16 @@ def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str
         meaning = _tr("Leaving it out changes at most {bound} levels (calculated).")
         return _tr("≤ {bound} levels").format(bound=bound), meaning.format(bound=bound)
     error = levels(difference.error)
-    # A file that follows spreads what changes: where it is left out too, the bound is without it.
-    meaning = _tr(
-        "Left out of the complete picture it changes {error} levels (measured), left out of this "
-        "one at most {bound} (calculated)."
-    )
+    if difference.error <= decision.bound:
+        meaning = _tr(
+            "Leaving it out changes {error} levels (measured), at most {bound} (calculated)."
+        )
+    else:
+        # A file spreads what changes before it: where it is left out too, the bound is without it.
+        meaning = _tr(
+            "Left out of the complete picture it changes {error} levels (measured), left out of "
+            "this one at most {bound} (calculated)."
+        )
     return _tr("{error} levels").format(error=error), meaning.format(error=error, bound=bound)
 
 

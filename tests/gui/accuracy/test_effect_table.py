@@ -99,6 +99,16 @@ def test_a_measured_error_takes_the_place_of_the_bound(table: EffectTable, frame
     meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
     assert "measured" in meaning
     assert f"at most {decision.bound:.2g} (calculated)" in meaning
+    assert "complete picture" not in meaning
+
+
+def test_an_error_above_the_bound_is_said_to_be_of_another_picture(frame: Frame) -> None:
+    """The complete picture's file may spread what an effect changes; this one may have no file."""
+    (bound,) = [d.bound for d in frame.plan.decisions if d.effect == "led-edges"]
+    measured = costs_of(frame, led_edges=difference("led-edges", 2.0 * bound))
+    (row,) = [one for one in rows_of(frame, measured, new=()) if one.effect == "led-edges"]
+    assert row.error_meaning.startswith("Left out of the complete picture")
+    assert f"left out of this one at most {bound:.2g} (calculated)" in row.error_meaning
 
 
 def test_an_absent_effect_is_grey_excluded_and_costs_nothing(table: EffectTable) -> None:

@@ -62,7 +62,7 @@ def band_profile(scene: Scene) -> FloatArray:
         positions, lit = _knots(chips, max(0.0, 1.0 - exposure), exposure, between_equal=exposure)
         columns: FloatArray = phases.chip + phases.fraction
     else:
-        positions, lit = _knots(chips, round(complete), round(transition), between_equal=0.0)
+        positions, lit = _literal_knots(chips, complete, transition)
         if positions[-1] == 0:
             raise BandModelUndefined(
                 f"The band model is undefined here: a chip of {complete + transition:.2g} columns "
@@ -95,9 +95,8 @@ def band_drift(scene: Scene) -> float:
     if scene.model.band_reading == "charitable":
         return 0.0
     chips = sent_chips(scene.transmitter)
-    changes = int(np.count_nonzero(chips != np.roll(chips, -1)))
-    counted = len(chips) * round(complete) + changes * round(transition)
-    return len(chips) * (complete + transition) - counted
+    positions, _ = _literal_knots(chips, complete, transition)
+    return len(chips) * (complete + transition) - float(positions[-1])
 
 
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
@@ -133,6 +132,13 @@ def _knots(
     positions = np.stack([starts, starts + complete], axis=1).ravel()
     states = np.repeat(chips.astype(np.float64), 2)
     return np.append(positions, ends[-1]), np.append(states, states[0])
+
+
+def _literal_knots(
+    chips: ByteArray, complete: float, transition: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return the polyline of the literal reading: whole columns, and none between equal chips."""
+    return _knots(chips, round(complete), round(transition), between_equal=0.0)
 
 
 def _literal_start(scene: Scene, chips: ByteArray, positions: FloatArray) -> float:

@@ -78,7 +78,7 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     is_marked
         Whether a tick or a cross follows the bit.
     is_told
-        Whether the text is drawn; None: where it fits.
+        Whether the text is drawn, the shortest one also where it hardly fits; None: where it fits.
     within
         The area that is seen: the text stands in the part of the cell within it.
     """
@@ -93,14 +93,11 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
     painter.setPen(colours.ink if not is_header else palette.color(QPalette.ColorRole.Text))
     seen = inner if within is None else inner.intersected(within)
     room = seen.width() - _PADDING + 2
-    fitting = [
+    fitting = (
         each for each in (texts[0] + mark, *texts) if metrics.horizontalAdvance(each) <= room
-    ]
-    if is_told is None or (is_told and fitting):
-        shown = fitting[:1]
-    else:
-        shown = [texts[-1]] if is_told else []
-    for text in shown:
+    )
+    text = "" if is_told is False else next(fitting, texts[-1] if is_told else "")
+    if text:
         # About the middle of what is seen, and not cut where it is as wide as its cell.
         painter.drawText(seen.adjusted(-2, 0, 2, 0), Qt.AlignmentFlag.AlignCenter, text)
     if state is State.BAD:

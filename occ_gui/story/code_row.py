@@ -1,5 +1,7 @@
 """Row of the code: the chips and bits received, under the columns that they were read from."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -124,11 +126,7 @@ class CodeRow(StoryRow):
         """Draw header and bits under the columns that carry them."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
         widths = [right - left for bit, left, right in spans if bit is not None]
-        metrics = painter.fontMetrics()
-        is_marked, is_told = (
-            have_room_for_marks(metrics, widths),
-            have_room_for_bits(metrics, widths),
-        )
+        is_marked, is_told = _have_room(painter, widths)
         for bit, left, right in spans:
             cell = QRectF(left, place.top(), right - left, place.height())
             if bit is None:
@@ -168,10 +166,7 @@ class CodeRow(StoryRow):
         left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
         count = max(len(self._sent), decoded.bits.size)
         width = min(34.0, (place.right() - left) / count)
-        metrics = painter.fontMetrics()
-        is_marked, is_told = (
-            have_room_for_marks(metrics, [width]), have_room_for_bits(metrics, [width]),
-        )  # fmt: skip
+        is_marked, is_told = _have_room(painter, [width])
         for bit, value in enumerate(decoded.bits.tolist()):
             cell = QRectF(left + bit * width, place.top(), width, place.height())
             draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit),
@@ -194,3 +189,9 @@ def _looks(decoded: DecodeResult) -> tuple[object, ...]:
         decoded.region, decoded.failure, decoded.code, decoded.chips, decoded.bits,
         decoded.chip_starts, decoded.headers,
     )  # fmt: skip
+
+
+def _have_room(painter: QPainter, widths: Sequence[float]) -> tuple[bool, bool]:
+    """Return whether the bits of a row have room for marks, and for their digits."""
+    metrics = painter.fontMetrics()
+    return have_room_for_marks(metrics, widths), have_room_for_bits(metrics, widths)

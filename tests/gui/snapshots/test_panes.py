@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from accuracy_points import EACH_WAY
 from gui.snapshots.drawing import show
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
@@ -27,7 +28,6 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import (
-    AccuracyPoint,
     Alternative,
     BitErrors,
     Forecast,
@@ -122,19 +122,9 @@ def test_the_accuracy_looks_as_stored(
     view.show_costs(SceneCosts(snapshot.request, (), differences, complete.errors))
     expected = Forecast(snapshot.frame.plan, 0.045, 0.0, is_measured=True)
     view.show_forecast(snapshot.request, expected)
-    points = (
-        AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
-        AccuracyPoint("integration", "closed form", 1e-4, 1e-14),
-        AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
-        AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0, effects=("vignetting",)),
-        AccuracyPoint("effects", "this plan", 1e-2, 0.0, True, ("led-edges", "vignetting")),
-        AccuracyPoint("path", "profile path", 1e-4, 0.4),
-        AccuracyPoint("draft", "draft 1/16", 2e-3, 0.8),
-        AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
-    )
     view.show_study_begun()
-    for number, point in enumerate(points, 1):
-        view.show_point(point, number, len(points))
+    for number, point in enumerate(EACH_WAY, 1):
+        view.show_point(point, number, len(EACH_WAY))
     view.show_study_finished()
     matches_its_picture(view, "accuracy")
 

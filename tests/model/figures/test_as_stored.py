@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from accuracy_points import EACH_WAY
 from matplotlib.figure import Figure
 from model.figures.artists import described, is_alike
 
@@ -28,7 +29,6 @@ from occ_model.figures.sweep import sweep_drawing
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.figures.wiring import wiring_figure
 from occ_model.results import Frame, Match, Region, Stripes
-from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer
@@ -82,17 +82,7 @@ def test_the_circuit_of_a_board(board: Board, is_as_stored: Compare) -> None:
 
 
 def test_the_errors_over_the_time(is_as_stored: Compare) -> None:
-    points = [
-        AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
-        AccuracyPoint("integration", "closed form", 1e-4, 1e-14),
-        AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
-        AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0, effects=("vignetting",)),
-        AccuracyPoint("effects", "this plan", 1e-2, 0.0, True, ("led-edges", "vignetting")),
-        AccuracyPoint("path", "profile path", 1e-4, 0.4),
-        AccuracyPoint("draft", "draft 1/16", 2e-3, 0.8),
-        AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
-    ]
-    drawing = accuracy_drawing(points)
+    drawing = accuracy_drawing(EACH_WAY)
     is_as_stored("accuracy", drawn(drawing), *drawing.header, *drawing.rows())
 
 

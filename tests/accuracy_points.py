@@ -1,0 +1,14 @@
+"""Times and errors of each way to compute a picture, for pictures of them."""
+
+from occ_model.results.accuracy import AccuracyPoint
+
+EACH_WAY = (
+    AccuracyPoint("integration", "1 sample", 1e-5, 50.0),
+    AccuracyPoint("integration", "closed form", 1e-4, 1e-14),
+    AccuracyPoint("effects", "paper's model", 1e-3, 15.0),
+    AccuracyPoint("effects", "+ Vignetting", 1e-2, 1.0, effects=("vignetting",)),
+    AccuracyPoint("effects", "this plan", 1e-2, 0.0, True, ("led-edges", "vignetting")),
+    AccuracyPoint("path", "profile path", 1e-4, 0.4),
+    AccuracyPoint("draft", "draft 1/16", 2e-3, 0.8),
+    AccuracyPoint("noise", "reused plane", 2e-2, 0.01),
+)

@@ -86,7 +86,7 @@ def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
 
 def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> list[float]:
     """Return the frequencies at which the phases of the first frames are coherent."""
-    count = len(turned[:_FIRST])
+    count = min(len(turned), _FIRST)
     while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MOST_TRIED:
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
@@ -119,7 +119,7 @@ def _coherence(
 
 def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit | None:
     """Count the phase on over the film from a first frequency, and fit it."""
-    count, total = len(turned[:_FIRST]), len(turned)
+    count, total = min(len(turned), _FIRST), len(turned)
     times = phases.times - phases.times[0]
     angle = np.exp(2j * np.pi * (turned[:count] - frequency * times[:count]) / phases.period)
     start = float(np.angle(angle.mean())) / (2.0 * np.pi) * phases.period

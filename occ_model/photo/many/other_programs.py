@@ -141,7 +141,7 @@ def stated_lines(table: PhotoTable, condition: str) -> list[str]:
     """
     lines = lines_to_paste(table)
     written = [f"{program}: {condition}{line}" for program, line in lines.items()]
-    return [*written, note_on(lines)] if note_on(lines) else written
+    return [text for text in (*written, note_on(lines)) if text]
 
 
 def _counted(table: PhotoTable) -> list[PhotoRow]:

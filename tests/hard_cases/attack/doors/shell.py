@@ -7,7 +7,6 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from functools import cache
-from importlib import import_module
 from pathlib import Path
 from random import Random
 from types import FrameType
@@ -33,6 +32,9 @@ _INTERRUPT_S = 0.4
 """Processor time after which a command is interrupted, as by Ctrl-C: most begin minutes of work."""
 
 _AGAIN_S = 0.01
+
+_IMPORTING = "<frozen importlib."
+"""How the file of the functions begins that import a module."""
 
 _LONGEST_LINE = 4200
 """Characters of a line on standard error: a sentence, after the program's name."""
@@ -162,7 +164,12 @@ class _Long:
         signal.setitimer(signal.ITIMER_PROF, _INTERRUPT_S)
 
     @staticmethod
-    def _interrupt(_signal: int, _frame: FrameType | None) -> NoReturn:
+    def _interrupt(_signal: int, frame: FrameType | None) -> None:
+        # An import that is interrupted may not be repeated (fontTools says so): Ctrl-C ends the
+        # program, but here the next case would meet what is left of it.
+        if any(each.f_code.co_filename.startswith(_IMPORTING) for each in _stack(frame)):
+            signal.setitimer(signal.ITIMER_PROF, _AGAIN_S)
+            return
         raise KeyboardInterrupt
 
     def _hear_unraisable(self, what: "sys.UnraisableHookArgs") -> None:
@@ -178,6 +185,12 @@ class _Long:
         signal.setitimer(signal.ITIMER_PROF, *self._left)
 
 
+def _stack(frame: FrameType | None) -> Iterator[FrameType]:
+    while frame is not None:
+        yield frame
+        frame = frame.f_back
+
+
 @contextmanager
 def _streams() -> Iterator[tuple[io.StringIO, io.StringIO]]:
     with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
@@ -186,7 +199,8 @@ def _streams() -> Iterator[tuple[io.StringIO, io.StringIO]]:
 
 def ended(main: Callable[[Sequence[str]], int], words: Sequence[str]) -> tuple[int, str, str]:
     """Run a program's main function; give its exit code, its output and its messages."""
-    _import_all()
+    # What an interrupt leaves open, of fonts for example, is closed by the collector.
+    warnings.simplefilter("ignore", ResourceWarning)
     with _streams() as (out, err):
         try:
             with _Long():
@@ -239,16 +253,6 @@ def _run(chance: Random, folder: Path) -> list[str]:
 
 def _inputs(folder: Path) -> tuple[bytes, ...]:
     return tuple((folder / name).read_bytes() for name in ("in.toml", "in.png"))
-
-
-@cache
-def _import_all() -> None:
-    """Import what commands import late: an import that is interrupted may not be repeated."""
-    # What an interrupt leaves open, of fonts for example, is closed by the collector.
-    warnings.simplefilter("ignore", ResourceWarning)
-    import_module("occ_model.commands.command_line")
-    for name in ("accuracy", "animation", "bench", "films", "paper", "sweep", "transmitter_files"):
-        import_module(f"occ_model.figures.{name}")
 
 
 SHELL = Door("command lines", "words of 17 commands", _run, (), share=60, patience=10.0)

@@ -285,7 +285,12 @@ class MatchForm(QWidget):
         lines = []
         if of_frequency:
             blinking = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
-            lines.append(self.tr("chips: a blinking LED of {cycles}").format(cycles=blinking))
+            text = (
+                self.tr("two chips a cycle of {cycles}")
+                if square
+                else self.tr("of chips; an LED that only blinks does so at {cycles}")
+            )
+            lines.append(text.format(cycles=blinking))
         if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
             lines.append(
                 self.tr(

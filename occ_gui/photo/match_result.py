@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
+from occ_gui.photo.assumption import is_certain
 from occ_gui.photo.match_values import MatchValues, condition_of, known_of
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.photo.verdict_view import VerdictView
@@ -101,6 +102,7 @@ class MatchResult(QWidget):
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
+        self._show_stale()
         if self._match is not None:
             self._show_figures(self._match)
 
@@ -141,4 +143,6 @@ class MatchResult(QWidget):
                 then=declared.format(then), now=declared.format(now)
             )
         )
-        self.stale.setVisible(now not in {then, self.given})
+        # What is known of the photo stays known, whatever the scene becomes.
+        known = is_certain(name, then, self._certain)
+        self.stale.setVisible(not known and now not in {then, self.given})

@@ -56,10 +56,10 @@ def test_what_is_known_beside_the_estimate_is_shown(
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
-    assert view.form.hint.text() == "chips: a blinking LED of 3.5 kHz"
+    assert view.form.hint.text() == "of chips; an LED that only blinks does so at 3.5 kHz"
     choose(qtbot, view.form.sent, "square")
     assert (frequency.text(), frequency.isEnabled()) == ("2 kHz", False)
-    assert view.form.hint.text() == "chips: a blinking LED of 1 kHz"
+    assert view.form.hint.text() == "two chips a cycle of 1 kHz"
     choose(qtbot, view.form.estimate, "switching_frequency")
     assert (readout.text(), frequency.isVisible(), view.form.hint.isVisible()) == (
         "9 µs", False, False,
@@ -104,6 +104,11 @@ def test_a_match_of_outdated_inputs_is_marked(view: PhotoView, photo: Photo, mat
         assert view.result.stale.isVisible() == stale
     view.show_scene(scene.replace(switching_frequency=1e3))
     assert view.result.stale.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
+    # Who is certain of the photo's frequency needs not the scene's.
+    view.form.certain_changed.emit({"switching_frequency": 2e3})
+    assert not view.result.stale.isVisible()
+    view.form.certain_changed.emit({"switching_frequency": 3e3})
+    assert view.result.stale.isVisible()
     view.show_match(replace(match, switching_frequency=1e3))
     assert not view.result.stale.isVisible()
 

@@ -129,6 +129,10 @@ def test_another_known_value_asks_to_match_again(view: ManyPhotosView) -> None:
     view.show_scene(occ.Scene().replace(switching_frequency=4321.0))
     assert not view.stale.isHidden()
     assert "the scene has 4.321 kHz now: match all again." in view.stale.text()
+    view.show_certain({"switching_frequency": occ.Scene().transmitter.switching_frequency})
+    assert view.stale.isHidden()
+    view.show_certain({})
+    assert not view.stale.isHidden()
     view.show_scene(occ.Scene().replace(exposure_time=1e-4))
     assert view.stale.isHidden()
 

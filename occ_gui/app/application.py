@@ -125,7 +125,6 @@ class Application(QObject):
         self.window.closing.connect(self._end_lesson)
         self.desktop = Desktop(self)
         self.welcome = Welcome(self)
-        self._photo_path: Path | None = None
         self._match_next, self._front_next = False, True
         self._connect_scene()
         self._connect_settings()
@@ -177,6 +176,7 @@ class Application(QObject):
 
     def _connect_photo(self) -> None:
         self.photos.failed.connect(self._on_photo_failure)
+        self.photos.another_read.connect(self._bring_photo_to_front)
         self.photos.opened.connect(self._on_photo)
         self.photos.begun.connect(self.window.reading.begin)
         self.photos.progressed.connect(self.window.reading.show_progress)
@@ -324,14 +324,15 @@ class Application(QObject):
         self.messages.end_failure()
         self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
 
+    def _bring_photo_to_front(self) -> None:
+        if self._front_next:
+            self.window.bring_to_front("photo")
+
     def _on_photo(self, photo: Photo | None) -> None:
         self.messages.end_photo_failure()
         self.window.show_photo_name(None if photo is None else photo.path.name)
         self.window.menus.show_match_found(self.photo_wiring.matching.match is not None)
-        path = None if photo is None else photo.path
-        if path not in (None, self._photo_path) and self._front_next:
-            self.window.bring_to_front("photo")
-        self._photo_path, self._front_next = path, True
+        self._front_next = True
         if self._match_next:
             self.photo_wiring.match()
 

@@ -266,8 +266,8 @@ class LessonController(QObject):
     def _open_photo(self, step: Step) -> None:
         samples = {path.stem: path for path in sample_photos()}
         wanted = samples.get(step.photo)
-        if step.own_photo and self._open not in {None, *samples.values()}:
-            return  # a photo of the user's own, which the sample would stand in for
+        if step.own_photo and self._show_users_photo():
+            return  # which the sample would stand in for
         if step.photo and wanted is None:
             self.status_message.emit(
                 self.tr("The photo {name} is missing.").format(name=step.photo)
@@ -278,8 +278,23 @@ class LessonController(QObject):
             self._photos.open(wanted)
         elif not step.photo:
             self._give_up_sample()
-            if self._open in samples.values():
-                self._photos.close()  # but not a photo of the user's
+            self._put_photo_aside()
+
+    def _show_users_photo(self) -> bool:
+        """Show the user's own photo, if there is one; return whether there is."""
+        if self._open is None and self._kept is not None:
+            self._give_back(self._kept)
+        return self._open not in {None, *sample_photos()}
+
+    def _put_photo_aside(self) -> None:
+        """Close a sample, or the photo that was open before the lesson, which its end restores."""
+        before = None if self._user is None else self._user.photo
+        if self._open not in {None, before, *sample_photos()}:
+            return  # opened by the user during the lesson
+        if self._open is not None and self._open == before:
+            self._kept = self._keep_photo()  # with what has been found in it meanwhile
+        if self._open is not None:
+            self._photos.close()
 
     def _give_up_sample(self) -> None:
         """Read no more the sample of a step that is left: it would be opened after it."""

@@ -54,6 +54,9 @@ class PhotoController(QObject):
     opened = Signal(object)
     """The photo that the panes show now, or None."""
 
+    another_read = Signal()
+    """Another photo than the one on the panes has been read from its file; it is shown next."""
+
     failed = Signal(str)
     """Why a photo could not be read; the previous one stays."""
 
@@ -135,6 +138,8 @@ class PhotoController(QObject):
 
     def _show(self, photo: Photo) -> None:
         self.ended.emit()
+        if self.photo is None or photo.path != self.photo.path:
+            self.another_read.emit()
         self._show_on_panes(photo)
 
     def _fail(self, sentence: str) -> None:

@@ -157,14 +157,21 @@ def test_a_sample_photo_is_open_only_while_steps_need_it(
     assert opened == ["led-1khz", "packets-6khz", ""]
 
 
-def test_a_photo_of_the_users_own_stays_open(
+def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
     application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
+    application.photo.form.sent.show_key("read")
+    application.window.bring_to_front("lessons")
     guide.list.choices[1].click()
     user.wait_until_idle()
-    assert application.window.actions_by_name["close_photo"].isEnabled()
+    assert application.photos.path is None
+    guide.step.all.click()
+    user.wait_until_idle()
+    assert application.photos.path == photo_file
+    assert application.photo.form.choice().sent == "read"
+    assert in_front(application, "lessons")
 
 
 def test_the_photos_give_the_numbers_that_the_answers_state(

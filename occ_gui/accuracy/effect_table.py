@@ -61,7 +61,7 @@ class EffectModel(QAbstractTableModel):
         self._given: tuple[EffectRow, ...] = ()
         self._order: Order = AS_LIGHT_TRAVELS
         self._titles = {
-            STAGE: ("", self.tr("Where on the light's way it happens.")),
+            STAGE: (self.tr("Where"), self.tr("Where on the light's way it happens.")),
             PICTURE: (
                 self.tr("with | without"),
                 self.tr("The effect alone: a part of the panel with it, and without it."),
@@ -70,8 +70,9 @@ class EffectModel(QAbstractTableModel):
             ERROR: (
                 self.tr("Error without"),
                 self.tr(
-                    "How much the picture would change without it, in levels of the stretched "
-                    "profile (of 255). Measured; with ≤ it is the calculated bound."
+                    "How much the picture would change without it, in levels: 255 of them lie "
+                    "between its darkest and its brightest column. Measured; with ≤ it is the "
+                    "calculated bound."
                 ),
             ),
             TIME: (
@@ -297,7 +298,7 @@ class EffectTable(QTableView):
         header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
         switch = next(iter(self.switches.values()))
         for column, width in (
-            (STAGE, metrics.horizontalAdvance("Sensor") + 8),
+            (STAGE, max(metrics.horizontalAdvance("Sensor") + 8, self._title_width(STAGE))),
             (PICTURE, max(_PICTURE_WIDTH, self._title_width(PICTURE))),
             (ERROR, self._title_width(ERROR)),
             (TIME, max(_TIME_WIDTH, self._title_width(TIME))),

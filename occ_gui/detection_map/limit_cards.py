@@ -91,7 +91,7 @@ class LimitCards(QWidget):
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
             line = self._sentences.on_highest_frequency(advice)
-            card.show_limit(highest_frequency(advice), line.text)
+            card.show_limit(highest_frequency(advice), line.text, advice.limits.rate)
 
     def show_ended(self, is_complete: bool) -> None:
         """Show that the search has ended, with a limit for each decoder or without."""
@@ -128,6 +128,7 @@ class LimitCard(QFrame):
         self.setObjectName("card")
         self._decoder = decoder
         self._destination: float | None = None
+        self._rate: float | None = None
         self.name = ElidedLabel(decoder)
         self.value = QLabel()
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
@@ -179,7 +180,7 @@ class LimitCard(QFrame):
         self._show("…", self.tr("Searching for the highest frequency that is read."), None)
         self.set_outdated(False)
 
-    def show_limit(self, end: EndFacts | None, text: str) -> None:
+    def show_limit(self, end: EndFacts | None, text: str, rate: float) -> None:
         """Show the upper end of the working range, None if the decoder reads nowhere.
 
         Parameters
@@ -188,7 +189,11 @@ class LimitCard(QFrame):
             The end.
         text
             What it is, as in the advice.
+        rate
+            The success rate, in percent, from which on a decoder counts as reading.
         """
+        self._rate = rate
+        self.set_outdated(False)
         if end is None:
             self._show(self.tr("none"), text, None)
             return
@@ -200,10 +205,13 @@ class LimitCard(QFrame):
     def set_outdated(self, outdated: bool) -> None:
         """Show whether the limit is of an earlier scene."""
         self.value.setEnabled(not outdated)
-        self.name.set_full_text(
-            self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
-            if outdated
-            else self.tr("{name} reads up to").format(name=self._decoder.capitalize())
-        )
+        name = self._decoder.capitalize()
+        if outdated:
+            text = self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
+        elif self._rate is None:
+            text = self.tr("{name} reads up to").format(name=name)
+        else:
+            text = self.tr("{name}, {rate:g} % up to").format(name=name, rate=self._rate)
+        self.name.set_full_text(text)
         if outdated:
             self.go.setEnabled(False)

@@ -227,7 +227,8 @@ class MapView(QWidget):
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
             text = self.tr(
-                "{total} points, images at each: {images} or more; colour: {what}"
+                "{total} points, each in the middle of its cell, of {images} images or more; "
+                "colour: {what}"
             ).format(total=total, images=images, what="{what}")
         self._progress = text
         self._show_status()

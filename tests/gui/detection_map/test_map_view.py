@@ -365,19 +365,17 @@ def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[in
 
 
 def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:
+    said = "91 points, each in the middle of its cell, of 20 images or more; colour: success rate"
     view.show_map(whole((5, 10)))
     view.show_progress(91, 91, 20)
     view.show_age(0.01)
-    assert (
-        view.status.toolTip()
-        == "Earlier scene: 91 points, images at each: 20 or more; colour: success rate"
-    )
+    assert view.status.toolTip() == f"Earlier scene: {said}"
     assert view.outdated.isHidden()
     view.show_age(1.0)
     assert view.outdated.isVisible()
     view.show_age(0.0)
     assert view.outdated.isHidden()
-    assert view.status.toolTip() == "91 points, images at each: 20 or more; colour: success rate"
+    assert view.status.toolTip() == said
 
 
 def test_bits_a_second_are_shown_of_whole_payloads(qtbot: QtBot) -> None:

@@ -80,7 +80,7 @@ def test_the_cards_of_the_limits_look_as_stored(
         "switching_frequency", "highest", trial(14.2e3, 100), trial(14.3e3, 0),
         trial(14.1e3, 100),
     )  # fmt: skip
-    cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.")
+    cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.", 99.0)
     cards.cards["matched"].show_searching()
-    cards.cards["equalizer"].show_limit(None, "It reads at no frequency.")
+    cards.cards["equalizer"].show_limit(None, "It reads at no frequency.", 99.0)
     matches_its_picture(cards, f"limit-cards-{theme}")

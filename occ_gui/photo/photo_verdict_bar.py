@@ -119,13 +119,13 @@ class PhotoVerdictBar(StateBar):
     def _worth(self, match: Match) -> tuple[State, tuple[str, ...]]:
         found = self._found(match)
         if match.verdict == SURE and not match.exposure_reasons:
-            return State.GOOD, (self.tr("Photo: the match is sure"), found)
+            return State.GOOD, (self.tr("Photo: sure match"), found)
         if match.verdict == SURE:
             title = self.tr("Photo: sure, but for the exposure")
             return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
         reasons = match.all_reasons
         reason = self._first_of(reasons)
-        title = self.tr("Photo: the match is doubtful")
+        title = self.tr("Photo: doubtful match")
         return State.DOUBTFUL, (title, f"{reason} {found}", reason)
 
     def _first_of(self, reasons: Sequence[str]) -> str:

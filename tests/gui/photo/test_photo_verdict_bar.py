@@ -40,7 +40,7 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert REASONS[1] in bar.accessibleDescription()
     view.show_match(match)
-    assert (bar.state, bar.heading) == (State.GOOD, "Photo: the match is sure")
+    assert (bar.state, bar.heading) == (State.GOOD, "Photo: sure match")
     view.show_photo(None)
     assert bar.heading == "No photo is open"
 
@@ -106,7 +106,7 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
         assert (bar.state, bar.heading) == (state, f"Photo: {verdict} in the table")
         assert REASONS[1] in bar.accessibleDescription()
     view.show_match(match)
-    assert bar.heading == "Photo: the match is sure"
+    assert bar.heading == "Photo: sure match"
     view.show_photo(photo)
     view.many.show_begun("readout_time", occ.Scene())
     assert bar.heading == "Photo: not matched yet"
@@ -147,7 +147,7 @@ def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(
 ) -> None:
     view.show_photo(photo)
     view.show_match(replace(match, reasons=REASONS))
-    assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: the match is doubtful")
+    assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
     assert f"{REASONS[0]} And 1 more." in bar.accessibleDescription()
 
 

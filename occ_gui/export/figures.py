@@ -159,7 +159,7 @@ class Figures(QObject):
         }
         self.titles = {
             "picture": self.tr("Picture"),
-            OVERLAY: self.tr("Picture with photo"),
+            OVERLAY: self.tr("Overlay of photo and picture"),
             "profile": self.tr("Column profile"),
         }
         for decoder in decoders:

@@ -322,7 +322,7 @@ def test_the_drawing_is_done_off_the_windows_thread(
 def test_the_picture_with_the_photo_has_an_entry_of_its_own(
     application: Application, user: User, tmp_path: Path, photo_file: Path
 ) -> None:
-    entry = user.entry("Picture with photo")
+    entry = user.entry("Overlay of photo and picture")
     assert not entry.isEnabled()
     path = tmp_path / "both.png"
     assert export(application, user, "overlay", path).startswith("No photo is open")

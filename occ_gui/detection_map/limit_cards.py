@@ -128,7 +128,6 @@ class LimitCard(QFrame):
         self.setObjectName("card")
         self._decoder = decoder
         self._destination: float | None = None
-        self._rate: float | None = None
         self.name = ElidedLabel(decoder)
         self.value = QLabel()
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
@@ -192,26 +191,25 @@ class LimitCard(QFrame):
         rate
             The success rate, in percent, from which on a decoder counts as reading.
         """
-        self._rate = rate
-        self.set_outdated(False)
         if end is None:
             self._show(self.tr("none"), text, None)
             return
         inside = end.inside
         value = formatted_frequency(end.value)
-        beyond = self.tr("{value} or more").format(value=value) if end.fails is None else value
-        self._show(beyond, text, None if inside is None else inside.value)
+        limit = (
+            self.tr("{value} or more").format(value=value)
+            if end.fails is None
+            else self.tr("{value} ({rate:g} %)").format(value=value, rate=rate)
+        )
+        self._show(limit, text, None if inside is None else inside.value)
 
     def set_outdated(self, outdated: bool) -> None:
         """Show whether the limit is of an earlier scene."""
         self.value.setEnabled(not outdated)
-        name = self._decoder.capitalize()
-        if outdated:
-            text = self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
-        elif self._rate is None:
-            text = self.tr("{name} reads up to").format(name=name)
-        else:
-            text = self.tr("{name}, {rate:g} % up to").format(name=name, rate=self._rate)
-        self.name.set_full_text(text)
+        self.name.set_full_text(
+            self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
+            if outdated
+            else self.tr("{name} reads up to").format(name=self._decoder.capitalize())
+        )
         if outdated:
             self.go.setEnabled(False)

@@ -41,8 +41,8 @@ def test_a_card_states_what_the_page_of_advice_states(
     view.show_advice(advice)
     cards.show_advice(advice)
     card = cards.cards["threshold"]
-    assert card.value.text() == "14.7 kHz"
-    (sentence,) = [text for text in view.sentences() if card.value.text() in text]
+    assert card.value.text() == "14.7 kHz (99 %)"
+    (sentence,) = [text for text in view.sentences() if "14.7 kHz" in text]
     assert card.value.toolTip() == sentence
     assert cards.cards["matched"].value.text() == ""
 
@@ -66,7 +66,7 @@ def test_without_a_place_to_go_the_button_rests(cards: LimitCards, small_scene: 
     card = cards.cards["threshold"]
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, BAD)))
     assert not card.go.isEnabled()
-    assert card.value.text() == "14.7 kHz"
+    assert card.value.text() == "14.7 kHz (99 %)"
 
 
 def test_limits_of_an_earlier_scene_are_marked_and_asked_again(

@@ -109,7 +109,7 @@ class PhotoVerdictBar(StateBar):
             return self._listed(self._row)
         if self._match is None:
             sentence = self.tr("Say what was sent as far as you know, and match it.")
-            return State.NEUTRAL, (self.tr("Photo: not matched yet"), sentence)
+            return State.NEUTRAL, (self.tr("Photo: no match yet"), sentence)
         if self._outdated:
             title = self.tr("Photo: an earlier match is shown")
             why = self.tr("It is {why}.").format(why=self._outdated)

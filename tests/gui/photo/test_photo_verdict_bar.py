@@ -30,7 +30,7 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
 ) -> None:
     assert (bar.state, bar.heading) == (State.NEUTRAL, "No photo is open")
     view.show_photo(photo)
-    assert (bar.state, bar.heading) == (State.NEUTRAL, "Photo: not matched yet")
+    assert (bar.state, bar.heading) == (State.NEUTRAL, "Photo: no match yet")
     view.show_match_begun()
     assert (bar.state, bar.heading) == (State.WAITING, "Photo: matching…")
     view.show_match_cancelled()
@@ -98,7 +98,7 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
 ) -> None:
     view.many.show_files((photo.path,))
     view.show_photo(photo)
-    assert bar.heading == "Photo: not matched yet"
+    assert bar.heading == "Photo: no match yet"
     view.form.certain_changed.emit({"switching_frequency": 2e3})
     for verdict, state in (("refused", State.BAD), ("sure", State.GOOD)):
         view.many.show_row(0, PhotoRow(photo.path, verdict, REASONS[1]), 1)
@@ -109,7 +109,7 @@ def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
     assert bar.heading == "Photo: sure match"
     view.show_photo(photo)
     view.many.show_begun("readout_time", occ.Scene())
-    assert bar.heading == "Photo: not matched yet"
+    assert bar.heading == "Photo: no match yet"
 
 
 def test_another_photo_of_the_table_keeps_what_is_certain(view: PhotoView, photo: Photo) -> None:

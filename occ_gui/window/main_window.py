@@ -180,6 +180,24 @@ class MainWindow(QMainWindow):
             orientation = Qt.Orientation.Horizontal
         if now < least:
             self.resizeDocks([dock], [least], orientation)
+        if orientation == Qt.Orientation.Horizontal:
+            self._share_height(dock)
+
+    def _share_height(self, dock: Dock) -> None:
+        """Let a pane at a side have half of the height, if those above it need no more of it."""
+        above = [
+            other
+            for other in self.docks.values()
+            if other not in {dock, *self.tabifiedDockWidgets(dock)}
+            and self.dockWidgetArea(other) == self.dockWidgetArea(dock)
+            and other.isVisible()
+            and not other.isFloating()
+        ]
+        room = dock.height() + sum(other.height() for other in above)
+        needed = sum(other.sizeHint().height() for other in above)
+        share = min(room // 2, room - needed)
+        if dock.height() < share:
+            self.resizeDocks([dock], [share], Qt.Orientation.Vertical)
 
     def bring_into_view(self, name: str) -> None:
         """Show a pane in front in the present mode, unless the story has a row of the same.

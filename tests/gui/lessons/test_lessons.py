@@ -378,6 +378,21 @@ def test_a_lesson_beside_its_photo_fits_into_a_small_window(
     assert window.width() == 1000
 
 
+def test_in_a_large_window_a_lesson_leaves_its_photo_the_height_that_it_does_not_need(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    window = application.window
+    window.modes.switch("lessons")
+    window.resize(1920, 1080)
+    user.wait_until_idle()
+    guide.list.choices[5].click()
+    user.wait_until_idle()
+    lesson, photo = window.docks["lessons"], window.docks["photo"]
+    least = photo.minimumSizeHint().height()
+    qtbot.waitUntil(lambda: photo.height() > 1.4 * least)
+    assert lesson.height() >= lesson.sizeHint().height()
+
+
 def test_a_photo_opened_during_a_lesson_stays_open(
     application: Application, guide: LessonView, user: User, photo_file: Any
 ) -> None:

@@ -22,15 +22,12 @@ os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
 import pytest
-from amount import VARIABLE
+from amount import VARIABLE, amount
 from hard_cases import laws
 from hypothesis import settings
 
-# The same examples in each run; with this variable set, others are looked for.
-settings.register_profile(
-    "everyday", deadline=None, print_blob=True, derandomize="OCC_NEW_EXAMPLES" not in os.environ
-)
-settings.load_profile("everyday")
+NEW_EXAMPLES = "OCC_NEW_EXAMPLES" in os.environ
+"""Whether other examples are looked for, as many as Hypothesis does; else each run has the same."""
 
 _PHOTOS = Path(__file__).parents[2] / "shared" / "photos"
 
@@ -65,6 +62,11 @@ def pytest_configure(config: pytest.Config) -> None:
     """Tell the modules with tests, before they are imported, how much is tried."""
     if config.getoption("--whole"):
         os.environ[VARIABLE] = "1"
+    examples = 100 if NEW_EXAMPLES else amount(30, 60)
+    settings.register_profile(
+        "occ", deadline=None, print_blob=True, derandomize=not NEW_EXAMPLES, max_examples=examples
+    )
+    settings.load_profile("occ")
 
 
 @pytest.hookimpl(wrapper=True)

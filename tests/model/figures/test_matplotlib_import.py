@@ -82,11 +82,15 @@ def endless(path: Path) -> None:
     "make",
     [
         taste,
-        undecodable,
-        foreign_backend,
-        unreadable,
+        pytest.param(undecodable, marks=pytest.mark.whole),
+        pytest.param(foreign_backend, marks=pytest.mark.whole),
+        pytest.param(unreadable, marks=pytest.mark.whole),
         pytest.param(
-            endless, marks=pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes")
+            endless,
+            marks=[
+                pytest.mark.whole,
+                pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes"),
+            ],
         ),
     ],
 )
@@ -97,14 +101,18 @@ def test_no_settings_file_in_the_working_folder_reaches_a_figure(
     assert drawn(tmp_path) == plain
 
 
-def test_no_settings_file_named_elsewhere_reaches_a_figure(tmp_path: Path, plain: str) -> None:
+@pytest.mark.parametrize(
+    "variable", [pytest.param("MATPLOTLIBRC", marks=pytest.mark.whole), "MPLCONFIGDIR"]
+)
+def test_no_settings_file_named_elsewhere_reaches_a_figure(
+    tmp_path: Path, plain: str, variable: str
+) -> None:
     undecodable(tmp_path / "settings")
     taste(tmp_path / "matplotlibrc")
     work = tmp_path / "work"
     work.mkdir()
-    named, folder = str(tmp_path / "settings"), str(tmp_path)
-    assert drawn(work, MATPLOTLIBRC=named) == plain
-    assert drawn(work, MPLCONFIGDIR=folder) == plain
+    place = tmp_path / "settings" if variable == "MATPLOTLIBRC" else tmp_path
+    assert drawn(work, **{variable: str(place)}) == plain
 
 
 def test_no_unknown_backend_or_unwritable_folder_stops_a_figure(tmp_path: Path, plain: str) -> None:

@@ -9,7 +9,7 @@ from contextlib import suppress
 
 from amount import amount
 
-MOMENTS = int(os.environ.get("OCC_INTERRUPTS", amount(4, 8)))
+MOMENTS = int(os.environ.get("OCC_INTERRUPTS", amount(3, 5)))
 """Moments at which each command is interrupted."""
 
 # The interpreter's own start answers Ctrl-C in its own way: we begin when ours is in place.

@@ -69,7 +69,7 @@ def shown(folder: Path) -> dict[str, bytes]:
         ("film", 1),
         pytest.param("table", 1, marks=pytest.mark.whole),
         pytest.param("report", 2, marks=pytest.mark.whole),
-        ("sketch", 3),
+        pytest.param("sketch", 3, marks=pytest.mark.whole),
     ],
 )
 def test_what_kill_9_leaves_is_whole_or_absent(tmp_path: Path, kind: str, last: int) -> None:

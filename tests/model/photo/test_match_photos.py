@@ -20,8 +20,8 @@ from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.scene import Scene
 
 SCENE = occ.load_preset("phone-68us").replace(
-    rows=120,
-    columns=1600,
+    rows=60,
+    columns=700,
     pattern="10",
     switching_frequency=5e3,
     readout_time=9e-6,

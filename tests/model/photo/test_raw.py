@@ -100,7 +100,13 @@ def test_black_level_is_zero_and_white_level_is_saturated(tmp_path: Path) -> Non
     assert not photo.samples[:, 40:].any()
 
 
-@pytest.mark.parametrize("pattern", PATTERNS)
+@pytest.mark.parametrize(
+    "pattern",
+    [
+        pytest.param(pattern, marks=pytest.mark.whole if place else ())
+        for place, pattern in enumerate(PATTERNS)
+    ],
+)
 def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path, pattern: str) -> None:
     scene = scene_of(code=345)
     mosaic = mosaic_of(

@@ -58,7 +58,7 @@ def test_a_frame_holds_what_its_image_is_made_of(scene: Scene) -> None:
 def test_the_receivers_picture_is_the_cameras_enhanced(
     preset: str, tolerance: float, method: str
 ) -> None:
-    scene = occ.load_preset(preset).replace(rows=1200, columns=1600, enhancement=method)
+    scene = occ.load_preset(preset).replace(rows=900, columns=900, enhancement=method, distance=2.2)
     frame = occ.render(scene, tolerance=tolerance)
     camera, image = frame.camera_image, frame.image
     assert camera.shape == image.shape

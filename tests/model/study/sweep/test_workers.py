@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.parallel.job import Job, JobResult
@@ -40,7 +41,12 @@ def table(scene: Scene) -> SweepTable:
 
 
 @pytest.mark.parametrize(
-    "workers", [{"jobs": 2}, {"executor": ProcessPoolExecutor}, {"executor": ThreadPoolExecutor}]
+    "workers",
+    [
+        {"jobs": 2},
+        pytest.param({"executor": ProcessPoolExecutor}, marks=pytest.mark.whole),
+        {"executor": ThreadPoolExecutor},
+    ],
 )
 def test_other_workers_give_the_same_table(
     scene: Scene, table: SweepTable, workers: dict[str, Callable[[int], Executor] | int]
@@ -94,6 +100,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.whole
 def test_a_cluster_gives_the_same_table_also_where_a_worker_dies(
     tmp_path: Path, table: SweepTable
 ) -> None:
@@ -224,7 +231,7 @@ def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
     tracemalloc.start()
     try:
         points = measure(request, executor=Immediate())
-        for _ in islice(points, 40_000):
+        for _ in islice(points, amount(10_000, 40_000)):
             waiting.clear()
         points.close()
         peak = tracemalloc.get_traced_memory()[1]

@@ -1,7 +1,6 @@
-"""Kill -9 at any moment of a match of several photos: a whole table, or the one of before."""
+"""Kill -9 at any step of a match of several photos: a whole table, or the one of before."""
 
 import os
-import random
 import signal
 import subprocess
 import sys
@@ -18,9 +17,27 @@ SCENE = occ.load_preset("phone-68us").replace(
     exposure_time=80e-6, panel_width=3.0, enhancement="none", averaging="light",
 )  # fmt: skip
 
-PROGRAM = "from occ_model.cli import main; raise SystemExit(main())"
+# It is killed before the so-many-th step that names the folder, however busy the machine is.
+PROGRAM = """
+import os, signal, sys
 
-MOMENTS = 3
+folder, last = sys.argv.pop(1), int(sys.argv.pop(1))
+steps = []
+
+def watch(event, given):
+    if any(isinstance(one, (str, os.PathLike)) and os.fspath(one).startswith(folder)
+           for one in given):
+        steps.append(event)
+        if len(steps) == last:
+            os.kill(os.getpid(), signal.SIGKILL)
+
+sys.addaudithook(watch)
+from occ_model.cli import main
+code = main()
+print(*steps, file=sys.stderr)
+raise SystemExit(code)
+"""
+
 PATIENCE_S = 60.0
 
 
@@ -34,12 +51,12 @@ def photos(tmp_path: Path) -> list[Path]:
     return sorted(tmp_path.glob("*.png"))
 
 
-def begin(photos: list[Path], out: Path) -> subprocess.Popen[bytes]:
-    """Start to match photos, in a group of processes of its own."""
+def begin(photos: list[Path], out: Path, last: int) -> subprocess.Popen[bytes]:
+    """Start to match photos, in a group of processes of its own, which is killed at a step."""
     words = ["match", *map(str, photos), "--led-frequency", "2.5kHz", "--out", str(out)]
     return subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, *words, "--jobs", "2"],
-        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+        [sys.executable, "-c", PROGRAM, str(out.parent), str(last), *words, "--jobs", "2"],
+        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True,
     )  # fmt: skip
 
 
@@ -61,24 +78,22 @@ def test_a_killed_match_leaves_a_whole_table_or_the_one_of_before(
 ) -> None:
     folder = tmp_path / "tables"
     folder.mkdir()
-    started = time.monotonic()
-    assert begin(photos, folder / "table.csv").wait() == 0
-    took = time.monotonic() - started
+    process = begin(photos, folder / "table.csv", 0)
+    _, said = process.communicate()
+    assert process.returncode == 0
+    steps = said.decode().splitlines()[-1].split()
+    assert "os.rename" in steps
     whole = (folder / "table.csv").read_bytes()
     assert b"damaged.png,unreadable" in whole.replace(b'"', b"")
-    chance, killed = random.Random(16), 0
-    for number in range(MOMENTS):
+    for number in (1, len(steps) // 2 + 1, len(steps)):
         out = folder / f"{number}.csv"
         before = b"old" if number % 2 else None
         if before is not None:
             out.write_bytes(before)
-        process = begin(photos, out)
-        # The second half: what is imported at first cannot harm a file.
-        time.sleep(took * chance.uniform(0.5, 1.0))
-        process.kill()
-        killed += process.wait() == -signal.SIGKILL
+        process = begin(photos, out, number)
+        process.communicate()
+        assert process.returncode == -signal.SIGKILL
         wait_until_all_have_ended(process.pid)
         left = out.read_bytes() if out.exists() else None
         assert left in (before, whole)
-    assert killed > 0
     assert {path.suffix for path in folder.iterdir() if path.name[0] != "."} == {".csv"}

@@ -74,8 +74,7 @@ def test_the_rule_of_the_published_simulator_is_within_two_points_of_counting() 
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize("bits", [16, 40, 90])
-@pytest.mark.parametrize("gap", [0.05, 0.2, 0.4])
+@pytest.mark.parametrize(("bits", "gap"), [(16, 0.4), (40, 0.2), (90, 0.05), (90, 0.4)])
 def test_films_carry_what_counting_says(bits: int, gap: float) -> None:
     scene = scene_of_films(occ.load_preset("phone-68us")).replace(
         line_code="manchester", framing="preamble", exposure_time=40e-6

@@ -14,18 +14,19 @@ from occ_model.figures.drawing import ENDINGS, Drawing, house_style, write_all
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.scene.provenance import Provenance, scene_inside
 
-SCENE = occ.load_preset("phone-68us").replace(rows=800, panel_height=2.0)
+SCENE = occ.load_preset("phone-68us").replace(rows=400, panel_height=2.0)
 FRAME = occ.render(SCENE)
+READ, MATCHED = occ.decode(FRAME.image, SCENE), occ.decode(FRAME.image, SCENE, "matched")
 BAND = occ.band_profile(SCENE)
 PHOTO = occ.compare(FRAME.profile[800:2000] * 0.7 + 3.0, FRAME.profile, 800.0)
 
 
 def drawings() -> list[Drawing]:
     return [
-        picture_drawing(FRAME, occ.decode(FRAME.image, SCENE).region, FRAME.image),
+        picture_drawing(FRAME, READ.region, FRAME.image),
         profile_drawing(FRAME, BAND, comparison=PHOTO),
-        decode_drawing(SCENE, occ.decode(FRAME.image, SCENE)),
-        decode_drawing(SCENE, occ.decode(FRAME.image, SCENE, "matched")),
+        decode_drawing(SCENE, READ),
+        decode_drawing(SCENE, MATCHED),
     ]
 
 
@@ -76,11 +77,11 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     photo = np.array([float(row["photo (grey level)"]) for row in profile])
     assert np.isnan(photo[:800]).all()
     assert np.array_equal(photo[800:2000], PHOTO.photo)
-    signal = occ.decode(FRAME.image, SCENE).signal
+    signal = READ.signal
     assert signal is not None
     read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]
     assert [float(value) for value in read if value] == signal.tolist()
-    region = occ.decode(FRAME.image, SCENE).region
+    region = READ.region
     assert region is not None
     for row in rows(folder / "decoding-threshold.csv"):
         for name in ("column", "chip from column"):
@@ -95,8 +96,7 @@ def test_the_same_drawing_is_the_same_file(tmp_path: Path) -> None:
     for ending in ENDINGS:
         path = tmp_path / f"a{ending}"
         texts = set()
-        for _ in range(2):
-            drawing = drawings()[2]
+        for drawing in (decode_drawing(SCENE, READ), decode_drawing(SCENE, READ)):
             drawing.write(path, provenance(drawing))
             texts.add(path.read_bytes())
         assert len(texts) == 1
@@ -121,7 +121,7 @@ def test_the_reason_stands_where_there_is_no_band_model(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("enhanced", [False, True])
 def test_a_profile_has_the_threshold_of_its_decoder(enhanced: bool) -> None:
-    found = occ.decode(FRAME.image, SCENE)
+    found = READ
     with house_style():
         figure = profile_drawing(FRAME, None, decoded=found, enhanced=enhanced).draw()
     (line,) = [item for item in figure.axes[0].lines if item.get_label() == "threshold"]
@@ -138,8 +138,7 @@ def test_a_profile_has_the_threshold_of_its_decoder(enhanced: bool) -> None:
 
 
 def test_a_profile_has_no_threshold_of_a_decoder_without_one() -> None:
-    found = occ.decode(FRAME.image, SCENE, "matched")
-    for decoded in (None, found):
+    for decoded in (None, MATCHED):
         with house_style():
             figure = profile_drawing(FRAME, None, decoded=decoded).draw()
         assert "threshold" not in [line.get_label() for line in figure.axes[0].lines]
@@ -153,7 +152,7 @@ def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None
 
 
 def test_the_lit_chips_of_a_decoder_are_drawn_below_its_signal() -> None:
-    found = occ.decode(FRAME.image, SCENE)
+    found = READ
     assert found.signal is not None
     with house_style():
         figure = decode_drawing(SCENE, found).draw()

@@ -63,7 +63,8 @@ def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> Non
     assert averaged([fit_of(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0
 
 
-@pytest.mark.parametrize("seed", [pytest.param(121020, marks=pytest.mark.whole), 130011])
+@pytest.mark.whole
+@pytest.mark.parametrize("seed", [121020, 130011])
 def test_an_exposure_that_looks_like_a_box_of_blur_is_within_its_stated_error(seed: int) -> None:
     """Exposed for a column behind a box of three or five: exchanged, they make the same edges."""
     found = trial(random_world(seed))

@@ -45,7 +45,7 @@ def test_every_scheme_is_read_or_refused_with_a_sentence(
     code: str, framing: str, decoder: str
 ) -> None:
     scene = SCENE.replace(line_code=code, framing=framing, enhancement="none")
-    for start in (0.0, 1.37e-3, 5.9e-3):
+    for start in (1.37e-3, 5.9e-3, 0.0)[: amount(1, 3)]:
         result = occ.decode(signal(scene, start), scene, decoder)
         if (code, framing) in REFUSED:
             assert result.failure is not None

@@ -3,6 +3,7 @@
 import gc
 import os
 import shutil
+import sys
 from collections.abc import Generator
 from pathlib import Path
 from tempfile import mkdtemp
@@ -13,6 +14,14 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 # As in the programs; with a thread a core, each process of the tests would wait for the others.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+# Also where Python is told to keep no compiled modules: tests start hundreds of processes, and
+# more than half of such a start would be compiling the same modules again.
+if sys.dont_write_bytecode:
+    sys.dont_write_bytecode = False
+    sys.pycache_prefix = str(Path(__file__).parents[1] / ".pytest_cache" / "bytecode")
+    os.environ["PYTHONPYCACHEPREFIX"] = sys.pycache_prefix
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 # No test sees or touches the presets or lessons of whoever runs it.
 os.environ["OCC_PRESETS"] = str(Path(__file__).with_name("no-presets"))

@@ -7,6 +7,7 @@ import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
+from itertools import chain, islice
 from typing import TypeVar
 
 _Item = TypeVar("_Item")
@@ -30,10 +31,12 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
     """Do the work for each item, in threads; yield the results in the order of the items.
 
     Items are taken in the calling thread, a few ahead of the work: what is drawn there at random
-    does not depend on the threads.
+    does not depend on the threads. A single item is not worth starting one.
     """
-    count = threads()
-    if count == 1:
+    count, left = threads(), iter(items)
+    begun = list(islice(left, 2 if count > 1 else 0))
+    items = chain(begun, left)
+    if len(begun) < 2:
         yield from map(work, items)
         return
     waiting: deque[Future[_Result]] = deque()

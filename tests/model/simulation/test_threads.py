@@ -56,6 +56,16 @@ def test_results_come_in_order_and_items_are_taken_by_the_caller(
     assert takers == {threading.current_thread()}
 
 
+def test_a_single_item_starts_no_thread(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("occ_model.simulation.threads.threads", lambda: 2)
+    workers = list(each_in_threads(lambda _: threading.current_thread(), [0]))
+    assert workers == [threading.current_thread()]
+    assert list(each_in_threads(lambda number: number, [])) == []
+    assert threading.current_thread() not in each_in_threads(
+        lambda _: threading.current_thread(), [0, 1]
+    )
+
+
 def test_an_error_in_a_thread_is_the_callers(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("occ_model.simulation.threads.threads", lambda: 2)
     with pytest.raises(ZeroDivisionError):

@@ -6,6 +6,7 @@ improved from chips that were detected (decision-directed), then the chips are d
 """
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -179,16 +180,12 @@ def _likeliest(words: tuple[Word, ...], timing: Timing, statistics: ChipStatisti
 def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
     """Improve the timing and the brightness by least squares, the chips being as detected."""
     count = len(rows.light)
-    place = np.linspace(-1.0, 1.0, count)
     model, slope = lit_shares(fit.chips, fit.timing, count)
-    swing = fit.brightness.swing
     # The light is linear in a and b, each a parabola over the picture, and nearly in the timing.
-    powers = place[:, None] ** np.arange(3)
-    columns = np.concatenate(
-        [powers, powers * model[:, None], (slope * swing)[:, None] * powers[:, :2]], axis=1
-    )
-    found = np.linalg.lstsq(columns.T @ columns, columns.T @ rows.light, rcond=_SINGULAR)[0]
-    dark, swing = powers @ found[:3], powers @ found[3:6]
+    powers = _powers(count)
+    terms = np.concatenate([powers, powers * model, powers[:2] * (slope * fit.brightness.swing)])
+    found = np.linalg.lstsq(terms @ terms.T, terms @ rows.light, rcond=_SINGULAR)[0]
+    dark, swing = found[:3] @ powers, found[3:6] @ powers
     if not (swing > 0.0).all():
         return fit.timing, fit.brightness
     shift, drift = np.clip(found[6:], -_MOST_STEP, _MOST_STEP).tolist()
@@ -196,6 +193,13 @@ def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
     step = fit.timing.step + 2.0 * drift / max(count - 1, 1)
     timing = replace(fit.timing, phase=fit.timing.phase + shift - drift, step=step)
     return timing, Brightness(dark, swing)
+
+
+@lru_cache(maxsize=4)
+def _powers(rows: int) -> FloatArray:
+    """Return 1, x and x squared, x going from -1 to 1 over the rows, shape (3, rows)."""
+    place = np.linspace(-1.0, 1.0, rows)
+    return np.stack([np.ones(rows), place, place * place])
 
 
 def _autocorrelation(values: FloatArray, reach: int) -> FloatArray:

@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from hard_cases import laws
-from hard_cases.attack.program import doors
+from hard_cases.attack.program import Outcomes, doors
 from hard_cases.attack.promise import Door
 
-EVERYDAY, WHOLE = 250, int(os.environ.get("OCC_ATTACK", 6_000))
+EVERYDAY, WHOLE = 150, int(os.environ.get("OCC_ATTACK", 1_600))
 """Cases at all doors together; ``OCC_ATTACK`` asks for more."""
 
 FIRST = int(os.environ.get("OCC_ATTACK_SEED", 0))
@@ -43,41 +43,34 @@ def start(cases: Mapping[str, int]) -> subprocess.Popen[str]:
     )  # fmt: skip
 
 
-def check(process: subprocess.Popen[str], memory: int) -> None:
+def check(process: subprocess.Popen[str], memory: int) -> dict[str, Outcomes]:
     """See that no case broke the promise, and that nothing else was written."""
     written, complaints = process.communicate()
     last = written.splitlines()[-1] if written else "no case"
     assert process.returncode == 0, f"{last} ended the process: {complaints[-3000:]}"
-    found = json.loads(last)
-    for name, outcomes in found["doors"].items():
-        fallen = outcomes["fallen"]
-        number = outcomes["results"] + outcomes["sentences"] + len(fallen)
+    reported = json.loads(last)
+    found = {name: Outcomes(**outcomes) for name, outcomes in reported["doors"].items()}
+    for name, outcomes in found.items():
+        fallen = outcomes.fallen
         law = f"{name}: a result or a sentence"
-        laws.merge(law, DOORS[name].what, number, float(len(fallen)))
+        laws.merge(law, DOORS[name].what, outcomes.cases, float(len(fallen)))
         assert not fallen, f"{PROGRAM} SEED '{name}=1' shows what fell: {fallen}"
     unexpected = [line for line in complaints.splitlines() if not line.startswith(NOISE)]
     assert unexpected == []
-    assert found["memory"] < memory, f"{found['memory']:.0f} MB"
+    assert reported["memory"] < memory, f"{reported['memory']:.0f} MB"
+    return found
 
 
 def test_some_hostile_inputs_end_in_a_result_or_a_sentence() -> None:
     shares = {name: share_of(door, EVERYDAY) for name, door in DOORS.items()}
     cases = {name: share for name, share in shares.items() if share}
-    first = {name: cases.pop(name) for name in ("photos", "RAW files", "films", "tables", "scenes")}
-    most = max(door.memory for door in DOORS.values())
-    for process in [start(first), start(cases)]:
-        check(process, most)
+    check(start(cases), max(door.memory for door in DOORS.values()))
 
 
 @pytest.mark.whole
 @pytest.mark.parametrize("name", DOORS)
 def test_hostile_inputs_end_in_a_result_or_a_sentence(name: str) -> None:
     door = DOORS[name]
-    check(start({name: share_of(door, WHOLE)}), door.memory)
-
-
-@pytest.mark.whole
-def test_both_results_and_sentences_come_of_damaged_photos() -> None:
-    written, _ = start({"photos": 300}).communicate()
-    photos = json.loads(written.splitlines()[-1])["doors"]["photos"]
-    assert min(photos["results"], photos["sentences"]) > 30
+    found = check(start({name: share_of(door, WHOLE)}), door.memory)[name]
+    if name == "photos":  # damaged so that both come of them
+        assert min(found.results, found.sentences) > found.cases / 10

@@ -99,11 +99,15 @@ def compared(scenes: int, images: int, seed: int) -> Iterator[TwoPaths]:
             scene = random_scene(random)
             if is_in_doubt(scene) == bool(number % 2):
                 break
-        first = number * images
-        by_profile = shares(scene, "profile", images, first)
-        by_image = shares(scene, "image", images, 500_000_000 + first)
-        for place, decoder in enumerate(DECODERS):
-            yield TwoPaths(scene, decoder, by_profile[:, place], by_image[:, place])
+        yield from compared_at(scene, images, number * images)
+
+
+def compared_at(scene: Scene, images: int, first: int) -> Iterator[TwoPaths]:
+    """Compare both paths at a scene, by images with seeds of their own from the first on."""
+    by_profile = shares(scene, "profile", images, first)
+    by_image = shares(scene, "image", images, 500_000_000 + first)
+    for place, decoder in enumerate(DECODERS):
+        yield TwoPaths(scene, decoder, by_profile[:, place], by_image[:, place])
 
 
 def significance(found: list[TwoPaths]) -> tuple[float, int]:

@@ -2,33 +2,34 @@
 
 import numpy as np
 import pytest
-from physics.paths import TwoPaths, compared, significance
+from amount import amount
+from physics.paths import compared_at, random_scene, significance
 
 import occ_model as occ
 from occ_model.results import RateSettings
 from occ_model.study.success_rate import right_bits
 
+IN_DOUBT = (20, 80, 138, 181, 208, 263, 342, 408, 461, 757)
+"""Seeds of scenes where a rate is in doubt: all below a thousand."""
 
-def found(scenes: int, images: int) -> list[TwoPaths]:
-    return list(compared(scenes, images, seed=5))
+SETTLED = (1, 2, 3, 4, 5)
+"""Seeds of others."""
 
 
-def agreement_holds(pairs: list[TwoPaths]) -> None:
+def test_both_paths_give_the_same_rates() -> None:
+    seeds = (*IN_DOUBT[: amount(4, 10)], *SETTLED[: amount(2, 5)])
+    images = amount(10, 24)
+    pairs = [
+        pair
+        for number, seed in enumerate(seeds)
+        for pair in compared_at(random_scene(np.random.default_rng(seed)), images, number * images)
+    ]
     probability, terms = significance(pairs)
     assert terms >= len(pairs) / 5  # rates in doubt, by which paths can differ
     assert probability > 0.01
     for pair in pairs:
         if not pair.is_in_doubt:
             assert abs(pair.profile.mean() - pair.image.mean()) <= 0.1, pair
-
-
-def test_both_paths_give_the_same_rates() -> None:
-    agreement_holds(found(6, 16))
-
-
-@pytest.mark.whole
-def test_both_paths_give_the_same_rates_at_many_scenes() -> None:
-    agreement_holds(found(12, 30))
 
 
 @pytest.mark.parametrize("frequency", [14.2e3, 14.4e3, 14.6e3])
@@ -51,7 +52,7 @@ def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
 def test_a_sample_of_the_rows_reads_what_whole_pictures_do(frequency: float) -> None:
     scene = occ.load_preset("phone-136us-real").replace(switching_frequency=frequency)
     scene = scene.replace(
-        rows=scene.camera.rows // 4,
+        rows=scene.camera.rows // 8,
         columns=scene.camera.columns // 2,
         readout_time=scene.camera.readout_time * 2,
         panel_width=scene.transmitter.panel_width * 1.2,

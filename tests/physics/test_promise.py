@@ -14,7 +14,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable
 from occ_model.simulation.render import observe
 
-SCENES = amount(60, 240)
+SCENES = amount(40, 80)
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)
 
 BEFORE_ENHANCEMENT: tuple[Observable, ...] = ("profile", "image")
@@ -136,11 +136,13 @@ def allowance(number: int, chosen: occ.Plan) -> float:
 def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observable) -> None:
     left_out = 0
     for number, scene in enumerate(scenes()):
-        for tolerance in TOLERANCES:
+        tried = {complete(number, observable)[0].included}
+        for tolerance in sorted(TOLERANCES):
             chosen = occ.plan(scene, tolerance, observable)
-            if chosen.included == complete(number, observable)[0].included:
+            left_out += chosen.included != complete(number, observable)[0].included
+            if chosen.included in tried:  # all, or what a smaller tolerance has left out as well
                 continue
-            left_out += 1
+            tried.add(chosen.included)
             limit = tolerance * allowance(number, chosen) + 1e-4  # of single precision
             assert difference(number, chosen) <= limit, (number, chosen)
     assert left_out > SCENES / 2  # the promise was put to the test

@@ -12,7 +12,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
 
-SCENES = amount(90, 300)
+SCENES = amount(45, 90)
 TOLERANCES = (0.5, 4.0, 20.0, 80.0)
 METHODS = ("equalization", "stretch", "none")
 
@@ -81,7 +81,7 @@ def test_the_signal_changes_by_no_more_than_the_tolerance(tolerance: float) -> N
 
 
 def test_an_effect_by_itself_keeps_its_bound_in_the_signal() -> None:
-    for number, scene in enumerate(scenes()[:60]):
+    for number, scene in enumerate(scenes()[: SCENES // 2]):
         everything, whole = complete(number)
         for effect in everything.included:
             without = occ.plan(scene, 0.0, "signal", {effect: False})

@@ -115,7 +115,9 @@ def test_edges_hidden_by_white_are_doubted() -> None:
     """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)
     lamp = replace(world.lamp, darkening=0.0, halo=0.0, rim=1.0)
-    match = occ.match_photo(photo_of(photograph(replace(world, lamp=lamp))), told(world))
+    match = occ.match_photo(
+        photo_of(photograph(replace(world, lamp=lamp))), told(world), sent="scene"
+    )
     assert any("White hides" in why for why in match.exposure_reasons)
 
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -56,6 +57,18 @@ def recorded(scene: occ.Scene, count: int, recording: Recording | None = None) -
     return list(occ.render_video(scene, count, recording))
 
 
+@cache
+def film_of_scene() -> list[VideoFrame]:
+    """Forty frames and one of the scene, for all who only look at them."""
+    return recorded(SCENE, 41)
+
+
+@cache
+def whole_reading() -> occ.VideoReading:
+    """What the first forty of them give."""
+    return reading_of(film_of_scene()[:40], SCENE)
+
+
 def reading_of(frames: list[VideoFrame], scene: occ.Scene) -> occ.VideoReading:
     return occ.decode_video(Frames(frames, scene.camera.columns), scene)
 
@@ -100,7 +113,7 @@ def test_films_give_their_clocks_and_payloads_with_errors_that_hold() -> None:
 
 
 def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:
-    reading = reading_of(recorded(SCENE, 40), SCENE)
+    reading = whole_reading()
     assert reading.failure is None
     assert reading.payload == "HELLO"
     assert reading.read == 0
@@ -110,7 +123,7 @@ def test_packets_longer_than_a_frame_are_joined_chip_by_chip() -> None:
 
 def test_a_reading_needs_no_exact_readout_time_or_frequency() -> None:
     rough = SCENE.replace(readout_time=36.2e-6, switching_frequency=3.09e3)
-    reading = reading_of(recorded(SCENE, 30), rough)
+    reading = reading_of(film_of_scene()[:30], rough)
     assert reading.payload == "HELLO"
     assert reading.clock is not None
     clock = reading.clock
@@ -120,14 +133,13 @@ def test_a_reading_needs_no_exact_readout_time_or_frequency() -> None:
 
 
 def test_what_is_known_grows_frame_by_frame_and_ends_as_the_reading() -> None:
-    frames = recorded(SCENE, 40)
-    steps = list(occ.decode_frames(frames, SCENE))
+    steps = list(occ.decode_frames(film_of_scene()[:40], SCENE))
     known = [step.known for step in steps]
     assert known == sorted(known)
     assert [step.frames for step in steps] == list(range(1, 41))
     assert not steps[0].complete
     assert "·" in steps[0].payload
-    assert steps[-1].payload == reading_of(frames, SCENE).payload == "HELLO"
+    assert steps[-1].payload == whole_reading().payload == "HELLO"
 
 
 def test_sub_packets_are_joined_by_their_numbers() -> None:
@@ -170,7 +182,7 @@ def test_a_square_wave_leaves_aliases_and_they_are_said() -> None:
 
 
 def test_dropped_frames_that_the_times_hide_are_told() -> None:
-    frames = recorded(SCENE, 41)
+    frames = film_of_scene()
     kept = frames[:20] + frames[21:]
     renumbered = [
         replace(frame, index=number, time=number / 30.0) for number, frame in enumerate(kept)
@@ -223,7 +235,7 @@ def test_a_film_that_is_not_read_fails_with_the_words_of_a_single_picture() -> N
 
 
 def test_too_short_a_film_says_how_much_was_not_in_view() -> None:
-    reading = reading_of(recorded(SCENE, 2), SCENE)
+    reading = reading_of(film_of_scene()[:2], SCENE)
     assert reading.failure is not None
     assert "of 134 chips were in no frame" in reading.failure or "header" in reading.failure
 
@@ -244,7 +256,7 @@ def test_a_tolerance_out_of_range_is_refused() -> None:
 
 def test_stated_truth_is_not_looked_at() -> None:
     """A reader takes frames without the scene and the start that simulated ones have."""
-    frames = [replace(frame, scene=None, start=None) for frame in recorded(SCENE, 40)]
+    frames = [replace(frame, scene=None, start=None) for frame in film_of_scene()[:40]]
     assert reading_of(frames, SCENE).payload == "HELLO"
 
 

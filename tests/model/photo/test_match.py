@@ -101,7 +101,7 @@ def test_an_estimated_gamma_is_one_that_a_scene_may_have() -> None:
 
 def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
     # Of more columns, which tell gamma more exactly.
-    scene = random_scene(6).replace(averaging="light", gamma=1.8, illuminance=0.0)
+    scene = random_scene(5).replace(averaging="light", gamma=1.8, illuminance=0.0)
     match = occ.match_photo(take(scene), scene.replace(gamma=2.4), fit_gamma=True)
     assert abs(match.gamma - 1.8) < 2.0 * match.uncertainties["gamma"]
     assert 0.0 < match.uncertainties["gamma"] < 0.3

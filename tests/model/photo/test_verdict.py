@@ -41,7 +41,9 @@ def test_few_pictures_without_an_led_are_doubtful(negatives: list[Said]) -> None
 
 
 @pytest.mark.parametrize(
-    "seeds", [range(1), pytest.param(range(1, 6), marks=pytest.mark.whole)], ids=["sample", "whole"]
+    "seeds",
+    [range(1, 2), pytest.param(range(2, 6), marks=pytest.mark.whole)],
+    ids=["sample", "whole"],
 )
 def test_the_scenes_code_is_never_taken_for_another(seeds: range) -> None:
     found = [said_of_other_code(seed) for seed in seeds]

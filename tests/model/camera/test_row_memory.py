@@ -1,6 +1,7 @@
 """What depends on pose and lens alone is remembered, within a number of bytes."""
 
 import numpy as np
+from amount import amount
 
 import occ_model as occ
 from occ_model.camera.row_memory import LIMIT, MEMORY, RowMemory
@@ -41,7 +42,7 @@ def test_what_is_larger_than_the_memory_is_not_remembered() -> None:
 
 def test_no_number_of_moves_fills_more_than_the_limit() -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=1152, jpeg_quality=0)
-    for move in range(60):
+    for move in range(amount(25, 60)):
         moved = scene.replace(distance=1.0 + 0.01 * move)
         occ.render(moved, tolerance=0.0, noise="reused", rows_step=1 + 8 * (move % 5 > 0))
         assert MEMORY.size <= LIMIT

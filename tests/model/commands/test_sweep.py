@@ -148,7 +148,11 @@ def test_without_a_file_the_table_is_printed(capsys: pytest.CaptureFixture[str])
         (["--vary", "distance=1", "--plot", "no/such/x.png"], "cannot be written"),
         (["--vary", "distance=1", "--out", "."], "is a folder"),
         (["--vary", "distance=1", "--on", "jpeg", "--off", "jpeg"], "both on and off"),
-        (["--vary", "distance=1", "--cluster", "nowhere"], "No dask scheduler answers at 'nowhere"),
+        pytest.param(
+            ["--vary", "distance=1", "--cluster", "nowhere"],
+            "No dask scheduler answers at 'nowhere",
+            marks=pytest.mark.whole,
+        ),
         (
             ["--vary", "distance=1", "--vary", "yaw=0", "--vary", "roll=0", "--plot", "x.png"],
             "draws one axis or two, not 3",

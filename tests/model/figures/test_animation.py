@@ -18,7 +18,7 @@ VALUES = [4e3, 8e3, 12e3]
 
 @pytest.fixture(scope="module")
 def scene() -> Scene:
-    return occ.load_preset("phone-136us").replace(rows=300, columns=1500)
+    return occ.load_preset("phone-136us").replace(rows=150, columns=700)
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
@@ -83,7 +83,7 @@ def test_the_command_runs_there_and_back(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "a.gif"
-    small = ["--set", "rows=200", "--set", "columns=1200"]
+    small = ["--set", "rows=100", "--set", "columns=600"]
     axis = ["--vary", "switching_frequency=4kHz:8kHz:x3", "--back"]
     assert main(["animate", *small, *axis, "-o", str(path)]) == 0
     assert "4 frames" in capsys.readouterr().out

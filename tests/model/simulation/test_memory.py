@@ -39,6 +39,7 @@ def test_a_picture_takes_six_bytes_a_pixel_beside_itself(
     assert image.nbytes <= peak - before <= 7 * image.nbytes
 
 
+@pytest.mark.whole
 @pytest.mark.usefixtures("traced")
 def test_a_frame_that_is_gone_leaves_no_more_than_is_remembered(scene: Scene) -> None:
     small = scene.replace(rows=1152, jpeg_quality=0)

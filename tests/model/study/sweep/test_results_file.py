@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.results import SweepTable
@@ -99,7 +100,15 @@ def test_a_truncated_file_is_continued_with_what_is_missing(
     scene: Scene, table: SweepTable, whole: bytes, tmp_path: Path, measured: list[int]
 ) -> None:
     path, begin = tmp_path / "r.csv", header_size(whole)
-    cuts = {0, 1, begin - 1, begin, begin + 1, len(whole) - 1, *range(begin, len(whole), 61)}
+    cuts = {
+        0,
+        1,
+        begin - 1,
+        begin,
+        begin + 1,
+        len(whole) - 1,
+        *range(begin, len(whole), amount(211, 61)),
+    }
     for cut in sorted(cuts):
         path.write_bytes(whole[:cut])
         measured.clear()

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.shared_window import SharedWindow, end, new_window
+from gui.starts import Starts
 from gui.user import PatientQtBot, User
 from numpy.typing import NDArray
 from PIL import Image
@@ -120,6 +121,14 @@ def bare_snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
     """Simulate the small scene as above, without any effect."""
     bare = SimulationSettings(tolerance=math.inf)
     return lambda **changes: simulate(small_scene.replace(**changes), bare)
+
+
+@pytest.fixture(scope="session")
+def starts() -> Iterator[Starts]:
+    """Give what starts the program in processes of its own."""
+    starts = Starts()
+    yield starts
+    starts.close()
 
 
 @pytest.fixture(scope="module")

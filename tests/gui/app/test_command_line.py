@@ -3,16 +3,17 @@
 import os
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from gui.starts import PROJECT, Starts
 from PIL import Image
 
 from occ_gui.app.command_line import OVERLAYS, main
 from occ_gui.app.display import missing_library
 from occ_gui.picture.photo_overlay import MODES
 
-PROJECT = Path(__file__).resolve().parents[3]
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 
 DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
@@ -35,15 +36,13 @@ sys.exit(f"imported at start: {heavy}" if heavy else code)
 """
 
 
-def run(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+def run(
+    *arguments: str | Path, environment: Mapping[str, str] = ENVIRONMENT
+) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, *map(str, arguments)],
-        cwd=PROJECT, env=ENVIRONMENT, capture_output=True, text=True, timeout=120, check=False,
+        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=120, check=False,
     )  # fmt: skip
-
-
-def occ_gui(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return run("-m", "occ_gui", *arguments)
 
 
 def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
@@ -62,7 +61,9 @@ def is_one_sentence(text: str) -> bool:
 
 def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_file: Path) -> None:
     picture = tmp_path / "window.png"
-    ended = occ_gui("--screenshot", picture, "--size", "1920x1080", "--photo", photo_file)
+    ended = run(
+        "-m", "occ_gui", "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file
+    )
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
     with Image.open(picture) as image:
         assert image.format == "PNG"
@@ -71,9 +72,11 @@ def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_fil
     assert REGION in colours, "the picture was taken before the simulation was shown"
 
 
-def test_a_screenshot_of_the_accuracy_pane_waits_for_the_study(tmp_path: Path) -> None:
+def test_a_screenshot_of_the_accuracy_pane_waits_for_the_study(
+    tmp_path: Path, starts: Starts
+) -> None:
     small = [f"--set={size}" for size in ("rows=60", "columns=100")]
-    ended = occ_gui(
+    ended = starts.run(
         "--screenshot", tmp_path / "w.png", "--dock", "accuracy", "--tolerance", "2", *small
     )
     assert (ended.returncode, ended.stderr) == (0, "")
@@ -83,10 +86,10 @@ def test_a_screenshot_of_the_accuracy_pane_waits_for_the_study(tmp_path: Path) -
 
 
 def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
-    tmp_path: Path, photo_file: Path
+    tmp_path: Path, starts: Starts, photo_file: Path
 ) -> None:
     blinking = ["--set=pattern=10", "--set=switching_frequency=4kHz"]
-    ended = occ_gui(
+    ended = starts.run(
         "--screenshot", tmp_path / "w.png", "--photo", photo_file, "--match",
         "--overlay", "split", "--dock", "photo", *blinking,
     )  # fmt: skip
@@ -94,10 +97,10 @@ def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
     assert (tmp_path / "w.png").is_file()
 
 
-def test_a_photo_that_cannot_be_matched_gives_a_sentence(tmp_path: Path) -> None:
+def test_a_photo_that_cannot_be_matched_gives_a_sentence(tmp_path: Path, starts: Starts) -> None:
     flat = tmp_path / "flat.png"
     Image.new("L", (100, 60), 90).save(flat)
-    ended = occ_gui("--screenshot", tmp_path / "w.png", "--photo", flat, "--match")
+    ended = starts.run("--screenshot", tmp_path / "w.png", "--photo", flat, "--match")
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert not (tmp_path / "w.png").exists()
@@ -135,16 +138,16 @@ def test_the_first_picture_is_shown_without_slow_imports(tmp_path: Path) -> None
         assert image.size == (1280, 800)
 
 
-def test_a_photo_that_is_missing_is_answered_in_a_sentence(tmp_path: Path) -> None:
-    ended = occ_gui("--screenshot", tmp_path / "w.png", "--photo", tmp_path / "missing.jpg")
+def test_a_photo_that_is_missing_is_answered_in_a_sentence(tmp_path: Path, starts: Starts) -> None:
+    ended = starts.run("--screenshot", tmp_path / "w.png", "--photo", tmp_path / "missing.jpg")
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert "missing.jpg" in ended.stderr
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_picture_that_cannot_be_written_gives_a_sentence(tmp_path: Path) -> None:
-    ended = occ_gui("--screenshot", tmp_path)
+def test_a_picture_that_cannot_be_written_gives_a_sentence(tmp_path: Path, starts: Starts) -> None:
+    ended = starts.run("--screenshot", tmp_path)
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert str(tmp_path) in ended.stderr
@@ -152,8 +155,8 @@ def test_a_picture_that_cannot_be_written_gives_a_sentence(tmp_path: Path) -> No
     assert list(tmp_path.parent.glob(f".{tmp_path.name}*")) == []
 
 
-def test_an_unknown_preset_is_answered_in_a_sentence(tmp_path: Path) -> None:
-    ended = occ_gui("--screenshot", tmp_path / "window.png", "--preset", "fone-68us")
+def test_an_unknown_preset_is_answered_in_a_sentence(tmp_path: Path, starts: Starts) -> None:
+    ended = starts.run("--screenshot", tmp_path / "window.png", "--preset", "fone-68us")
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert "phone-68us" in ended.stderr
@@ -212,15 +215,12 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
         assert option in told
 
 
-def test_a_scene_without_a_picture_gives_a_sentence_and_no_file(tmp_path: Path) -> None:
+def test_a_scene_without_a_picture_gives_a_sentence_and_no_file(
+    tmp_path: Path, starts: Starts
+) -> None:
     picture = tmp_path / "window.png"
     behind = ["--set", "distance=0.1m", "--set", "yaw=70deg"]
-    ended = subprocess.run(
-        [sys.executable, "-m", "occ_gui", "--screenshot", str(picture), *behind],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    ended = starts.run("--screenshot", picture, *behind)
     assert ended.returncode == 2
     assert "behind the camera" in ended.stderr
     assert "Traceback" not in ended.stderr
@@ -243,10 +243,7 @@ def test_without_a_display_a_screenshot_is_offered(
 )
 def test_a_display_that_does_not_answer_gives_a_sentence(named: dict[str, str]) -> None:
     here = {k: v for k, v in ENVIRONMENT.items() if k not in DISPLAYS}
-    ended = subprocess.run(
-        [sys.executable, "-m", "occ_gui"],
-        cwd=PROJECT, env=here | named, capture_output=True, text=True, timeout=120, check=False,
-    )  # fmt: skip
+    ended = run("-m", "occ_gui", environment=here | named)
     assert ended.returncode == 2
     *_, sentence = ended.stderr.splitlines(keepends=True)
     assert is_one_sentence(sentence)

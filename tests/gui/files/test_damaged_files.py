@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 from _pytest.mark import ParameterSet
+from gui.starts import PROJECT, Starts
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
@@ -26,8 +27,6 @@ from occ_gui.lessons.lesson_view import LessonView
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-
-PROJECT = Path(__file__).resolve().parents[3]
 
 LONG_NUMBER = "9" * 4000
 DEEP = 1500
@@ -148,15 +147,11 @@ def every_file_and_damage() -> Iterator[ParameterSet]:
 
 @pytest.mark.parametrize(("names", "damage"), list(every_file_and_damage()))
 def test_what_is_no_file_does_not_keep_the_window_from_starting(
-    tmp_path: Path, names: tuple[str, ...], damage: Damage
+    tmp_path: Path, starts: Starts, names: tuple[str, ...], damage: Damage
 ) -> None:
     for name in names:
         damage(tmp_path / name)
-    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "OCC_STATE": str(tmp_path)}
-    window = subprocess.run(
-        [sys.executable, "-c", LOOK],
-        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+    window = starts.run(program=LOOK, OCC_STATE=str(tmp_path))
     assert (window.returncode, window.stderr) == (0, "")
 
 

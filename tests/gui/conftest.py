@@ -144,7 +144,7 @@ def application(
     request: pytest.FixtureRequest, qtbot: QtBot, small_scene: Scene, kept_window: SharedWindow
 ) -> Iterator[Application]:
     """Show a whole application that has come to rest, and see that nothing of it is left behind."""
-    if request.node.get_closest_marker("shared_window"):
+    if not request.node.get_closest_marker("own_window"):
         with kept_window.lent(qtbot, small_scene) as application:
             yield application
         return

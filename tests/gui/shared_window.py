@@ -1,11 +1,12 @@
-"""A window that tests of a file use one after another, while each leaves it as at its start."""
+"""A window that tests of a file use one after another, each of which finds it as the first did."""
 
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QEvent
+from PySide6.QtCore import QEvent, QSize
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -14,18 +15,28 @@ from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
     QDockWidget,
+    QGraphicsScene,
     QGraphicsView,
     QLabel,
     QLineEdit,
     QMenu,
     QPlainTextEdit,
     QTabBar,
+    QTabWidget,
     QTextEdit,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.app.command_line import THEMES
+from occ_gui.photo.match_choice import MatchChoice
+from occ_gui.photo.photo_controller import PhotoReading
+from occ_gui.picture.photo_overlay import MODES as OVERLAYS
+from occ_gui.picture.placement import Placement
+from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.window.modes.mode import MODES
+from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 
 _SHOWN: dict[type[QWidget], Callable[[Any], object]] = {
@@ -71,11 +82,20 @@ def end(application: Application, before: Sequence[QWidget]) -> None:
     assert not leaked, f"top-level widgets outlive the window: {leaked}"
 
 
-def look_of(application: Application) -> list[object]:
-    """Give all that a test could have changed in a window, and that another would see."""
+def forget_lessons(application: Application) -> None:
+    """Leave the lesson, and forget what has been done of any, which no user can."""
+    if "lessons" not in vars(application.learning):
+        return
+    lessons = application.learning.lessons
+    lessons.controller.leave()
+    lessons.controller._places.clear()
+    lessons.controller._done.clear()
+    lessons.answers._given.clear()
+
+
+def state_of(application: Application) -> list[object]:
+    """Give what a test could have changed in a window beside its widgets."""
     window = application.window
-    widgets = [window, *window.findChildren(QWidget)]
-    focus = window.focusWidget()
     return [
         application.store.scene,
         application.store.undo_stack.count(),
@@ -83,25 +103,62 @@ def look_of(application: Application) -> list[object]:
         application.photos.reading,
         application.photo_wiring.matching.photo,
         application.photo_wiring.placements.placement,
+        application.photo.form.choice(),
+        application.photo.form.certain_values,
+        application.preferences.files,
+        application.video.path,
+        (application.learning.pins.pinned.a, application.learning.pins.pinned.b),
         application.image.mode.key(),
-        application.image.simulation.box.viewRange(),
         application.desktop.theme.theme,
         window.modes.mode,
         window.windowTitle(),
         window.size(),
-        None if focus is None else widgets.index(focus),
-        [(w.isHidden(), w.isEnabled(), w.visibleRegion().isEmpty(), w.toolTip()) for w in widgets],
-        [
-            (type(w), shown(w))
-            for w in widgets
-            for kind, shown in _SHOWN.items()
-            if isinstance(w, kind)
-        ],
-        [
-            (a.text(), a.isChecked(), a.isEnabled(), a.isVisible())
-            for a in window.findChildren(QAction)
-        ],
+        window.focusWidget(),
+        window.statusBar().currentMessage(),
     ]
+
+
+def look_of(window: QWidget) -> list[str]:
+    """Give what users see of a window's widgets, and its entries, in no order.
+
+    Some widgets are made anew each time, so none is known by its place.
+    """
+    seen = [
+        repr(
+            (
+                type(widget).__name__,
+                widget.isEnabled(),
+                widget.toolTip(),
+                [shown(widget) for kind, shown in _SHOWN.items() if isinstance(widget, kind)],
+            )
+        )
+        for widget in [window, *window.findChildren(QWidget)]
+        if not widget.visibleRegion().isEmpty()
+    ]
+    entries = [
+        repr((entry.text(), entry.isChecked(), entry.isEnabled(), entry.isVisible()))
+        for entry in window.findChildren(QAction)
+        # Not those of a plot or a field that was made meanwhile.
+        if entry.text() and not isinstance(entry.parent(), QGraphicsScene)
+    ]
+    return [*sorted(seen), *sorted(entries)]
+
+
+@dataclass(frozen=True)
+class Home:
+    """What a window had at first, and gets again."""
+
+    size: QSize
+    docks: list[bool]
+    choice: MatchChoice
+    column: int
+
+    @classmethod
+    def of(cls, application: Application) -> "Home":
+        """Note what a window has."""
+        docks = [dock.isHidden() for dock in application.window.docks.values()]
+        column = application.story.rows.crosshair.column or 0
+        return cls(application.window.size(), docks, application.photo.form.choice(), column)
 
 
 class SharedWindow:
@@ -110,26 +167,48 @@ class SharedWindow:
     def __init__(self) -> None:
         self._kept: Application | None = None
         self._first: list[object] = []
+        self._home: Home | None = None
         self._before: list[QWidget] = []
+
+    @property
+    def is_kept(self) -> bool:
+        """Whether there is a window that the next test gets."""
+        return self._kept is not None
 
     @contextmanager
     def lent(self, qtbot: QtBot, scene: Scene) -> Iterator[Application]:
         """Lend the window to a test: the one that is kept, or a new one."""
         if self._kept is None:
-            self._before = QApplication.topLevelWidgets()
-            self._kept = new_window(qtbot, scene)
-            qtbot.wait(_SETTLED_MS)
-            self._first = look_of(self._kept)
+            self._open(qtbot, scene)
+        assert self._kept is not None
         yield self._kept
-        self._put_back(qtbot, self._kept)
-        if look_of(self._kept) != self._first:
+        if not self._is_as_at_first(qtbot, scene, self._kept):
             self.close()
+
+    def _open(self, qtbot: QtBot, scene: Scene) -> None:
+        self._before = QApplication.topLevelWidgets()
+        self._kept = kept = new_window(qtbot, scene)
+        qtbot.wait(_SETTLED_MS)
+        self._home = Home.of(kept)
+        # Each test finds a window that had another scene, the first one too.
+        kept.store.change(iso=1.1 * scene.camera.iso)
+        qtbot.waitUntil(lambda: kept.is_idle)
+        self._put_back(qtbot, scene, kept)
+        self._first = [*state_of(kept), *look_of(kept.window)]
+
+    def _is_as_at_first(self, qtbot: QtBot, scene: Scene, kept: Application) -> bool:
+        """Put the window back, and tell whether nothing of the test is left in it."""
+        if kept.window.isHidden():
+            return False
+        self._put_back(qtbot, scene, kept)
+        return [*state_of(kept), *look_of(kept.window)] == self._first
 
     def close(self) -> None:
         """Close the window, if one is kept."""
         kept, self._kept = self._kept, None
         if kept is None:
             return
+        self._first = []
         was_on = gc.isenabled()
         gc.disable()  # let no worker destroy what is left of the widgets
         end(kept, self._before)
@@ -138,8 +217,51 @@ class SharedWindow:
         if was_on:
             gc.enable()
 
-    def _put_back(self, qtbot: QtBot, application: Application) -> None:
-        """Let the window come to rest, and its status line say nothing."""
-        application.window.statusBar().clearMessage()
-        qtbot.waitUntil(lambda: application.is_idle)
+    def _put_back(self, qtbot: QtBot, scene: Scene, kept: Application) -> None:
+        """Undo what the tests do most, as far as a window lets users undo it; let it come to rest.
+
+        What is not undone here is found by the comparison, and ends the window.
+        """
+        qtbot.waitUntil(lambda: kept.is_idle)
+        window, mode, home = kept.window, next(iter(MODES)), self._home
+        assert home is not None
+        forget_lessons(kept)
+        kept.photos.close()
+        kept.photos.scan_along(PhotoReading().scan_axis)
+        kept.photo_wiring.placements.reset()
+        kept.photo_wiring.placements.suggest(Placement())
+        kept.video.close()
+        kept.learning.pins.clear()
+        kept.preferences.clear()
+        kept.store.put(scene, "first scene", force={})
+        kept.settings.restore(FIRST_SETTINGS)
+        kept.store.undo_stack.clear()
+        if kept.desktop.theme.theme != THEMES[0]:
+            kept.desktop.theme.choose(THEMES[0])
+        is_moved = window.size() != home.size or bool(window.modes.layouts)
+        window.resize(home.size)
+        window.modes.layouts.clear()
+        if window.modes.mode != mode:
+            window.modes.switch(mode)
+            window.modes.layouts.clear()
+        elif is_moved or home.docks != Home.of(kept).docks:
+            window.modes.reset()
+        kept.photo.form.show_choice(home.choice, {})
+        kept.story.show_whole_picture(False)
+        kept.image.before.chosen.setChecked(False)
+        for pages in kept.controls.findChildren(QTabWidget):
+            pages.setCurrentIndex(0)
+        kept.controls.end_refusals()
+        kept.show_mode(OVERLAYS[0])
+        kept.image.choose_picture("camera")
+        kept.decode.choose_decoder(next(iter(DECODERS)))
+        kept.desktop.brightness.switch(False)
+        qtbot.waitUntil(lambda: kept.is_idle)
+        kept.story.rows.crosshair.choose(home.column)
+        kept.image.fit()
+        window.setFocus()
         QApplication.processEvents()
+        # What the status line says of the last change, and of the time that it took.
+        window.statusBar().clearMessage()
+        window.show_plan_change("")
+        window.show_timing(0.0, 0.0)

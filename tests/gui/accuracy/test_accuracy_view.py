@@ -63,6 +63,7 @@ def test_the_mark_goes_to_what_is_switched_next(in_front: Application, user: Use
     assert "Switched out: LED rise and fall." in in_front.accuracy.summary.toolTip()
 
 
+@pytest.mark.own_window
 def test_the_status_line_says_it_also_while_the_pane_is_behind(
     application: Application, user: User
 ) -> None:

@@ -20,6 +20,8 @@ from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.guarded_paint import guarded
 
+pytestmark = pytest.mark.own_window
+
 STILL_THERE = "Your work is still there."
 
 

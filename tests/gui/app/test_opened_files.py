@@ -168,6 +168,7 @@ def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene
     return folder
 
 
+@pytest.mark.own_window
 def test_a_sample_is_opened_with_its_scene_and_not_remembered(
     samples: Path, user: User, application: Application, camera_scene: Scene
 ) -> None:

@@ -3,7 +3,6 @@
 import logging
 from pathlib import Path
 
-import pytest
 from gui.user import User
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QDialog, QLabel, QPlainTextEdit, QPushButton
@@ -12,8 +11,6 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.app.report import report_text
 from occ_model.scene.simulation_settings import SimulationSettings
-
-pytestmark = pytest.mark.shared_window
 
 
 def test_it_has_the_version_and_the_scene(application: Application) -> None:

@@ -87,6 +87,7 @@ def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iter
 
 
 @pytest.mark.usefixtures("plugins_of_decoders")
+@pytest.mark.own_window
 def test_decoders_of_plugins_have_tabs_and_say_why_they_fail(
     application: Application, user: User
 ) -> None:

@@ -119,6 +119,7 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
     assert story.rows.profile.levels is reading.profile
 
 
+@pytest.mark.own_window
 def test_an_open_photo_is_drawn_in_the_story(
     application: Application, user: User, photo_file: Path
 ) -> None:

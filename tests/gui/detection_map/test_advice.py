@@ -25,6 +25,8 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.advice import advice_of
 
+pytestmark = pytest.mark.own_window
+
 GOOD = Trial(14.7e3, 200, 200, 98.1, 100.0, 20)
 INSIDE = Trial(14.55e3, 200, 200, 98.1, 100.0, 20)
 BAD = Trial(14.73e3, 0, 200, 0.0, 1.9, 20)

@@ -21,8 +21,6 @@ from occ_gui.export import jobs
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
 
-pytestmark = pytest.mark.shared_window
-
 
 def export(application: Application, user: User, name: str, path: Path) -> str:
     application.desktop.export.export(name, path)

@@ -192,6 +192,7 @@ def test_the_photos_give_the_numbers_that_the_answers_state(
     assert application.controls.code.number.value() == 345
 
 
+@pytest.mark.own_window
 def test_lessons_that_cannot_be_read_give_a_sentence(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:

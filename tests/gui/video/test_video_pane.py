@@ -133,6 +133,7 @@ def test_the_session_keeps_the_film(
     assert SessionFile(tmp_path / "state", ()).last.film == film_file
 
 
+@pytest.mark.own_window
 def test_a_kept_film_is_opened_when_the_mode_is_first_shown(
     application: Application, user: User, film_file: Path
 ) -> None:

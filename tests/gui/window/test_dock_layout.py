@@ -28,6 +28,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.picture.photo_overlay import MODES
 from occ_gui.window.modes.mode import MODES as WINDOW_MODES
+from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 
 CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
@@ -208,6 +209,7 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
     assert window.size() == size
 
 
+@pytest.mark.own_window
 def test_no_mode_and_no_step_of_a_lesson_needs_a_larger_window_than_the_least_screen_has(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
@@ -289,15 +291,16 @@ def test_every_effect_is_in_view_at_the_windows_first_size(
     assert table.model().rowCount() * table.rowHeight(0) <= table.viewport().height()
 
 
+@pytest.mark.own_window
 def test_the_window_opens_at_1280_by_800(application: Application) -> None:
     assert application.window.size() == QSize(1280, 800)
 
 
 @pytest.mark.parametrize("changes", STATES, ids=str)
 def test_the_window_opens_at_the_requested_size_for_any_scene(
-    qtbot: QtBot, application: Application, changes: dict[str, float]
+    qtbot: QtBot, small_scene: Scene, changes: dict[str, float]
 ) -> None:
-    fresh = Application(application.store.scene.replace(**changes))
+    fresh = Application(small_scene.replace(**changes))
     fresh.window.resize(SIZES[0])
     fresh.window.show()
     qtbot.waitUntil(lambda: fresh.is_idle)

@@ -39,7 +39,7 @@ from occ_gui.window.command_palette import entries
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 
-pytestmark = pytest.mark.shared_window
+pytestmark = pytest.mark.own_window
 
 READ_LATER = ("Fit gamma too",)
 """Boxes that are looked at when a button is pressed, and tell of nothing before."""

@@ -28,8 +28,6 @@ from occ_gui.app.command_line import PANES
 from occ_gui.picture.photo_overlay import MODES as OVERLAYS
 from occ_gui.window.modes.mode import MODES
 
-pytestmark = pytest.mark.shared_window
-
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
     """Walk over the menus of a menu bar, and the menus in them."""
@@ -117,6 +115,7 @@ def test_docks_have_names_that_a_saved_arrangement_can_refer_to(application: App
         assert dock.windowTitle()
 
 
+@pytest.mark.own_window
 def test_quit_closes_the_window(application: Application) -> None:
     application.window.actions_by_name["quit"].trigger()
     assert not application.window.isVisible()
@@ -226,6 +225,7 @@ def test_text_is_not_taken_for_files(application: Application) -> None:
 
 
 @pytest.mark.parametrize("height", [800, 1080])
+@pytest.mark.own_window
 def test_a_pane_that_opens_below_the_middle_is_high_enough(
     application: Application, qtbot: QtBot, height: int
 ) -> None:

@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Future
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -24,6 +25,7 @@ from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.reading.load import Photo
+from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -133,7 +135,7 @@ def starts() -> Iterator[Starts]:
 
 @pytest.fixture(scope="module")
 def kept_window() -> Iterator[SharedWindow]:
-    """Keep a window for the tests of a file that are marked `shared_window`."""
+    """Keep a window for the tests of a file."""
     shared = SharedWindow()
     yield shared
     shared.close()
@@ -159,6 +161,29 @@ def application(
 def user(qtbot: QtBot, application: Application) -> User:
     """Let somebody sit down at the application."""
     return User(qtbot, application)
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[tuple[object, ...], Match]:
+    """Keep what was found in photos by the tests of a file."""
+    return {}
+
+
+@pytest.fixture
+def remembered_matches(
+    found: dict[tuple[object, ...], Match], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Match each photo once, so that tests which begin after a match wait for the first only."""
+    find = occ.match_photo
+
+    def remembered(photo: Photo, scene: Scene, **how: Any) -> Match:
+        known = [how[name] for name in sorted(how) if name != "progress"]
+        asked = (photo.samples.tobytes(), scene, *known)
+        if asked not in found:
+            found[asked] = find(photo, scene, **how)
+        return found[asked]
+
+    monkeypatch.setattr(occ, "match_photo", remembered)
 
 
 @pytest.fixture

@@ -15,7 +15,6 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.picture.placement import Placement
-from occ_model.results import Match
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
@@ -37,30 +36,10 @@ def taken(tmp_path: Path, camera_scene: Scene) -> Path:
     return path
 
 
-@pytest.fixture(scope="module")
-def found() -> dict[tuple[object, ...], Match]:
-    """Keep what was found, so that tests which begin after a match wait for the first only."""
-    return {}
-
-
 @pytest.fixture
 def matched(
-    application: Application,
-    user: User,
-    taken: Path,
-    found: dict[tuple[object, ...], Match],
-    monkeypatch: pytest.MonkeyPatch,
+    application: Application, user: User, taken: Path, remembered_matches: None
 ) -> Application:
-    find = occ.match_photo
-
-    def remembered(photo: occ.Photo, scene: Scene, **how: Any) -> Match:
-        known = [how[name] for name in sorted(how) if name != "progress"]
-        asked = (photo.samples.tobytes(), scene, *known)
-        if asked not in found:
-            found[asked] = find(photo, scene, **how)
-        return found[asked]
-
-    monkeypatch.setattr(occ, "match_photo", remembered)
     application.open_photo(taken)
     user.wait_until_idle()
     application.photo.form.sent.show_key("square")
@@ -238,7 +217,9 @@ def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     assert matched.window.modes.mode == "photo"
     assert verdict.isVisible()
     assert not story.verdict.isVisible()
-    assert verdict.heading.startswith("Photo: the match is")
+    match = matched.photo_wiring.matching.match
+    assert match is not None
+    assert verdict.heading.startswith(f"Photo: {match.verdict}")
     chips = {chip.key: chip for chip in verdict.chips.chips}
     assert (chips["simulation"].text, chips["simulation"].state) == (
         story.verdict.heading,

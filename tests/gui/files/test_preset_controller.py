@@ -1,6 +1,6 @@
 """The user's presets in the window: saved, listed, replaced and deleted."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -22,14 +22,32 @@ from occ_model.scene.scene import Scene
 Answer = Callable[[str, bool], None]
 
 
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Let the window read the user's own presets from a folder of the tests."""
+    folder = tmp_path_factory.mktemp("own")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(USER_FOLDER, str(folder))
+        yield folder
+
+
+@pytest.fixture
+def rubbish(folder: Path) -> Path:
+    """Write a file of rubbish among the presets, before there is a window."""
+    path = folder / "rubbish.toml"
+    path.write_bytes(b"\xff no preset")
+    return path
+
+
 @pytest.fixture(autouse=True)
-def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """Keep the user's own presets in an empty folder, with one file of rubbish."""
-    folder = tmp_path / "own"
-    folder.mkdir()
-    (folder / "rubbish.toml").write_bytes(b"\xff no preset")
-    monkeypatch.setenv(USER_FOLDER, str(folder))
-    return folder
+def own(rubbish: Path, application: Application) -> Iterator[Path]:
+    """Give the folder of the user's presets, and leave it to the next test as it was."""
+    folder = rubbish.parent
+    yield folder
+    for path in folder.iterdir():
+        path.unlink()
+    rubbish.write_bytes(b"\xff no preset")
+    application.presets.load(rubbish.stem)  # reads the folder again
 
 
 @pytest.fixture
@@ -46,7 +64,9 @@ def answer(monkeypatch: pytest.MonkeyPatch) -> Answer:
 
 
 @pytest.fixture
-def matched(application: Application, user: User, photo_file: Path) -> Application:
+def matched(
+    application: Application, user: User, photo_file: Path, remembered_matches: None
+) -> Application:
     """Open a photo and match it, as if with a known LED."""
     application.open_photo(photo_file)
     user.wait_until_idle()

@@ -12,23 +12,44 @@ from occ_model.photo.many import match_photos
 from occ_model.photo.many.row import MatchSettings, row_of_file
 from occ_model.results import PhotoRow
 
+Found = dict[tuple[Path, MatchSettings], PhotoRow]
+
+
+@pytest.fixture(scope="module")
+def paths(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, ...]:
+    """Make two copies of a photo."""
+    (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
+    folder = tmp_path_factory.mktemp("photos")
+    paths = tuple(folder / f"{name}.jpg" for name in ("one", "two"))
+    for path in paths:
+        path.write_bytes(sample.read_bytes())
+    return paths
+
+
+@pytest.fixture(scope="module")
+def found_rows() -> Found:
+    """Keep what the table has found."""
+    return {}
+
 
 @pytest.fixture
 def listed(
-    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> tuple[Path, ...]:
-    """Match two copies of a photo in the table, in this process."""
+    application: Application, user: User, paths: tuple[Path, ...], found_rows: Found,
+    monkeypatch: pytest.MonkeyPatch,
+) -> tuple[Path, ...]:  # fmt: skip
+    """Match the copies in the table, in this process, and each of them once."""
+
+    def row(path: Path, settings: MatchSettings, beat: Callable[[], None]) -> PhotoRow:
+        if (path, settings) not in found_rows:
+            found_rows[path, settings] = row_of_file(path, settings, beat)
+        return found_rows[path, settings]
 
     def rows(
         paths: tuple[Path, ...], settings: MatchSettings, _jobs: int, beat: Callable[[], None]
     ) -> Iterator[tuple[int, PhotoRow]]:
-        yield from enumerate(row_of_file(path, settings, beat) for path in paths)
+        yield from enumerate(row(path, settings, beat) for path in paths)
 
     monkeypatch.setattr(match_photos, "matched_rows", rows)
-    (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
-    paths = tuple(tmp_path / f"{name}.jpg" for name in ("one", "two"))
-    for path in paths:
-        path.write_bytes(sample.read_bytes())
     application.store.change(pattern="10", switching_frequency=2e3, readout_time=12e-6)
     application.photo_wiring.many.show_files(paths)
     application.photo_wiring.match_all()
@@ -48,7 +69,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     user.wait_until_idle()
     assert matching.match is row.match
     assert application.photo._scroll.verticalScrollBar().value() == 0  # the table is at hand
-    assert application.photo.verdict.heading.startswith(f"Photo: the match is {row.verdict}")
+    assert application.photo.verdict.heading.startswith(f"Photo: {row.verdict}")
     user.choose("&Apply to the scene")
     assert application.store.scene == row.match.scene
     assert not started

@@ -46,7 +46,7 @@ _PATIENCE_MS = 600_000
 _FIRST_SIZE = (1280, 800)
 _MANY = 60
 
-_NOTCHES = 200
+_NOTCHES = 100
 """Of the wheel, from one end to the other and farther."""
 
 

@@ -1,7 +1,7 @@
 """Whatever is done in whatever order, the window lives, and its memory stays what it was.
 
-``OCC_SOAK=20000`` does as many random actions; every day it is some hundred. ``-rP`` prints by how
-much the memory grew; with ``-s`` nobody would look for Qt's warnings.
+``OCC_SOAK=20000`` does as many random actions; every day each is done about once. ``-rP`` prints by
+how much the memory grew; with ``-s`` nobody would look for Qt's warnings.
 """
 
 import ctypes
@@ -23,7 +23,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import GarbageCollector
 from occ_gui.lessons import lesson_controller as lessons_room
 
-ACTIONS = int(os.environ.get("OCC_SOAK", amount(100, 200)))
+ACTIONS = int(os.environ.get("OCC_SOAK", amount(80, 120)))
 _LONG = 5_000
 """Actions after whose first fifth all that is kept on purpose has been filled."""
 

@@ -1,19 +1,30 @@
 """The window's start: Ctrl-C at any moment, and standard streams of any kind."""
 
+import itertools
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from _pytest.mark import ParameterSet
 from interruption import MOMENTS, interrupted
+
+KINDS = ("window", "screenshot")
 
 _LATEST = 2.0
 """Seconds after which the last moment is: the window is shown then, and its processes work."""
 
 
-@pytest.mark.parametrize("place", range(MOMENTS))
-@pytest.mark.parametrize("kind", ["window", "screenshot"])
+def every_kind_and_moment() -> Iterator[ParameterSet]:
+    """Pair both kinds of start with each moment; every day each moment has one kind."""
+    for place, kind in itertools.product(range(MOMENTS), KINDS):
+        everyday = KINDS[place % len(KINDS)] == kind
+        yield pytest.param(kind, place, marks=() if everyday else pytest.mark.whole)
+
+
+@pytest.mark.parametrize(("kind", "place"), list(every_kind_and_moment()))
 def test_an_interrupted_start_is_one_line_and_leaves_no_process(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str, place: int
 ) -> None:

@@ -68,7 +68,7 @@ def test_the_study_says_what_the_pictures_show() -> None:
 
 @pytest.mark.whole
 def test_the_study_says_what_the_pictures_show_at_many_scenes() -> None:
-    agreement_holds(frontier_scenes(60))
+    agreement_holds(frontier_scenes(36))
 
 
 def test_the_decoding_pane_says_what_the_decoder_does(application: Application, user: User) -> None:

@@ -20,6 +20,17 @@ from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
+from occ_model.scene.scene import Scene
+
+
+@pytest.fixture
+def small_scene() -> Scene:
+    """Give a scene whose picture is written as a table in a moment."""
+    return occ.load_preset("phone-68us").replace(rows=80)
+
+
+FIGURES = ("picture", "profile", "decoding-threshold", "decoding-matched")
+"""What there is to export when a window has been opened."""
 
 
 def export(application: Application, user: User, name: str, path: Path) -> str:
@@ -31,7 +42,7 @@ def export(application: Application, user: User, name: str, path: Path) -> str:
 def test_an_export_holds_its_scene_settings_version_and_date(
     application: Application, user: User, tmp_path: Path
 ) -> None:
-    for name in ("picture", "profile", "decoding-threshold", "decoding-matched"):
+    for name in FIGURES:
         for ending in ENDINGS:
             path = tmp_path / f"{name}{ending}"
             assert export(application, user, name, path) == f"Exported {path.name} into {tmp_path}"
@@ -118,9 +129,8 @@ def test_all_figures_go_into_a_folder_in_all_formats(
     folder = tmp_path / "new" / "report"
     application.desktop.export.export_all(folder)
     user.wait_until_idle()
-    names = ("picture", "profile", "decoding-threshold", "decoding-matched")
     assert {path.name for path in folder.iterdir()} == {
-        f"{name}{ending}" for name in names for ending in ENDINGS
+        f"{name}{ending}" for name in FIGURES for ending in ENDINGS
     }
     assert "Exported 16 files" in user.message
     assert "Left out: Accuracy and time" in user.message
@@ -218,9 +228,7 @@ def test_a_disk_full_midway_leaves_no_part_of_any_figure(
 def test_a_write_protected_figure_stops_the_export_of_all(
     application: Application, user: User, tmp_path: Path
 ) -> None:
-    application.desktop.export.export_all(tmp_path)
-    user.wait_until_idle()
-    files = sorted(tmp_path.iterdir())
+    files = sorted(tmp_path / f"{name}{ending}" for name in FIGURES for ending in ENDINGS)
     for file in files:
         file.write_bytes(b"kept")
     files[-1].chmod(0o444)

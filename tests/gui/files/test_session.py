@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from gui.starts import PROJECT, Starts
 from PySide6.QtCore import QEvent, QSettings, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -21,8 +22,6 @@ from occ_gui.files.session import Session, SessionFile
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-
-PROJECT = Path(__file__).resolve().parents[3]
 
 LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
 
@@ -117,19 +116,23 @@ def test_a_layout_of_other_panes_is_left_alone(start: Start, kept: QSettings) ->
         assert not application.window.docks["controls"].isHidden()
 
 
-@pytest.mark.parametrize("rubbish", ["", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000])
+RUBBISH = ("", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000)
+
+
 def test_rubbish_in_what_was_kept_is_left_out(
-    start: Start, kept: QSettings, tmp_path: Path, small_scene: Scene, rubbish: str
+    start: Start, kept: QSettings, tmp_path: Path, small_scene: Scene
 ) -> None:
     with start() as application:
         application.store.change(iso=321.0)
-    for key in kept.allKeys():
-        kept.setValue(key, rubbish)
-    (tmp_path / "state" / "session-1.json").write_text(rubbish, encoding="utf-8")
-    with start() as application:
-        assert application.store.scene == small_scene
-        assert application.settings.settings == SimulationSettings()
-        assert application.desktop.theme.theme == "system"
+    for rubbish in RUBBISH:
+        for key in kept.allKeys():
+            kept.setValue(key, rubbish)
+        (tmp_path / "state" / "session-1.json").write_text(rubbish, encoding="utf-8")
+        with start() as application:
+            assert application.store.scene == small_scene, rubbish
+            assert application.settings.settings == SimulationSettings(), rubbish
+            assert application.desktop.theme.theme == "system", rubbish
+            application.store.change(iso=321.0)
 
 
 @pytest.mark.parametrize(
@@ -263,12 +266,12 @@ sys.exit(app.main([]))
 """
 
 
-def test_the_work_of_a_killed_window_is_there_at_the_next_start(tmp_path: Path) -> None:
-    environment = {
-        **os.environ, "QT_QPA_PLATFORM": "offscreen", "OCC_STATE": str(tmp_path / "state"),
-    }  # fmt: skip
-    command = [sys.executable, "-c"]
-    running = subprocess.Popen([*command, RUN, "777"], cwd=PROJECT, env=environment)
+def test_the_work_of_a_killed_window_is_there_at_the_next_start(
+    tmp_path: Path, starts: Starts
+) -> None:
+    state = {"OCC_STATE": str(tmp_path / "state")}
+    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen", **state}
+    running = subprocess.Popen([sys.executable, "-c", RUN, "777"], cwd=PROJECT, env=environment)
     kept = tmp_path / "state" / "session-1.json"
     deadline = time.monotonic() + 60
     while not kept.exists() and time.monotonic() < deadline:
@@ -276,10 +279,7 @@ def test_the_work_of_a_killed_window_is_there_at_the_next_start(tmp_path: Path) 
     running.send_signal(signal.SIGKILL)
     running.wait()
     assert kept_scene(kept).camera.iso == 777.0
-    again = subprocess.run(
-        [*command, LOOK],
-        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=60, check=False,
-    )  # fmt: skip
+    again = starts.run(program=LOOK, **state)
     assert (again.returncode, again.stderr) == (0, "")
     assert again.stdout.splitlines()[0] == "777.0 100"
     assert "is restored" in again.stdout

@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from amount import amount
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
@@ -26,6 +27,7 @@ def by_hand(image: Grey, grid: QRectF, shape: tuple[int, int]) -> NDArray[np.flo
     return np.asarray(cells.mean(axis=(1, 3)))
 
 
+@settings(max_examples=amount(30, 60))
 @given(
     st.integers(0, 40), st.integers(0, 40), st.integers(1, 8), st.integers(1, 8),
     st.integers(1, 40), st.integers(1, 40),

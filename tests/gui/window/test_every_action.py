@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -38,8 +39,6 @@ from occ_gui.widgets.plain_text import plain
 from occ_gui.window.command_palette import entries
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
-
-pytestmark = pytest.mark.own_window
 
 READ_LATER = ("Fit gamma too",)
 """Boxes that are looked at when a button is pressed, and tell of nothing before."""
@@ -91,21 +90,79 @@ def with_photo(qtbot: QtBot, application: Application, user: User, photo_file: P
     return application
 
 
-def test_each_control_has_a_name_for_those_who_do_not_see_it(with_photo: Application) -> None:
-    nameless = [path_to(w) for w in controls_of(with_photo.window) if not name_of(w)]
-    assert nameless == []
+@dataclass(frozen=True)
+class Control:
+    """What is known of a control of a window that is closed again."""
+
+    name: str
+    path: str
+    tip: str
+    is_in_reach: bool
+    is_connected: bool
+
+    def __str__(self) -> str:
+        return f"{self.name!r}: {self.path}"
 
 
-def test_the_walk_sees_the_controls_of_panes_that_are_made_late(with_photo: Application) -> None:
-    names = {name_of(control) for control in controls_of(with_photo.window)}
+SIGNALS = {
+    QAbstractButton: ("2clicked(bool)", "2toggled(bool)", "2clicked()", "2pressed()"),
+    QComboBox: ("2activated(int)", "2textActivated(QString)", "2currentIndexChanged(int)"),
+    QAbstractSlider: ("2valueChanged(int)",),
+    QLineEdit: ("2editingFinished()", "2textEdited(QString)", "2textChanged(QString)"),
+}
+
+
+def surveyed(widget: QWidget) -> Control:
+    """Note what is looked at of a control."""
+    takes_tab = bool(widget.focusPolicy() & Qt.FocusPolicy.TabFocus)
+    is_connected = name_of(widget) in READ_LATER or all(
+        sum(map(widget.receivers, names))
+        for kind, names in SIGNALS.items()
+        if isinstance(widget, kind)
+    )
+    in_reach = takes_tab or not widget.isEnabled()
+    return Control(name_of(widget), path_to(widget), widget.toolTip(), in_reach, is_connected)
+
+
+@pytest.fixture(scope="module")
+def surveys() -> list[list[Control]]:
+    """Keep what was noted of the controls."""
+    return []
+
+
+@pytest.fixture
+def controls(request: pytest.FixtureRequest, surveys: list[list[Control]]) -> list[Control]:
+    """Look at all controls of a window with a photo, once for the tests of this file."""
+    if not surveys:
+        window = request.getfixturevalue("with_photo").window
+        surveys.append([surveyed(widget) for widget in controls_of(window)])
+    return surveys[0]
+
+
+@pytest.mark.own_window
+def test_each_control_has_a_name_for_those_who_do_not_see_it(controls: list[Control]) -> None:
+    assert [str(control) for control in controls if not control.name] == []
+
+
+@pytest.mark.own_window
+def test_the_walk_sees_the_controls_of_panes_that_are_made_late(controls: list[Control]) -> None:
+    names = {control.name for control in controls}
     assert {"Pin A", "Show the explanation", "Column whose exposure is shown"} <= names
 
 
-def test_each_control_says_what_it_does(with_photo: Application) -> None:
-    silent = [
-        f"{name_of(w)!r}: {path_to(w)}" for w in controls_of(with_photo.window) if not w.toolTip()
-    ]
-    assert silent == []
+@pytest.mark.own_window
+def test_each_control_says_what_it_does(controls: list[Control]) -> None:
+    assert [str(control) for control in controls if not control.tip] == []
+
+
+@pytest.mark.own_window
+def test_each_button_list_and_box_is_connected(controls: list[Control]) -> None:
+    assert [str(control) for control in controls if not control.is_connected] == []
+
+
+@pytest.mark.own_window
+def test_the_keys_reach_every_control(controls: list[Control]) -> None:
+    assert [str(control) for control in controls if not control.is_in_reach] == []
 
 
 def test_each_tooltip_has_meaning_symbol_range_and_unit(
@@ -218,6 +275,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
     ]
 
 
+@pytest.mark.own_window
 def test_each_entry_of_the_menus_does_something(
     with_photo: Application, user: User, dialogs: Dialogs
 ) -> None:
@@ -265,29 +323,3 @@ def test_each_entry_is_connected(application: Application) -> None:
         if group is not None:
             told += group.receivers("2triggered(QAction*)")
         assert told > 0, (path, action.text())
-
-
-def test_each_button_list_and_box_is_connected(with_photo: Application) -> None:
-    signals = {
-        QAbstractButton: ("2clicked(bool)", "2toggled(bool)", "2clicked()", "2pressed()"),
-        QComboBox: ("2activated(int)", "2textActivated(QString)", "2currentIndexChanged(int)"),
-        QAbstractSlider: ("2valueChanged(int)",),
-        QLineEdit: ("2editingFinished()", "2textEdited(QString)", "2textChanged(QString)"),
-    }
-    deaf = []
-    for control in controls_of(with_photo.window):
-        for kind, names in signals.items():
-            if name_of(control) in READ_LATER or not isinstance(control, kind):
-                continue
-            if not sum(map(control.receivers, names)):
-                deaf.append(f"{name_of(control)!r}: {path_to(control)}")
-    assert deaf == []
-
-
-def test_the_keys_reach_every_control(with_photo: Application) -> None:
-    out_of_reach = [
-        f"{name_of(control)!r}: {path_to(control)}"
-        for control in controls_of(with_photo.window)
-        if not control.focusPolicy() & Qt.FocusPolicy.TabFocus and control.isEnabled()
-    ]
-    assert out_of_reach == []

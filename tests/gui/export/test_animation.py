@@ -30,6 +30,7 @@ def test_the_run_of_a_slider_from_end_to_end_and_back_is_saved(
     assert user.message == "Saved run.png"
 
 
+@pytest.mark.own_window
 def test_an_animation_is_given_up_at_once_and_leaves_nothing(
     application: Application, user: User, qtbot: QtBot, tmp_path: Path
 ) -> None:

@@ -207,7 +207,7 @@ def test_a_film_without_stripes_fails_with_a_sentence() -> None:
 
 def near_the_null(frequency: float) -> occ.Scene:
     """The paper's phone, whose single chips all but vanish just below 2 / t = 14.7 kHz."""
-    return occ.load_preset("phone-136us").replace(switching_frequency=frequency)
+    return occ.load_preset("phone-136us").replace(switching_frequency=frequency, rows=1152)
 
 
 def test_where_the_enhanced_picture_is_read_the_film_is() -> None:

@@ -42,9 +42,10 @@ _LOOK: dict[Any, Any] = {
 
 def house_style() -> AbstractContextManager[None]:
     """Give all figures drawn within this context the same style, whatever the user's settings."""
+    look = dict[Any, Any](rcParamsDefault) | _LOOK
     # The backend only concerns windows, and these figures become files.
-    defaults = {name: value for name, value in rcParamsDefault.items() if name != "backend"}
-    return rc_context(defaults | _LOOK)
+    del look["backend"]
+    return rc_context(look)
 
 
 def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:

@@ -22,7 +22,7 @@ from occ_model.transmitter.packet import packet_length
 
 
 @cache
-def grid(preset: str, decoder: str = "threshold") -> SweepTable:
+def grid(preset: str, decoder: str) -> SweepTable:
     return run_sweep(grid_request(preset, [decoder]))
 
 
@@ -67,7 +67,7 @@ def test_twice_the_exposure_is_read_up_to_the_papers_limit(preset: str, last: fl
 
 @pytest.mark.parametrize(("preset", "paper"), [("phone-136us", 14e3), ("tablet-122us", 16e3)])
 def test_detection_ends_one_step_after_the_papers_frequency(preset: str, paper: float) -> None:
-    assert ceases_at(grid(preset), "threshold") == paper + 2e3
+    assert ceases_at(grid(preset, "threshold"), "threshold") == paper + 2e3
 
 
 @pytest.mark.parametrize(
@@ -86,12 +86,12 @@ def test_a_real_lens_ends_detection_where_the_experiment_ended(preset: str, last
 
 @pytest.mark.parametrize("preset", ["phone-68us", "tablet-61us"])
 def test_detection_goes_on_to_20_khz_at_the_lowest_exposure(preset: str) -> None:
-    assert ceases_at(grid(preset), "threshold") is None
+    assert ceases_at(grid(preset, "threshold"), "threshold") is None
 
 
 @pytest.mark.parametrize("preset", DEVICES["tablet"])
 def test_tablet_at_2_khz_loses_codes_with_distance(preset: str) -> None:
-    by_distance = grid(preset).rates()[FREQUENCIES.index(2e3)].tolist()
+    by_distance = grid(preset, "threshold").rates()[FREQUENCIES.index(2e3)].tolist()
     assert by_distance[0] == 100.0
     assert by_distance[-1] == 0.0
     # Five images a point: single points may stand out, the trend may not.

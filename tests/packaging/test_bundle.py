@@ -101,8 +101,10 @@ def test_the_bundle_runs_without_python(bundle: Path, tmp_path: Path) -> None:
     assert "Its codec is lossy: in the first frame" in written  # it has been opened again
 
     table = tmp_path / "rates.csv"
-    sweep = ["sweep", "--vary", "switching_frequency=4kHz,8kHz", "--jobs", "2", "--images", "2"]
+    # The equalizer imports of scikit-image what the bundle has of it.
+    sweep = ["sweep", "--vary", "switching_frequency=4kHz,8kHz", "--jobs", "2", "--images", "2",
+             "--decoder", "equalizer"]  # fmt: skip
     run_alone(bundle, "occ-model", *sweep, "--out", str(table), home=tmp_path)
-    assert len(table.read_text(encoding="utf-8").splitlines()) > 2
+    assert table.read_text(encoding="utf-8").count(",equalizer,") == 2
     assert (bundle / "licences" / "occ-explorer.txt").is_file()
     assert len(list((bundle / "licences").iterdir())) > 15

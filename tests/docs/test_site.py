@@ -6,6 +6,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from functools import cache
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -55,6 +56,11 @@ class Links(HTMLParser):
             self.loaded.append(given["href"])
 
 
+@cache
+def links_of(page: Path) -> Links:
+    return Links(page)
+
+
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Build the site strictly: a warning is an error."""
@@ -74,7 +80,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def ours(page: Path, site: Path) -> Iterator[tuple[Path, str]]:
     """Give file and name within it of every link of a page to a file of ours."""
-    for link in Links(page).followed:
+    for link in links_of(page).followed:
         parts = urlsplit(link)
         if not parts.scheme and link not in ("#", "."):
             target = page.parent / unquote(parts.path) if parts.path else page
@@ -98,7 +104,7 @@ def test_the_site_leads_everywhere(site: Path) -> None:
 
 def check_links(site: Path) -> None:
     """Every link leads to a file, and to a name in it."""
-    names = {page.resolve(): Links(page).names for page in html_pages(site)}
+    names = {page.resolve(): links_of(page).names for page in html_pages(site)}
     for page in html_pages(site):
         for target, name in ours(page, site):
             assert target.is_file(), (page, target)
@@ -118,7 +124,7 @@ def check_clicks(site: Path) -> None:
 def check_nothing_is_fetched(site: Path) -> None:
     """No page loads anything from another host."""
     for page in html_pages(site):
-        assert [link for link in Links(page).loaded if urlsplit(link).scheme] == [], page
+        assert [link for link in links_of(page).loaded if urlsplit(link).scheme] == [], page
 
 
 def check_gallery(site: Path) -> None:
@@ -145,11 +151,11 @@ def check_gallery(site: Path) -> None:
 
 def check_reference(site: Path) -> None:
     """The reference has every public name and every command."""
-    python = Links(site / "reference" / "python.html").names
+    python = links_of(site / "reference" / "python.html").names
     for name in occ.__all__:
         if not name.startswith("_"):
             assert any(each.endswith(f".{name}") for each in python), name
-    commands = Links(site / "reference" / "command-line.html").names
+    commands = links_of(site / "reference" / "command-line.html").names
     assert {f"occ-model-{name}" for name in command_names()} <= commands
 
 

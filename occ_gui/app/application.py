@@ -11,6 +11,7 @@ from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
+from occ_gui.app.present_rate import PresentRate
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
 from occ_gui.app.video_pane import VideoPane
@@ -82,6 +83,7 @@ class Application(QObject):
         self.detection = MapView(QUICK_DECODERS)
         self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
+        self._present_rate = PresentRate(self.slider_strips)
         self.window = MainWindow(
             self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
@@ -232,6 +234,9 @@ class Application(QObject):
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
         self.decode.decoder_chosen.connect(self.simulation.read_with)
+        self.decode.decoder_chosen.connect(self._present_rate.choose_decoder)
+        self.simulation.reading_shown.connect(self._present_rate.show_reading)
+        self.simulation.failed.connect(self._present_rate.show_failure)
         for searcher in (self.detection_map.most_bits, self.detection_map.advisor):
             searcher.went.connect(self.decode.choose_decoder)
 

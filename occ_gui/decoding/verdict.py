@@ -51,6 +51,8 @@ class Verdict:
         if not self.reason or self.state is not State.BAD:
             return self.title
         cause = _CLAUSE_END.split(self.reason, maxsplit=1)[0]
+        if cause.startswith(_tr("No code")):
+            return cause
         return _tr("No code: {cause}").format(cause=cause[:1].lower() + cause[1:])
 
 
@@ -73,6 +75,15 @@ def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
 def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
     """Return whether a code was read, and it is the one sent."""
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
+
+
+def share_read(decoded: DecodeResult, sent: Sequence[int]) -> float | None:
+    """Return the share of the bits that were read rightly; None where none was sent or tried."""
+    if not sent or decoded.failure == _awaited():
+        return None
+    if decoded.code is None:
+        return 0.0
+    return 1.0 - len(wrong_places(sent, decoded.bits.tolist())) / len(sent)
 
 
 def what_was_read(decoded: DecodeResult) -> str:

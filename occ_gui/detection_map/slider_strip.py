@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
 from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.scene.slider_travel import slider_travel
+from occ_gui.scene.slider_travel import slider_handle, slider_travel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
@@ -16,6 +16,9 @@ from occ_model.scene.parameters import PARAMETERS
 _HEIGHT = 6
 
 _OUTDATED_OPACITY = 0.35
+
+_AT_HANDLE = 3
+"""Pixels that the present scene's colour is seen on either side of the handle."""
 
 
 class SliderStrip(QWidget):
@@ -36,6 +39,9 @@ class SliderStrip(QWidget):
         self._slider = slider
         self._label = label
         self.shares: tuple[float | None, ...] = ()
+        self.present: float | None = None
+        """The share of bits that are read of the scene shown."""
+        slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)
         self._fading.setInterval(round(1e3 * DELAY))
@@ -48,7 +54,8 @@ class SliderStrip(QWidget):
         known = [share for share in self.shares if share is not None]
         text = self.tr(
             "Share of the bits that the decoder shown reads correctly along this slider, all "
-            "else being equal: violet none, yellow all, grey not known."
+            "else being equal: violet none, yellow all, grey not known. A mean over some pictures "
+            "that begin at any time; at the handle, of the picture shown."
         )
         good = sum(share > 0.99 for share in known)
         read = self.tr("read at {good} of {all} positions").format(good=good, all=len(known))
@@ -63,6 +70,12 @@ class SliderStrip(QWidget):
         self.shares = shares
         self._explain()
         self.update()
+
+    def show_present(self, share: float | None) -> None:
+        """Show at the handle the share of bits that are read of the scene shown; None if none."""
+        if share != self.present:
+            self.present = share
+            self.update()
 
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the shares are of an earlier scene; they fade if that lasts."""
@@ -95,6 +108,14 @@ class SliderStrip(QWidget):
         away = self._slider.x() - self.x()
         return first + away, last + away
 
+    def _at_handle(self) -> QRectF:
+        """Return the part of the strip at the handle."""
+        left, right = slider_handle(self._slider)
+        away = self._slider.x() - self.x()
+        return QRectF(left + away, 0, right - left, self.height()).adjusted(
+            -_AT_HANDLE, 0, _AT_HANDLE, 0
+        )
+
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         """Draw the bar."""
@@ -110,6 +131,9 @@ class SliderStrip(QWidget):
             shares = np.array([[np.nan if share is None else share] for share in self.shares])
             painter.drawImage(whole, image_of(to_colours(shares, 0.0, 1.0, RATES)))
         painter.setOpacity(1.0)
+        if self.present is not None:
+            colour = image_of(to_colours(np.array([[self.present]]), 0.0, 1.0, RATES))
+            painter.drawImage(self._at_handle(), colour)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
         painter.setBrush(Qt.BrushStyle.NoBrush)
@@ -159,6 +183,11 @@ class SliderStrips(QObject):
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of bits read correctly at positions along a slider, None if not known."""
         self.strips[name].show_shares(shares)
+
+    def show_present(self, share: float | None) -> None:
+        """Show at the handles the share of bits that are read of the scene shown; None if none."""
+        for strip in self.strips.values():
+            strip.show_present(share)
 
     def show_outdated(self, name: str, outdated: bool) -> None:
         """Show whether the strip of a slider is of an earlier scene."""

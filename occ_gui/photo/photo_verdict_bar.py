@@ -143,9 +143,12 @@ class PhotoVerdictBar(StateBar):
         verdict = self._match.verdict
         if self._match.only_exposure_is_doubtful:
             verdict = self.tr("{verdict} but for the exposure time").format(verdict=verdict)
-        return self.tr("{photo}, the match is {verdict}. {found}").format(
-            photo=name, verdict=verdict, found=self._found(self._match)
+        text = (
+            self.tr("{photo}, the match is {verdict}. {found}")
+            if self._is_applied
+            else self.tr("{photo}; its match is {verdict}, but not this scene's. {found}")
         )
+        return text.format(photo=name, verdict=verdict, found=self._found(self._match))
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return what the table has found, whose numbers stand in its row."""

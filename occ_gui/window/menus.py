@@ -228,7 +228,7 @@ class Menus(QObject):
         before.setToolTip(self.tr("Show the picture before the latest change beside the one now."))
         measure = self._add(menu, "measure", self.tr("Meas&ure"), self.tr("Ctrl+Shift+D"))
         measure.setCheckable(True)
-        measure.setToolTip(self.tr("Two cursors, A and B, that you drag over the rows."))
+        measure.setToolTip(self.tr("Two cursors, 1 and 2, that you drag over the rows."))
         theme = self.drop_downs["theme"] = menu.addMenu(self.tr("&Theme"))
         words = {
             "system": self.tr("&System"),

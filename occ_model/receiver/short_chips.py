@@ -21,12 +21,19 @@ def has_short_chips(scene: Scene) -> bool:
 
 
 def with_short_chips(failure: str, scene: Scene) -> str:
-    """Say before a failure that chips are too short, where they are."""
-    if not has_short_chips(scene):
-        return failure
+    """Say before a failure that chips are too short, where they are: it follows from that."""
+    return f"{_sentence(scene)} {failure}" if has_short_chips(scene) else failure
+
+
+def then_short_chips(failure: str, scene: Scene) -> str:
+    """Say after a failure that chips are too short, where they are: it may have another cause."""
+    return f"{failure} {_sentence(scene)}" if has_short_chips(scene) else failure
+
+
+def _sentence(scene: Scene) -> str:
     chip, column = scene.transmitter.switching_period, scene.camera.readout_time
     return (
         f"A chip of {SECOND.format(chip, _DIGITS)} is shorter than the "
         f"{SECOND.format(column, _DIGITS)} from one column to the next: not every chip has a "
-        f"column of its own. {failure}"
+        "column of its own."
     )

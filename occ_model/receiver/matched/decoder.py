@@ -28,7 +28,7 @@ from occ_model.receiver.matched.payload_templates import (
     same_chips,
 )
 from occ_model.receiver.read_payload import with_bits
-from occ_model.receiver.short_chips import with_short_chips
+from occ_model.receiver.short_chips import then_short_chips, with_short_chips
 from occ_model.receiver.signal import why_flat
 from occ_model.results import DecodeResult
 from occ_model.scene.parameters.light import MAX_BITS
@@ -129,7 +129,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     read = _best_code(result, _fold(signal, starts, counts), templates, scene)
     if read.failure is None:
         return read
-    return replace(read, failure=with_short_chips(read.failure, scene))
+    return replace(read, failure=then_short_chips(read.failure, scene))
 
 
 def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:

@@ -11,6 +11,7 @@ from occ_gui.widgets.state_look import State
     [
         (State.BAD, "No header fits: come closer.", "No code: no header fits", "Come closer."),
         (State.BAD, "No header fits.", "No code: no header fits", None),
+        (State.BAD, "No code stands out: 1, 2.", "No code stands out", "1, 2."),
         (State.BAD, "", "Title", ""),
         (State.DOUBTFUL, "Half fits: look.", "Title", "Half fits: look."),
     ],

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.user import User
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QApplication, QSlider, QStyle, QStyleOptionSlider
 from pytestqt.qtbot import QtBot
@@ -24,6 +25,7 @@ from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.widgets.state_look import State
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
@@ -205,12 +207,55 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
 def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
     strip = application.slider_strips.strips["iso"]
     strip.show_shares((0.0, 0.5, 1.0))
+    strip.show_present(None)
     picture, (first, last) = strip.grab().toImage(), strip.span()
     wanted = to_colours(np.array([[0.0, 50.0, 100.0]]), 0.0, 100.0, RATES)[0, :, :3]
     for share, colour in zip((0.1, 0.5, 0.9), wanted.tolist(), strict=True):
         place = round(first + share * (last - first))
         seen = picture.pixelColor(place, 3)
         assert [seen.red(), seen.green(), seen.blue()] == colour
+
+
+def colour_at(strip: SliderStrip, place: float) -> list[int]:
+    seen = strip.grab().toImage().pixelColor(round(place), 3)
+    return [seen.red(), seen.green(), seen.blue()]
+
+
+@pytest.mark.parametrize("decoder", ["threshold", "matched"])
+def test_at_the_handle_a_strip_says_what_the_verdict_says(
+    application: Application, user: User, decoder: str
+) -> None:
+    """Wherever it is: a mean over other pictures may be another near a limit."""
+    application.decode.choose_decoder(decoder)
+    strip = application.slider_strips.strips["readout_time"]
+    strip.show_shares((0.5,) * POSITIONS)
+    read, misread = to_colours(np.array([[100.0, 0.0]]), 0.0, 100.0, RATES)[0, :, :3].tolist()
+    for frequency, readout in ((10e3, 8e-6), (100e3, 20e-6)):
+        scene = application.store.scene
+        application.store.put(
+            scene.replace(switching_frequency=frequency, readout_time=readout), "other"
+        )
+        user.wait_until_idle()
+        is_read = application.story.verdict.state is State.GOOD
+        assert is_read == (frequency == 10e3)
+        middle = handle_middle(strip._slider) - strip.x()
+        for side in (-9, 9):
+            assert colour_at(strip, middle + side) == (read if is_read else misread)
+        assert colour_at(strip, middle + 20) not in (read, misread)
+
+
+def test_without_a_code_a_strip_says_nothing_at_the_handle(
+    application: Application, user: User
+) -> None:
+    application.store.put(application.store.scene.replace(pattern="10"), "pattern")
+    user.wait_until_idle()
+    assert {s.present for s in application.slider_strips.strips.values()} == {None}
+    scene = application.store.scene
+    application.store.put(scene.replace(pattern=""), "code")
+    user.wait_until_idle()
+    assert {s.present for s in application.slider_strips.strips.values()} == {1.0}
+    application.simulation.failed.emit("There is no picture.")
+    assert {s.present for s in application.slider_strips.strips.values()} == {None}
 
 
 def test_strips_of_an_earlier_scene_are_marked_until_measured(bench: Bench) -> None:

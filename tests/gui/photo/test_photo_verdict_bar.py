@@ -190,5 +190,9 @@ def test_a_figure_is_told_the_photo_and_what_its_match_is_worth(
     view.show_match(match)
     assert bar.about().startswith("photo stripes.png, the match is sure. If f = 2 kHz: readout")
     assert "exposure time 62.50 ± 0.21 µs" in bar.about()
+    bar.show_applied(False)  # the picture in the figure is of another scene
+    assert bar.about().startswith(
+        "photo stripes.png; its match is sure, but not this scene's. If f"
+    )
     view.show_match_outdated("of another part of the photo: match again", usable=False)
     assert bar.about() == "photo stripes.png, not matched"

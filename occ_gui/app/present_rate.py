@@ -1,0 +1,48 @@
+"""Shows at the handles of the sliders what is read of the present scene, as the verdict says it."""
+
+from PySide6.QtCore import QObject
+
+from occ_gui.decoding.verdict import result_of, share_read
+from occ_gui.detection_map.slider_strip import SliderStrips
+from occ_gui.simulation.snapshot import Reading
+from occ_model.receiver.decoders import PAPER_DECODER
+
+
+class PresentRate(QObject):
+    """The share of bits read of the scene shown, on the strips behind the sliders.
+
+    The strips are means over pictures that begin at any time; near a limit the one picture that is
+    shown may be read otherwise.
+
+    Parameters
+    ----------
+    strips
+        The strips.
+    """
+
+    def __init__(self, strips: SliderStrips) -> None:
+        super().__init__()
+        self._strips = strips
+        self._decoder = PAPER_DECODER
+        self._reading: Reading | None = None
+
+    def show_reading(self, reading: Reading) -> None:
+        """Show what is read of another scene, or more surely of the same."""
+        self._reading = reading
+        self._show()
+
+    def choose_decoder(self, decoder: str) -> None:
+        """Show what this decoder reads."""
+        self._decoder = decoder
+        self._show()
+
+    def show_failure(self) -> None:
+        """Show nothing of a scene without a picture."""
+        self._reading = None
+        self._show()
+
+    def _show(self) -> None:
+        reading, share = self._reading, None
+        if reading is not None:
+            share = share_read(result_of(reading, self._decoder), reading.sent)
+        self._strips.show_present(share)

@@ -95,6 +95,8 @@ class ProfileView(QWidget):
             "before": (self.tr("before"), thin(BEFORE)),
             "band": (self.tr("band model"), thin(BAND, line.DashLine)),
             "photo": (self.tr("photo"), thin(PHOTO)),
+            # With the mean and the contrast of the simulation: a camera's gain is not known.
+            "fitted": (self.tr("photo, fitted levels"), thin(PHOTO)),
             "threshold": (self.tr("threshold"), thin(THRESHOLD, line.DashDotLine)),
         }
         for key, (text, pen) in pens.items():
@@ -232,7 +234,9 @@ class ProfileView(QWidget):
         else:  # in the simulation's levels
             self._photo_levels = profile.comparison.photo
             _draw(self.photo, profile.comparison.photo, profile.comparison.first_column)
-        self.legend.show_line("photo", profile is not None)
+        is_fitted = profile is not None and profile.comparison is not None
+        self.legend.show_line("photo", profile is not None and not is_fitted)
+        self.legend.show_line("fitted", is_fitted)
         self._offer_before()
         self._arrange_plots()
         if profile is not None:

@@ -97,6 +97,11 @@ class ProfileRow(StoryRow):
         levels = photo.comparison.photo
         return photo.comparison.first_column + np.arange(len(levels), dtype=np.float64), levels
 
+    @property
+    def photo_is_fitted(self) -> bool:
+        """Whether the photo is drawn with the mean and the contrast of the simulation."""
+        return self._photo is not None and self._photo.comparison is not None
+
     def _find_threshold(self) -> tuple[float, float] | None:
         """Place the decoder's threshold among the levels that are shown."""
         levels, decoded = self.levels, self._decoded

@@ -81,6 +81,7 @@ class StoryRows(QWidget):
                 "simulation": (thin(SIMULATION), self.tr("simulation")),
                 "band": (thin(BAND, line.DashLine), self.tr("band model")),
                 "photo": (thin(PHOTO), self.tr("photo")),
+                "fitted": (thin(PHOTO), self.tr("photo, fitted levels")),
                 "threshold": (thin(THRESHOLD, line.DashDotLine), self.tr("threshold")),
             },
             usual=("simulation", "threshold", "band"),
@@ -93,7 +94,8 @@ class StoryRows(QWidget):
     def _show_legend(self) -> None:
         profile = self.profile
         found = {  # the band model last: the remark is on it
-            "simulation": profile.levels, "photo": profile.photo,
+            "simulation": profile.levels,
+            "fitted" if profile.photo_is_fitted else "photo": profile.photo,
             "threshold": profile.threshold, "band": profile.band,
         }  # fmt: skip
         undefined = "" if self._reading is None else self._reading.band_undefined

@@ -23,6 +23,9 @@ from occ_model.teaching.packet_fields import threshold_levels
 MOST_CELLS = 900
 """Cells on each side of a printed picture: more are no finer on paper."""
 
+_PHOTO = "photo, fitted levels"
+"""Name of a photo's profile: it has the mean and the contrast of the simulation's."""
+
 _CAPTION_SIZE = 7
 """Points of a caption's letters."""
 
@@ -212,7 +215,7 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
     lines: dict[str, FloatArray | None] = {
         "simulation": simulated,
         "band model": band,
-        "photo": None if comparison is None else _placed(comparison, len(frame.profile)),
+        _PHOTO: None if comparison is None else _placed(comparison, len(frame.profile)),
     }
     shown = {name: values for name, values in lines.items() if values is not None}
     threshold = None if decoded is None else _threshold_among(simulated, decoded, enhanced)
@@ -248,7 +251,7 @@ def _profile_figure(
     threshold: float | None,
 ) -> Figure:
     """Draw some columns of profiles, and the residual of the photo's under them."""
-    styles = {"simulation": SIMULATION, "band model": BAND, "photo": PHOTO}
+    styles = {"simulation": SIMULATION, "band model": BAND, _PHOTO: PHOTO}
     figure = Figure(figsize=(7.2, 2.9 if comparison is None else 4.0))
     ratios = (1,) if comparison is None else (3, 1)
     axes = figure.subplots(
@@ -264,7 +267,7 @@ def _profile_figure(
     if undefined:
         axes[0].set_title(undefined, fontsize=7, parse_math=False)
     if comparison is not None:
-        residual = lines["photo"] - lines["simulation"]
+        residual = lines[_PHOTO] - lines["simulation"]
         axes[1].axhline(0.0, color="grey", linewidth=0.5)
         axes[1].plot(column, residual[part], linewidth=0.9, color=colours.PHOTO)
         axes[1].set_ylabel("photo less\nsimulation")

@@ -147,6 +147,8 @@ def test_a_compared_photo_is_drawn_in_simulated_levels(
     assert drawn(view.photo) == ([900, 901, 902], seen.tolist())
     assert drawn(view.residual.curve) == ([900, 901, 902], [-1.0, 0.0, 3.0])
     assert view.residual.plot.isVisible()
+    assert "photo, fitted levels" in legend_texts(view)
+    assert "photo" not in legend_texts(view)
     assert "0.9123" in view.residual.numbers.toolTip()
     assert f"{math.sqrt(10 / 3):.2f} grey levels" in view.residual.numbers.toolTip()
     low, high = view.residual.plot.getViewBox().viewRange()[1]

@@ -78,7 +78,7 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     profile = rows(folder / "profile.csv")
     assert [float(row["simulation (grey level)"]) for row in profile] == FRAME.profile.tolist()
     assert [float(row["band model (grey level)"]) for row in profile] == BAND.tolist()
-    photo = np.array([float(row["photo (grey level)"]) for row in profile])
+    photo = np.array([float(row["photo, fitted levels (grey level)"]) for row in profile])
     assert np.isnan(photo[:800]).all()
     assert np.array_equal(photo[800:2000], PHOTO.photo)
     signal = READ.signal

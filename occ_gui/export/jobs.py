@@ -113,7 +113,7 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     OutputError
         A figure cannot be written.
     """
-    from occ_model.figures.drawing import write_all
+    from occ_model.figures.drawing import files_of, write_all
 
     is_new = not folder.exists()
     make_folder(folder)
@@ -121,6 +121,10 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
         remove_left_behind(folder)
         with folder_aside(folder) as aside:
             drawn = {id(drawing): (drawing, request) for drawing, request in _drawn(requests)}
+            # Refused in a moment what takes seconds to draw; looked at again when it is drawn.
+            for drawing, _ in drawn.values():
+                for path in files_of(drawing, folder):
+                    check_replaceable(path)
             written = write_all(
                 aside,
                 [drawing for drawing, _ in drawn.values()],

@@ -149,6 +149,11 @@ class Drawing:
             write_figure(path, self.draw(), provenance)
 
 
+def files_of(drawing: Drawing, folder: Path) -> list[Path]:
+    """Return the files of a drawing in a folder, one of each format."""
+    return [folder / f"{drawing.name}{ending}" for ending in ENDINGS]
+
+
 def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
@@ -176,8 +181,7 @@ def write_all(
     make_folder(folder)
     written = []
     for drawing in drawings:
-        for ending in ENDINGS:
-            path = folder / f"{drawing.name}{ending}"
+        for path in files_of(drawing, folder):
             drawing.write(path, provenance(drawing))
             written.append(path)
     return written

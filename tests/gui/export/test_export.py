@@ -18,6 +18,7 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import SHAPE
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
+from occ_model.figures import drawing
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
 from occ_model.scene.scene import Scene
@@ -39,18 +40,12 @@ def export(application: Application, user: User, name: str, path: Path) -> str:
     return str(user.message)
 
 
-def test_an_export_holds_its_scene_settings_version_and_date(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    for name in FIGURES:
-        for ending in ENDINGS:
-            path = tmp_path / f"{name}{ending}"
-            assert export(application, user, name, path) == f"Exported {path.name} into {tmp_path}"
-            assert scene_inside(path) == application.store.scene
-        text = (tmp_path / f"{name}.csv").read_text(encoding="utf-8")
-        for messages in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
-            assert messages in text
-    assert len(list(tmp_path.iterdir())) == 4 * len(ENDINGS)
+def test_an_export_holds_its_scene(application: Application, user: User, tmp_path: Path) -> None:
+    for name, ending in zip(FIGURES, ENDINGS, strict=True):
+        path = tmp_path / f"{name}{ending}"
+        assert export(application, user, name, path) == f"Exported {path.name} into {tmp_path}"
+        assert scene_inside(path) == application.store.scene
+    assert len(list(tmp_path.iterdir())) == len(ENDINGS)
 
 
 def test_the_accuracy_plot_is_exported_once_it_is_measured(
@@ -123,7 +118,7 @@ def test_the_difference_is_exported_as_it_is_seen(
     assert "difference from the photo" in path.read_text(encoding="utf-8")
 
 
-def test_all_figures_go_into_a_folder_in_all_formats(
+def test_all_figures_go_into_a_folder_in_all_formats_with_scene_settings_version_and_date(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     folder = tmp_path / "new" / "report"
@@ -132,6 +127,11 @@ def test_all_figures_go_into_a_folder_in_all_formats(
     assert {path.name for path in folder.iterdir()} == {
         f"{name}{ending}" for name in FIGURES for ending in ENDINGS
     }
+    assert {scene_inside(path) for path in folder.iterdir()} == {application.store.scene}
+    for table in folder.glob("*.csv"):
+        text = table.read_text(encoding="utf-8")
+        for noted in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
+            assert noted in text
     assert "Exported 16 files" in user.message
     assert "Left out: Accuracy and time" in user.message
 
@@ -225,9 +225,11 @@ def test_a_disk_full_midway_leaves_no_part_of_any_figure(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_write_protected_figure_stops_the_export_of_all(
-    application: Application, user: User, tmp_path: Path
+def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    begun: list[object] = []
+    monkeypatch.setattr(drawing, "write_all", lambda *asked: begun.append(asked) or [])
     files = sorted(tmp_path / f"{name}{ending}" for name in FIGURES for ending in ENDINGS)
     for file in files:
         file.write_bytes(b"kept")
@@ -236,6 +238,27 @@ def test_a_write_protected_figure_stops_the_export_of_all(
     user.wait_until_idle()
     assert f"{files[-1].name} is write-protected" in user.message
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == dict.fromkeys(files, b"kept")
+    assert begun == []
+
+
+def test_a_figure_that_is_write_protected_meanwhile_stops_the_export_of_all(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    last = tmp_path / f"{max(FIGURES)}.svg"
+
+    def protect_and_write(aside: Path, *_asked: object) -> list[Path]:
+        last.write_bytes(b"kept")
+        last.chmod(0o444)
+        written = [aside / name for name in ("a.svg", last.name)]
+        for path in written:
+            path.write_bytes(b"new")
+        return written
+
+    monkeypatch.setattr(drawing, "write_all", protect_and_write)
+    application.desktop.export.export_all(tmp_path)
+    user.wait_until_idle()
+    assert f"{last.name} is write-protected" in user.message
+    assert {file: file.read_bytes() for file in tmp_path.iterdir()} == {last: b"kept"}
 
 
 def test_an_error_while_drawing_is_a_sentence_and_exports_go_on(

@@ -227,7 +227,7 @@ class MapView(QWidget):
             text = self.tr("{known} of {total} points measured").format(known=known, total=total)
         else:
             text = self.tr(
-                "{total} points, each in the middle of its cell, of {images} images or more; "
+                "{total} points, each in the middle of its cell; images a point: {images} or more; "
                 "colour: {what}"
             ).format(total=total, images=images, what="{what}")
         self._progress = text

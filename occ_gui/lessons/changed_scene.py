@@ -24,9 +24,9 @@ def changed_sentence(step: Step, scene: Scene) -> str:
     -------
     str
         One or two sentences; empty where the scene is that of the step or of its check, and where
-        the step is about a photo of the student's, whose match is not of the scene.
+        the step is about a photo, whose match changes the scene when it is applied.
     """
-    if step.own_photo or scene in {step.scene, step.asked}:
+    if step.own_photo or step.photo or scene in {step.scene, step.asked}:
         return ""
     changes = []
     for name in (name for names in GROUPS.values() for name in names):

@@ -21,6 +21,7 @@ from occ_gui.profile.chip_strip import ChipStrip
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.residual_plot import ResidualPlot
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.widgets.first_periods import first_periods
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.plot import (
     BAND,
@@ -132,10 +133,7 @@ class ProfileView(QWidget):
         self.enhanced.toggled.connect(self._draw_before)
         self.enhanced.toggled.connect(self._redraw)
         self.enhanced.toggled.connect(self.enhanced_chosen)
-        self._packets = self._range_button(
-            self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW),
-            self.tr("Show the panel's first packets, and follow them."),
-        )
+        self._packets = self._range_button(*first_periods(True))
         self._panel = self._range_button(
             self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")
         )
@@ -209,6 +207,9 @@ class ProfileView(QWidget):
         While the pane is hidden, what the exact picture replaces in a moment is not drawn.
         """
         self._reading = reading
+        text, tip = first_periods(not reading.scene.transmitter.pattern)
+        self._packets.setText(text)
+        self._packets.setToolTip(tip)
         self._is_behind = reading.source != "picture" and not self.isVisible()
         if not self._is_behind:
             self._redraw()

@@ -20,8 +20,8 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.story_rows import RANGES, StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.first_periods import first_periods
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.plot import PACKETS_IN_VIEW
 
 
 class _Held(QWidget):
@@ -246,14 +246,10 @@ class StoryView(QWidget):
     def _name_first(self) -> None:
         """Name on the button of the first packets what it shows."""
         button = self.ranges[RANGES[0]]
-        text = self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW)
-        tip = self.tr("Show the panel's first packets, and follow them.")
+        text, tip = first_periods(self._has_packets)
         if self._held is not None:
             text = self.tr("{columns:.0f} columns").format(columns=self._held)
             tip = self.tr("Show so many columns from the panel's first on, whatever is sent.")
-        elif not self._has_packets:
-            text = self.tr("{cycles} cycles").format(cycles=PACKETS_IN_VIEW)
-            tip = self.tr("Show the pattern's first cycles, and follow them.")
         button.setText(text)
         button.setToolTip(tip)
 

@@ -365,7 +365,10 @@ def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[in
 
 
 def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:
-    said = "91 points, each in the middle of its cell, of 20 images or more; colour: success rate"
+    said = (
+        "91 points, each in the middle of its cell; images a point: 20 or more; "
+        "colour: success rate"
+    )
     view.show_map(whole((5, 10)))
     view.show_progress(91, 91, 20)
     view.show_age(0.01)

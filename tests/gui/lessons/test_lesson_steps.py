@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.lessons import answers
+from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_list import LessonList
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.step_page import StepPage
@@ -426,3 +427,10 @@ def test_the_list_says_at_which_step_a_lesson_goes_on(
     lesson = lessons().lessons[0]
     shown._add(lesson, reached)
     assert shown.choices[-1].text().endswith(said.format(len(lesson.steps)))
+
+
+def test_a_step_about_a_photo_does_not_mind_that_its_match_was_applied() -> None:
+    about_photo, about_scene = lessons().lessons[5].steps[0], lessons().lessons[0].steps[0]
+    for step, said in ((about_photo, ""), (about_scene, "You have changed the scene: ISO")):
+        assert changed_sentence(step, step.scene.replace(iso=400.0)).startswith(said)
+        assert bool(changed_sentence(step, step.scene.replace(iso=400.0))) is bool(said)

@@ -17,6 +17,7 @@ from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot, Source
+from occ_gui.widgets import first_periods
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Comparison, DecodeResult
@@ -244,7 +245,8 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view(
 def test_the_packets_that_the_button_names_are_those_in_view(
     snapshot_of: SnapshotOf, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(profile_view, "PACKETS_IN_VIEW", 1)
+    for module in (profile_view, first_periods):
+        monkeypatch.setattr(module, "PACKETS_IN_VIEW", 1)
     view = ProfileView()
     qtbot.addWidget(view)
     snapshot = snapshot_of()
@@ -378,3 +380,11 @@ def test_the_axes_hold_the_longest_level_in_any_font(qtbot: QtBot, points: float
     needed = metrics.height() + metrics.horizontalAdvance("-200")
     assert [axis.minimumWidth() > needed for axis in axes] == [True, True]
     assert view.chips.copy.minimumWidth() == axes[0].minimumWidth(), "its chips lie under the plot"
+
+
+def test_the_button_of_the_first_periods_names_what_is_sent(
+    view: ProfileView, snapshot_of: SnapshotOf
+) -> None:
+    for pattern, text in (("10", "2 cycles"), ("", "2 packets")):
+        view.show_reading(snapshot_of(pattern=pattern))
+        assert view._packets.text() == text

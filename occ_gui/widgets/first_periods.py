@@ -1,0 +1,24 @@
+"""Words on the button that shows the first periods of what is sent: packets, or cycles."""
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.widgets.plot import PACKETS_IN_VIEW
+
+
+def first_periods(has_packets: bool) -> tuple[str, str]:
+    """Return the text of the button and its tooltip.
+
+    Parameters
+    ----------
+    has_packets
+        Whether packets are sent, and not a raw pattern of chips.
+    """
+    if has_packets:
+        text, tip = _tr("{count} packets"), _tr("Show the panel's first packets, and follow them.")
+    else:
+        text, tip = _tr("{count} cycles"), _tr("Show the pattern's first cycles, and follow them.")
+    return text.format(count=PACKETS_IN_VIEW), tip
+
+
+def _tr(text: str) -> str:
+    return QCoreApplication.translate("FirstPeriods", text)

@@ -135,7 +135,7 @@ class AdviceView(QWidget):
     def show_advice_ended(self, sentence: str) -> None:
         """Show that the search has ended; a sentence says why if it is incomplete."""
         self._ended = sentence
-        self.cards.show_ended(not sentence)
+        self.cards.show_ended(sentence)
         self.state.set_full_text(sentence)
         self._show_running(False)
 

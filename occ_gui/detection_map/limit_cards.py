@@ -93,12 +93,12 @@ class LimitCards(QWidget):
             line = self._sentences.on_highest_frequency(advice)
             card.show_limit(highest_frequency(advice), line.text, advice.limits.rate)
 
-    def show_ended(self, is_complete: bool) -> None:
-        """Show that the search has ended, with a limit for each decoder or without."""
-        self._is_running, self._is_known = False, is_complete
-        if not is_complete:
+    def show_ended(self, why_not: str = "") -> None:
+        """Show that the search has ended, and why where it has not found all limits."""
+        self._is_running, self._is_known = False, not why_not
+        if why_not:
             for card in self.cards.values():
-                card.show_unknown()
+                card.show_unknown(why_not)
 
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the limits are of an earlier scene; if so they are asked for again."""
@@ -170,9 +170,11 @@ class LimitCard(QFrame):
         )
         self.go.setToolTip(tip)
 
-    def show_unknown(self) -> None:
-        """Show that the limit is not known."""
-        self._show("", self.tr("Not searched yet."), None)
+    def show_unknown(self, why: str = "") -> None:
+        """Show that the limit is not known, and why if it was searched."""
+        self._show("–" if why else "", why or self.tr("Not searched yet."), None)
+        if why:
+            self.name.set_full_text(why)
 
     def show_searching(self) -> None:
         """Show that the limit is searched."""

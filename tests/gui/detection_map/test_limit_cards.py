@@ -76,7 +76,7 @@ def test_limits_of_an_earlier_scene_are_marked_and_asked_again(
     cards.show()
     cards.show_begun()
     cards.show_advice(advice_on(small_scene))
-    cards.show_ended(is_complete=True)
+    cards.show_ended()
     assert card.go.isEnabled()
     assert not cards.is_waiting
     with qtbot.waitSignal(cards.asked):
@@ -121,8 +121,22 @@ def test_limits_are_asked_for_once_and_not_for_a_scene_that_came_back(
         pass
     assert not cards.is_waiting
     cards.show_begun()
-    cards.show_ended(is_complete=True)
+    cards.show_ended()
     cards.show_outdated(True)
     assert cards.is_waiting
     cards.show_outdated(False)
     assert not cards.is_waiting
+
+
+def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:
+    why = "A raw pattern holds no code; a success rate needs packets."
+    cards.show_begun()
+    cards.show_ended(why)
+    for card in cards.cards.values():
+        assert (card.value.text(), card.value.toolTip()) == ("–", why)
+        assert card.name._full == why
+        assert not card.go.isEnabled()
+    cards.show_begun()
+    cards.show_advice(advice_on(small_scene))
+    card = cards.cards["threshold"]
+    assert card.name._full == "Threshold reads up to"

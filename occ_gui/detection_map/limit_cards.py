@@ -172,7 +172,7 @@ class LimitCard(QFrame):
 
     def show_unknown(self, why: str = "") -> None:
         """Show that the limit is not known, and why if it was searched."""
-        self._show("–" if why else "", why or self.tr("Not searched yet."), None)
+        self._show("?" if why else "", why or self.tr("Not searched yet."), None)
         if why:
             self.name.set_full_text(why)
 

@@ -133,7 +133,7 @@ def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene
     cards.show_begun()
     cards.show_ended(why)
     for card in cards.cards.values():
-        assert (card.value.text(), card.value.toolTip()) == ("–", why)
+        assert (card.value.text(), card.value.toolTip()) == ("?", why)
         assert card.name._full == why
         assert not card.go.isEnabled()
     cards.show_begun()

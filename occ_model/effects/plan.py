@@ -306,4 +306,4 @@ def _comparison(bound: float, tolerance: float, included: bool) -> str:
         return "within the tolerance"
     if bound > tolerance:
         return "above the tolerance"
-    return "above it with what is left out"
+    return "exceeded together with what is left out"

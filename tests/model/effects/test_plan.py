@@ -107,7 +107,7 @@ def test_reasons_name_the_bound_and_the_tolerance(scene: Scene) -> None:
 
 
 def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
-    """Above the tolerance by itself, above it with what is left out before it, or within it."""
+    """Above the tolerance by itself, with what is left out before it, or within it."""
     bounds = sorted(d.bound for d in occ.plan(scene, 0.0).decisions if d.bound)
     small, next_one = bounds[:2]
     seen = set()
@@ -121,7 +121,7 @@ def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
             elif decision.bound > tolerance:
                 expected, ending = "above the tolerance", f", tolerance {tolerance:g}: taken in"
             else:
-                expected = "above it with what is left out"
+                expected = "exceeded together with what is left out"
                 ending = f", tolerance {tolerance:g}, {expected}: taken in"
             assert (decision.bound, decision.why) == (decision.bound, expected)
             assert decision.reason.endswith(ending)

@@ -24,7 +24,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable
 from occ_model.simulation.render import observe
 
-SCENES = amount(40, 80)
+SCENES = amount(40, 70)
 TOLERANCES = (0.1, 0.5, 2.0, 8.0)
 
 CODING = frozenset({"line_code", "framing", "error_correction", "equalizer"})

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import bits_of
 
-CODES = range(0, 1024, amount(29, 3))
+CODES = range(0, 1024, amount(29, 7))
 
 
 @pytest.fixture(scope="module")

@@ -51,7 +51,7 @@ def test_codes_are_read_at_three_chips_an_exposure() -> None:
     )
     wrong = [
         code
-        for code in range(0, 1024, amount(29, 3))
+        for code in range(0, 1024, amount(29, 7))
         if occ.decode(occ.render(scene.replace(code=code)).signal, scene, "matched").code != code
     ]
     assert wrong == []

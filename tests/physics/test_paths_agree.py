@@ -18,7 +18,7 @@ SETTLED = (1, 2, 3, 4, 5)
 
 def test_both_paths_give_the_same_rates() -> None:
     seeds = (*IN_DOUBT[: amount(4, 10)], *SETTLED[: amount(2, 5)])
-    images = amount(10, 24)
+    images = amount(10, 16)
     pairs = [
         pair
         for number, seed in enumerate(seeds)

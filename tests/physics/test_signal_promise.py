@@ -12,7 +12,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import observe
 
-SCENES = amount(45, 90)
+SCENES = amount(45, 75)
 TOLERANCES = (0.5, 4.0, 20.0, 80.0)
 METHODS = ("equalization", "stretch", "none")
 

@@ -181,6 +181,7 @@ def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
     assert axis_labels_cut_off(application.window) == []
 
 
+@pytest.mark.own_window
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
 def test_explaining_and_comparing_panes_are_whole_at_any_size(
     qtbot: QtBot, application: Application, user: User, size: QSize

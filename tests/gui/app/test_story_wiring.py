@@ -132,11 +132,11 @@ def test_an_open_photo_is_drawn_in_the_story(
     assert photo is not None
     assert shown is not None
     np.testing.assert_array_equal(photo[1], shown)
-    assert "photo" in rows.legend.shown
+    assert "fitted" in rows.legend.shown
     application.photos.close()
     user.wait_until_idle()
     assert rows.profile.photo is None
-    assert "photo" not in rows.legend.shown
+    assert {"fitted", "photo"}.isdisjoint(rows.legend.shown)
 
 
 def test_a_scene_without_a_picture_is_said_above_the_last_one(

@@ -17,6 +17,7 @@ from occ_gui.story.bit_cells import (
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
 from occ_gui.story.story_row import StoryRow
+from occ_gui.story.text_room import line_height
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.plot import SIMULATION
 from occ_gui.widgets.state_look import State
@@ -26,7 +27,7 @@ from occ_model.results import DecodeResult
 
 _CHIPS, _BITS = 20, 22
 _GAP = 3
-_HEIGHT = _CHIPS + _BITS + 4 * _GAP
+"""Pixels of the cells, and between them, in text of the usual size."""
 
 
 class CodeRow(StoryRow):
@@ -91,19 +92,24 @@ class CodeRow(StoryRow):
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of both lines."""
-        return QSize(200, _HEIGHT)
+        return QSize(200, sum(self._heights()) + 4 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of both lines."""
-        return QSize(160, _HEIGHT)
+        return QSize(160, sum(self._heights()) + 4 * _GAP)
+
+    def _heights(self) -> tuple[int, int]:
+        """Return the heights of the chips and of the bits."""
+        metrics = self.fontMetrics()
+        return line_height(metrics, _CHIPS), line_height(metrics, _BITS, 4)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         """Draw the chips in view, and the packet that was read."""
         decoded = self._decoded
         if decoded is None:
             return
-        chips = QRectF(area.left(), area.top() + _GAP, area.width(), _CHIPS)
-        bits = QRectF(area.left(), chips.bottom() + _GAP, area.width(), _BITS)
+        chips = QRectF(area.left(), area.top() + _GAP, area.width(), self._heights()[0])
+        bits = QRectF(area.left(), chips.bottom() + _GAP, area.width(), self._heights()[1])
         if self.edges is None:
             self._say_instead(painter, chips, decoded)
             self._list_bits(painter, bits, decoded)
@@ -176,9 +182,10 @@ class CodeRow(StoryRow):
         """Name the lines."""
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+        chips, bits = self._heights()
         for text, top, height in (
-            (self.tr("chips"), _GAP, _CHIPS),
-            (self.tr("bits"), _CHIPS + 2 * _GAP, _BITS),
+            (self.tr("chips"), _GAP, chips),
+            (self.tr("bits"), chips + 2 * _GAP, bits),
         ):
             painter.drawText(QRectF(0, top, area.left() - 6, height), flags, text)
 

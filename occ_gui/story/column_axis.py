@@ -5,7 +5,7 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.story.measure_cursors import MeasureCursors
 
 GUTTER = 104
-"""Pixels at the left of each row, for its name and its levels."""
+"""Pixels at the left of each row, for its name and its levels, in text of the usual size."""
 
 MARGIN = 12
 """Pixels at the right of each row."""
@@ -32,6 +32,8 @@ class ColumnAxis(QObject):
         self.first, self.last = -0.5, 99.5
         self._home = (self.first, self.last)
         self._ends = (self.first, self.last)
+        self.gutter = GUTTER
+        """Pixels at the left of each row."""
         self.is_following = True
         """Whether the range is the one that is set for the results."""
 
@@ -42,16 +44,21 @@ class ColumnAxis(QObject):
 
     def pixel(self, column: float, width: float) -> float:
         """Return where a column lies in a row of this width, in pixels from its left."""
-        return GUTTER + (column - self.first) / self.span * self.plot_width(width)
+        return self.gutter + (column - self.first) / self.span * self.plot_width(width)
 
     def column(self, pixel: float, width: float) -> float:
         """Return the column at a pixel of a row of this width."""
-        return self.first + (pixel - GUTTER) / self.plot_width(width) * self.span
+        return self.first + (pixel - self.gutter) / self.plot_width(width) * self.span
 
-    @staticmethod
-    def plot_width(width: float) -> float:
+    def plot_width(self, width: float) -> float:
         """Return the pixels of a row of this width that show columns."""
-        return max(1.0, width - GUTTER - MARGIN)
+        return max(1.0, width - self.gutter - MARGIN)
+
+    def set_gutter(self, pixels: int) -> None:
+        """Leave so many pixels at the left of each row."""
+        if pixels != self.gutter:
+            self.gutter = pixels
+            self.changed.emit()
 
     def set_home(self, first: float, last: float, columns: int) -> None:
         """Set the range to return to, and the number of columns of the picture."""

@@ -18,6 +18,7 @@ from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
+from occ_gui.story.text_room import line_height
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
 from occ_model.results.teaching import LightCurve
@@ -28,8 +29,8 @@ _GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
 """Colours of the light, in the light and the dark theme."""
 
 _LEAST_HEIGHT = 40
-_STRIP = 18
-"""Pixels of the strip of the bits sent."""
+_STRIP, _LABEL = 18, 15
+"""Pixels of the strip of the bits sent, and of the window's name, in text of the usual size."""
 
 _LEAST_FOR_STRIP = 66
 _LEAST_CHIP = 1.5
@@ -95,8 +96,16 @@ class LightRow(StoryRow):
         return float(column), column + scene.camera.exposure_time / scene.camera.readout_time
 
     def _light_area(self, area: QRectF) -> QRectF:
-        strip = _STRIP if area.height() >= _LEAST_FOR_STRIP else 0
-        return area.adjusted(0, 16, 0, -strip - 5)
+        strip = self._strip_height() if area.height() >= _LEAST_FOR_STRIP else 0
+        return area.adjusted(0, self._label_height() + 1, 0, -strip - 5)
+
+    def _strip_height(self) -> int:
+        """Return the height of the strip of the bits sent."""
+        return line_height(self.fontMetrics(), _STRIP)
+
+    def _label_height(self) -> int:
+        """Return the height of the window's length above it."""
+        return line_height(self.fontMetrics(), _LABEL, 0)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         """Draw the waveform, and the header and bits sent below it."""
@@ -115,7 +124,7 @@ class LightRow(StoryRow):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, self._edged)
         painter.drawLines(lines_of(xs, ys))
         self._draw_digits(painter, light, curve)
-        if light.bottom() < area.bottom() - _STRIP:
+        if light.bottom() < area.bottom() - self._strip_height():
             self._draw_fields(painter, area, curve)
 
     def _draw_glow(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
@@ -157,13 +166,14 @@ class LightRow(StoryRow):
         step = float(edges[1] - edges[0])
         if not fields or 2 * step < _LEAST_FOR_DIGIT:
             return
-        top, length = area.bottom() - _STRIP + 1, fields[-1].last
+        strip, length = self._strip_height(), fields[-1].last
+        top = area.bottom() - strip + 1
         # Of each packet in view, also the one that begins before it, the x of its first chip.
         start = float(edges[0]) - int(curve.places[0]) * step
         while start < area.right():
             for field in fields:
                 left = start + field.first * step
-                cell = QRectF(left, top, (field.last - field.first) * step, _STRIP - 2)
+                cell = QRectF(left, top, (field.last - field.first) * step, strip - 2)
                 if cell.right() < area.left() or cell.left() > area.right():
                     continue
                 texts = header_texts() if field.bit is None else (str(self._sent[field.bit]),)
@@ -179,8 +189,9 @@ class LightRow(StoryRow):
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         for text, y in ((self.tr("on"), light.top()), (self.tr("off"), light.bottom())):
             painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), flags, text)
-        if light.bottom() < area.bottom() - _STRIP and self._scene is not None:
-            place = QRectF(4, area.bottom() - _STRIP, area.left() - 10, _STRIP)
+        strip = self._strip_height()
+        if light.bottom() < area.bottom() - strip and self._scene is not None:
+            place = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
             left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
             painter.drawText(place, left, self.tr("sent"))
 
@@ -224,7 +235,7 @@ class LightRow(StoryRow):
     def _name_window(self, painter: QPainter, place: QRectF, text: str) -> None:
         width = painter.fontMetrics().horizontalAdvance(text) + 8
         area = self.plot_area()
-        label = QRectF(place.center().x() - width / 2, area.top(), width, 15)
+        label = QRectF(place.center().x() - width / 2, area.top(), width, self._label_height())
         label.moveLeft(min(max(label.left(), area.left()), area.right() - width))
         if not area.left() - width < place.center().x() < area.right() + width:
             return

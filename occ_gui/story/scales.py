@@ -6,7 +6,8 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import GUTTER, ColumnAxis
+from occ_gui.story.column_axis import ColumnAxis
+from occ_gui.story.text_room import line_height
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.scene.scene import Scene
 
@@ -50,11 +51,11 @@ class Scale(QWidget):
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of a line of numbers."""
-        return QSize(200, _HEIGHT)
+        return QSize(200, line_height(self.fontMetrics(), _HEIGHT))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Return the height of a line of numbers."""
-        return QSize(160, _HEIGHT)
+        return QSize(160, line_height(self.fontMetrics(), _HEIGHT))
 
     def value_of(self, column: float) -> float:
         """Return the number at a column."""
@@ -85,7 +86,7 @@ class Scale(QWidget):
         text = self.palette().color(QPalette.ColorRole.WindowText)
         painter.setPen(text)
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        painter.drawText(QRectF(0, 0, GUTTER - 6, self.height()), flags, self._name)
+        painter.drawText(QRectF(0, 0, self.axis.gutter - 6, self.height()), flags, self._name)
         end = float(self.height()) if self._is_above else 0.0
         tick = -_TICK if self._is_above else _TICK
         metrics = painter.fontMetrics()
@@ -94,7 +95,7 @@ class Scale(QWidget):
             painter.setPen(QPen(self.palette().color(QPalette.ColorRole.WindowText), 1))
             painter.drawLine(QPointF(x, end), QPointF(x, end + tick))
             width = metrics.horizontalAdvance(number)
-            left = min(max(x + 4, GUTTER), self.width() - width)
+            left = min(max(x + 4, self.axis.gutter), self.width() - width)
             painter.drawText(QRectF(left, 0, width + 2, self.height()),
                              Qt.AlignmentFlag.AlignVCenter, number)  # fmt: skip
         painter.end()

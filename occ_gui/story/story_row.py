@@ -5,7 +5,6 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import (
     QColor,
     QFont,
-    QFontMetrics,
     QKeyEvent,
     QMouseEvent,
     QPainter,
@@ -18,8 +17,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
+from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.measure_cursors import NAMES
+from occ_gui.story.text_room import GAPS, needed_by
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import FloatArray
 
@@ -34,9 +34,6 @@ _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 
 _NOTCH = 120
 _A_NOTCH = 0.85
-
-_WIDEST_BESIDE, _GUTTER_GAPS = "chips", 14
-"""What stands beside a row's name at most, and the pixels between and around both."""
 
 _GRIP = 6
 """Pixels from a measuring cursor within which the mouse takes it."""
@@ -88,7 +85,8 @@ class StoryRow(QWidget):
 
     def plot_area(self) -> QRectF:
         """Return the part of the row that shows columns."""
-        return QRectF(GUTTER, 0.0, self.axis.plot_width(self.width()), float(self.height()))
+        width = self.axis.plot_width(self.width())
+        return QRectF(self.axis.gutter, 0.0, width, float(self.height()))
 
     def x_of(self, column: float) -> float:
         """Return where a column lies, in pixels from the left."""
@@ -97,7 +95,7 @@ class StoryRow(QWidget):
     def xs_of(self, columns: FloatArray) -> FloatArray:
         """Return where some columns lie, in pixels from the left."""
         scale = self.axis.plot_width(self.width()) / self.axis.span
-        return np.asarray(GUTTER + (columns - self.axis.first) * scale)
+        return np.asarray(self.axis.gutter + (columns - self.axis.first) * scale)
 
     def column_at(self, x: float) -> float:
         """Return the column at a pixel."""
@@ -175,12 +173,8 @@ class StoryRow(QWidget):
 
     def _gutter_font(self) -> QFont:
         """Return the row's font, smaller where its name would touch what stands beside it."""
-        font, bold = QFont(self.font()), QFont(self.font())
-        bold.setBold(True)
-        needed = QFontMetrics(bold).horizontalAdvance(self.name) + QFontMetrics(
-            font
-        ).horizontalAdvance(_WIDEST_BESIDE)
-        room = GUTTER - _GUTTER_GAPS
+        font, room = QFont(self.font()), self.axis.gutter - GAPS
+        needed = needed_by(self.name, font)
         if needed > room and font.pointSizeF() > 0.0:
             font.setPointSizeF(font.pointSizeF() * room / needed)
         return font
@@ -191,7 +185,7 @@ class StoryRow(QWidget):
         font.setBold(True)
         painter.setFont(font)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
-        place = QRectF(4, 3, GUTTER - 8, self.height())
+        place = QRectF(4, 3, self.axis.gutter - 8, self.height())
         flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
         painter.drawText(place, flags, self.name)
         painter.setFont(beside)

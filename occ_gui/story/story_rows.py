@@ -1,7 +1,7 @@
 """Rows of the story: light, picture, profile and code over one axis of columns."""
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.decoding.verdict import result_of
@@ -10,7 +10,7 @@ from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.code_row import CodeRow
-from occ_gui.story.column_axis import GUTTER, MARGIN, ColumnAxis, Crosshair
+from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
 from occ_gui.story.curve_legend import CurveLegend
 from occ_gui.story.legend_line import LegendLine
@@ -20,6 +20,7 @@ from occ_gui.story.measure_cursors import measure
 from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.scales import ColumnScale, TimeScale
 from occ_gui.story.stripes_row import StripesRow
+from occ_gui.story.text_room import gutter_of
 from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results import DecodeResult
 from occ_model.results.frame import PICTURES
@@ -87,9 +88,23 @@ class StoryRows(QWidget):
             usual=("simulation", "threshold", "band"),
         )
         part = LegendLine(self.legend)
-        part.setContentsMargins(GUTTER, 0, MARGIN, 0)
+        part.setContentsMargins(self.axis.gutter, 0, MARGIN, 0)
+        self._line_of_legend = part
         self.controls = part.controls
         return part
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        """Leave the names of the rows as much room as text of another size needs."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "_line_of_legend"):
+            self._leave_room()
+
+    def _leave_room(self) -> None:
+        names = [row.name for row in (self.light, self.stripes, self.profile, self.code)]
+        self.axis.set_gutter(gutter_of(self.font(), names))
+        self._line_of_legend.setContentsMargins(self.axis.gutter, 0, MARGIN, 0)
+        for part in (self.time, self.columns, self.code):
+            part.updateGeometry()
 
     def _show_legend(self) -> None:
         profile = self.profile

@@ -468,6 +468,22 @@ def test_the_names_of_rows_do_not_touch_what_stands_beside_them(
         assert QFontMetrics(found).horizontalAdvance(row.name) + beside < GUTTER - 10
 
 
+@pytest.mark.parametrize("points", [9.0, 12.0, 15.6])
+def test_larger_text_has_the_room_that_it_needs(rows: StoryRows, points: float) -> None:
+    font = QFont()
+    font.setPointSizeF(points)
+    rows.setFont(font)
+    for row in (rows.light, rows.stripes, rows.profile, rows.code):
+        assert row._gutter_font().pointSizeF() == points
+        assert row.plot_area().left() == rows.axis.gutter >= GUTTER
+    height = QFontMetrics(font).height()
+    assert rows.time.sizeHint().height() >= height
+    assert rows.code.minimumSizeHint().height() > 2 * height
+    assert min(rows.code._heights()) >= height
+    assert min(rows.light._strip_height(), rows.light._label_height()) >= height
+    assert rows._line_of_legend.contentsMargins().left() == rows.axis.gutter
+
+
 def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
     rows: StoryRows, snapshot_of: Callable[..., Snapshot]
 ) -> None:

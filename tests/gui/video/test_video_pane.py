@@ -42,6 +42,7 @@ def states(pane: VideoWiring) -> list[int]:
     return pane.view.timeline.frames.states.tolist()
 
 
+@pytest.mark.own_window
 def test_nothing_of_films_is_loaded_before_the_mode_is_shown(application: Application) -> None:
     assert "wiring" not in vars(application.video)
     assert application.video.is_idle

@@ -236,6 +236,7 @@ class Application(QObject):
         self.decode.decoder_chosen.connect(self.simulation.read_with)
         self.decode.decoder_chosen.connect(self._present_rate.choose_decoder)
         self.simulation.reading_shown.connect(self._present_rate.show_reading)
+        self.outdated.mark_verdict(self._present_rate)
         self.simulation.failed.connect(self._present_rate.show_failure)
         for searcher in (self.detection_map.most_bits, self.detection_map.advisor):
             searcher.went.connect(self.decode.choose_decoder)

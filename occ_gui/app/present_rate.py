@@ -25,6 +25,7 @@ class PresentRate(QObject):
         self._strips = strips
         self._decoder = PAPER_DECODER
         self._reading: Reading | None = None
+        self._is_outdated = False
 
     def show_reading(self, reading: Reading) -> None:
         """Show what is read of another scene, or more surely of the same."""
@@ -41,8 +42,16 @@ class PresentRate(QObject):
         self._reading = None
         self._show()
 
+    def show_outdated(self, outdated: bool) -> None:
+        """Show nothing while the verdict is that of an earlier scene."""
+        self._is_outdated = outdated
+        self._show()
+
+    def show_run(self, value: str, pictured: str) -> None:
+        """Go on while a slider runs by itself: the verdict says of which value it is."""
+
     def _show(self) -> None:
         reading, share = self._reading, None
-        if reading is not None:
+        if reading is not None and not self._is_outdated:
             share = share_read(result_of(reading, self._decoder), reading.sent)
         self._strips.show_present(share)

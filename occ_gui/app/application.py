@@ -11,7 +11,6 @@ from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.outdated_panes import OutdatedPanes
-from occ_gui.app.present_rate import PresentRate
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
 from occ_gui.app.video_pane import VideoPane
@@ -83,7 +82,6 @@ class Application(QObject):
         self.detection = MapView(QUICK_DECODERS)
         self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
-        self._present_rate = PresentRate(self.slider_strips)
         self.window = MainWindow(
             self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,
             self.detection, undo_stack=self.store.undo_stack,
@@ -234,10 +232,7 @@ class Application(QObject):
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
         self.decode.decoder_chosen.connect(self.simulation.read_with)
-        self.decode.decoder_chosen.connect(self._present_rate.choose_decoder)
-        self.simulation.reading_shown.connect(self._present_rate.show_reading)
-        self.outdated.mark_verdict(self._present_rate)
-        self.simulation.failed.connect(self._present_rate.show_failure)
+        self.story.verdict.changed.connect(self._show_present_share)
         for searcher in (self.detection_map.most_bits, self.detection_map.advisor):
             searcher.went.connect(self.decode.choose_decoder)
 
@@ -329,6 +324,9 @@ class Application(QObject):
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.messages.end_failure()
         self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
+
+    def _show_present_share(self) -> None:
+        self.slider_strips.show_present(self.story.verdict.share)
 
     def _bring_photo_to_front(self) -> None:
         if self._front_next:

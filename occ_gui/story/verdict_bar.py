@@ -2,7 +2,7 @@
 
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
+from occ_gui.decoding.verdict import Verdict, result_of, share_read, verdict_on
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.column_facts import chips_in_exposure
 from occ_gui.story.state_chips import behind_run, chips_of, computing
@@ -20,6 +20,8 @@ class VerdictBar(StateBar):
         self._decoder = self._run = self._pictured = ""
         self._is_outdated = self._is_named = False
         self._failure = ""
+        self.share: float | None = None
+        """The share of the bits that are read rightly of the present scene; None if not known."""
         self.setAccessibleName(self.tr("Verdict on the code"))
         self._write()
 
@@ -72,6 +74,7 @@ class VerdictBar(StateBar):
 
     def _write(self) -> None:
         reading = self._reading
+        self.share = None
         if self._failure:
             self.show_state(State.BAD, self.tr("No picture of this scene"), self._failure)
             return
@@ -83,9 +86,11 @@ class VerdictBar(StateBar):
         chips = chips_of(reading, result.decoder)
         if self._run:
             chips = behind_run(chips, self._pictured)
-        state = State.WAITING if self._is_outdated else verdict.state
+        state = verdict.state
         if self._is_outdated:
-            chips = (computing(), *chips)
+            state, chips = State.WAITING, (computing(), *chips)
+        else:
+            self.share = share_read(result, reading.sent)
         heading = self._heading(verdict.heading)
         self.show_state(state, heading, *self._why(verdict, reading), chips=chips)
 

@@ -254,9 +254,9 @@ def test_without_a_code_a_strip_says_nothing_at_the_handle(
     application.store.put(scene.replace(pattern=""), "code")
     user.wait_until_idle()
     assert {s.present for s in application.slider_strips.strips.values()} == {1.0}
-    application._present_rate.show_outdated(True)
+    application.story.verdict.show_outdated(True)
     assert {s.present for s in application.slider_strips.strips.values()} == {None}
-    application._present_rate.show_outdated(False)
+    application.story.verdict.show_outdated(False)
     assert {s.present for s in application.slider_strips.strips.values()} == {1.0}
     application.simulation.failed.emit("There is no picture.")
     assert {s.present for s in application.slider_strips.strips.values()} == {None}

@@ -197,8 +197,7 @@ class LessonController(QObject):
 
     def users_own(self) -> UserState | None:
         """Return what the end of the lesson restores; None where none is under way."""
-        is_users = self._open not in {None, *sample_photos()}
-        if self._user is None or not is_users:
+        if self._user is None or not self._shows_own_photo:
             return self._user
         return replace(self._user, photo=self._open)  # opened meanwhile: it stays
 
@@ -284,14 +283,18 @@ class LessonController(QObject):
         """Show the user's own photo, if there is one; return whether there is."""
         if self._open is None and self._kept is not None:
             self._give_back(self._kept)
+        return self._shows_own_photo
+
+    @property
+    def _shows_own_photo(self) -> bool:
+        """Whether a photo of the user's own is open, and no sample."""
         return self._open not in {None, *sample_photos()}
 
     def _put_photo_aside(self) -> None:
         """Close a sample, or the photo that was open before the lesson, which its end restores."""
-        before = None if self._user is None else self._user.photo
-        if self._open not in {None, before, *sample_photos()}:
-            return  # opened by the user during the lesson
-        if self._open is not None and self._open == before:
+        if self._shows_own_photo:
+            if self._user is None or self._open != self._user.photo:
+                return  # opened during the lesson
             self._kept = self._keep_photo()  # with what has been found in it meanwhile
         if self._open is not None:
             self._photos.close()

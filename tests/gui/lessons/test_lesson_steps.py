@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import answers
 from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_list import LessonList
@@ -404,6 +405,29 @@ def test_a_lab_sheet_keeps_a_photo_of_one_s_own(
     assert opened.path == photo_file
     guide.step.all.click()
     user.wait_until_idle()
+
+
+def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choices(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
+    (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
+    application.open_photo(sample)
+    user.wait_until_idle()
+    application.photo.form.sent.show_key("square")
+    sheet.click()
+    for _ in range(2):
+        guide.step.next.click()
+    user.wait_until_idle()
+    assert application.photos.path == sample  # in place of a photo of one's own
+    assert application.photo.form.choice().sent == "auto"
+    guide.step.back.click()
+    user.wait_until_idle()
+    assert application.photos.path is None
+    guide.step.all.click()
+    user.wait_until_idle()
+    assert application.photos.path == sample
+    assert application.photo.form.choice().sent == "square"
 
 
 @pytest.mark.parametrize("goal", ["", "Find the null."])

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from occ_gui.photo.assumption import is_certain
+from occ_gui.photo.assumption import is_stale
 from occ_gui.photo.match_values import MatchValues, condition_of, known_of
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.photo.verdict_view import VerdictView
@@ -143,6 +143,4 @@ class MatchResult(QWidget):
                 then=declared.format(then), now=declared.format(now)
             )
         )
-        # What is known of the photo stays known, whatever the scene becomes.
-        known = is_certain(name, then, self._certain)
-        self.stale.setVisible(not known and now not in {then, self.given})
+        self.stale.setVisible(is_stale(name, then, self.given, now, self._certain))

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.photo.assumption import condition, is_certain
+from occ_gui.photo.assumption import condition, is_stale
 from occ_gui.photo.many.rows_model import NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_choice import KNOWN
 from occ_gui.photo.match_values import label_of, what_errors_mean, with_uncertainty
@@ -249,8 +249,7 @@ class ManyPhotosView(QWidget):
                 then=known.format(then), now=known.format(now)
             )
         )
-        certain = is_certain(known.name, then, self._certain)
-        self.stale.setVisible(not certain and now not in {then, self._given})
+        self.stale.setVisible(is_stale(known.name, then, self._given, now, self._certain))
 
     def _rests_on(self, estimate: str, scene: Scene) -> str:
         """Name the value that an estimate rests on, unless the user is certain of it."""

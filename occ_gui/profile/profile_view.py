@@ -208,8 +208,9 @@ class ProfileView(QWidget):
         """
         self._reading = reading
         text, tip = first_periods(not reading.scene.transmitter.pattern)
-        self._packets.setText(text)
-        self._packets.setToolTip(tip)
+        if text != self._packets.text():  # Qt would lay the row out anew for the same text
+            self._packets.setText(text)
+            self._packets.setToolTip(tip)
         self._is_behind = reading.source != "picture" and not self.isVisible()
         if not self._is_behind:
             self._redraw()

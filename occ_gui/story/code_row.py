@@ -108,8 +108,9 @@ class CodeRow(StoryRow):
         decoded = self._decoded
         if decoded is None:
             return
-        chips = QRectF(area.left(), area.top() + _GAP, area.width(), self._heights()[0])
-        bits = QRectF(area.left(), chips.bottom() + _GAP, area.width(), self._heights()[1])
+        of_chips, of_bits = self._heights()
+        chips = QRectF(area.left(), area.top() + _GAP, area.width(), of_chips)
+        bits = QRectF(area.left(), chips.bottom() + _GAP, area.width(), of_bits)
         if self.edges is None:
             self._say_instead(painter, chips, decoded)
             self._list_bits(painter, bits, decoded)

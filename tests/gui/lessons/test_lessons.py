@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from gui.user import User
+from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -17,6 +18,7 @@ from occ_gui.files.session import Session, SessionFile, UserState
 from occ_gui.lessons import lesson_controller
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import NAMES
 from occ_model.errors import SceneFileError
 from occ_model.results import Region
@@ -365,15 +367,23 @@ def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that
     assert state() == before
 
 
-def test_a_lesson_beside_its_photo_fits_into_a_small_window(
-    application: Application, guide: LessonView, user: User, qtbot: QtBot
-) -> None:
+def begin_with_photo(
+    application: Application, guide: LessonView, user: User, size: QSize
+) -> MainWindow:
+    """Begin the lesson about a photo in a window of this size."""
     window = application.window
     window.modes.switch("lessons")
-    window.resize(1000, 700)
+    window.resize(size)
     user.wait_until_idle()
     guide.list.choices[5].click()
     user.wait_until_idle()
+    return window
+
+
+def test_a_lesson_beside_its_photo_fits_into_a_small_window(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    window = begin_with_photo(application, guide, user, QSize(1000, 700))
     qtbot.waitUntil(lambda: application.photo.placement.isVisible())
     assert window.minimumSizeHint().width() <= 1000
     assert window.width() == 1000
@@ -382,12 +392,7 @@ def test_a_lesson_beside_its_photo_fits_into_a_small_window(
 def test_in_a_large_window_a_lesson_leaves_its_photo_the_height_that_it_does_not_need(
     application: Application, guide: LessonView, user: User, qtbot: QtBot
 ) -> None:
-    window = application.window
-    window.modes.switch("lessons")
-    window.resize(1920, 1080)
-    user.wait_until_idle()
-    guide.list.choices[5].click()
-    user.wait_until_idle()
+    window = begin_with_photo(application, guide, user, QSize(1920, 1080))
     lesson, photo = window.docks["lessons"], window.docks["photo"]
     least = photo.minimumSizeHint().height()
     qtbot.waitUntil(lambda: photo.height() > 1.4 * least)

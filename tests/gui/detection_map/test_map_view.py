@@ -313,6 +313,14 @@ def test_a_click_in_the_window_is_undone_as_one_step(
     assert application.store.scene == before
 
 
+def is_there(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 def test_closing_the_window_ends_its_processes(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -326,6 +334,8 @@ def test_closing_the_window_ends_its_processes(
     assert processes
     application.window.close()
     application.window.deleteLater()
+    # One that has ended is there until the process that forked it has taken note.
+    qtbot.waitUntil(lambda: not any(map(is_there, processes)))
     for number in processes:
         with pytest.raises(ProcessLookupError):
             os.kill(number, 0)

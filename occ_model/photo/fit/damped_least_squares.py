@@ -20,6 +20,7 @@ def minimized(
     first: FloatArray,
     rounds: int,
     share: float = 0.0,
+    slopes: Callable[[FloatArray], FloatArray] | None = None,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Minimize a sum of squares (Levenberg and Marquardt).
 
@@ -36,16 +37,19 @@ def minimized(
         Largest number of steps.
     share
         Where the noise is not known: share of the sum of squares whose decrease does not matter.
+    slopes
+        From parameters to the residual's slopes, shape (residuals, parameters); without it they are
+        found by finite differences.
 
     Returns
     -------
     parameters, residual, slopes
     """
     here, value = first, residual(first)
-    slopes = _slopes(residual, here, value)
+    steep = slopes(here) if slopes else _differences(residual, here, value)
     damping = 1e-2
     for _ in range(rounds):
-        products, gradient = slopes.T @ slopes, slopes.T @ value
+        products, gradient = steep.T @ steep, steep.T @ value
         gain = 0.0
         for _ in range(_TRIES):
             damped = products + np.diag(damping * np.diag(products) + 1e-9)
@@ -59,13 +63,13 @@ def minimized(
             damping *= 5.0
         if gain <= 0.0:
             break
-        slopes = _slopes(residual, here, value)
+        steep = slopes(here) if slopes else _differences(residual, here, value)
         if gain < (share * float(value @ value) if share else _NO_GAIN):
             break
-    return here, value, slopes
+    return here, value, steep
 
 
-def _slopes(
+def _differences(
     residual: Callable[[FloatArray], FloatArray], here: FloatArray, value: FloatArray
 ) -> FloatArray:
     steps = DIFFERENCE * np.eye(len(here))

@@ -62,3 +62,18 @@ def test_it_takes_no_more_steps_than_allowed_and_none_that_gains_nothing() -> No
     found, _, _ = minimized(counted, np.zeros(3), 0)
     assert found.tolist() == [0.0, 0.0, 0.0]
     assert calls[0] == 1 + 3
+
+
+def test_slopes_that_are_given_lead_to_the_same_without_differences() -> None:
+    calls = [0]
+
+    def arc(x: np.ndarray) -> np.ndarray:
+        calls[0] += 1
+        return A @ (np.arctan(x) - [0.6, -0.9, 0.3]) + 0.1 * B
+
+    differences = minimized(arc, np.zeros(3), 50)
+    with_differences, calls[0] = calls[0], 0
+    given = minimized(arc, np.zeros(3), 50, slopes=lambda x: A / (1.0 + x**2))
+    assert given[0] == pytest.approx(differences[0], abs=1e-2)
+    assert given[2] == pytest.approx(A / (1.0 + given[0] ** 2))
+    assert calls[0] < 0.5 * with_differences

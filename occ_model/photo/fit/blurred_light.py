@@ -9,6 +9,7 @@ from typing import Literal
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
@@ -19,8 +20,14 @@ _REACH = 8
 _SHARP = 0.05
 """Columns of blur below which a picture is sharp."""
 
+_CHANGE = 1e-5
+"""Columns by which blur is changed for the slope of its weights."""
+
 _LONGEST = 0.4
 """Largest change, in chips, of the time that the LED is on."""
+
+BLUR = 3
+"""The blur's place among the parameters of slopes: step, exposure, middle, blur and longer."""
 
 BlurShape = Literal["normal", "box", "exponential"]
 """Blur's distribution: of processing; a box, as resizing blurs; or one with long tails."""
@@ -46,6 +53,8 @@ class BlurredLight:
         self._edges = turns.astype(np.float64)
         self._changes = np.tile(change[places], 3).astype(np.float64)
         self._level_before = float(chips[int(turns[0] - 1) % self._period])
+        # By the number of edges that were passed, which repeats after a period.
+        self._levels = chips[places - 1].astype(np.float64)
 
     def lit_fraction(
         self,
@@ -70,24 +79,71 @@ class BlurredLight:
         shape
             The blur's distribution.
         """
+        lit = self._sharp(timing, self._edges_of(longer))
+        return np.asarray(_blurred(lit[None], blur_kernel(blur, tails, shape))[0])
+
+    def slopes(
+        self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
+    ) -> FloatArray:
+        """Give the lit fractions' slopes over step, exposure, middle, blur and longer.
+
+        The running integral's slope is the level, and the edges that were passed before are each
+        early by half of what the time on is longer.
+
+        Returns
+        -------
+        ndarray of float64, shape (5, columns)
+        """
+        edges = self._edges_of(longer)
+        place, exposure = self._places(timing), timing.exposure
+        first, last = (self._passed(edges, where) for where in (place, place + exposure))
+        before, after = (self._levels[passed % len(self._levels)] for passed in (first, last))
+        lit, rise = self._sharp(timing, edges), (after - before) / exposure
+        from_middle = np.arange(len(place)) - 0.5 * (len(place) - 1)
+        by_exposure = (0.5 * (after + before) - lit) / exposure
+        by_longer = 0.5 * (last - first) / exposure
+        slopes = _blurred(
+            np.stack([rise * from_middle, by_exposure, rise, lit, by_longer]),
+            blur_kernel(blur, 0.0, shape),
+        )
+        slopes[BLUR] = _blurred(lit[None], kernel_slope(blur, shape))[0]
+        return slopes
+
+    def _edges_of(self, longer: float) -> FloatArray:
         longer = float(np.clip(longer, -_LONGEST, _LONGEST))
-        edges = self._edges - 0.5 * longer * self._changes
+        return self._edges - 0.5 * longer * self._changes
+
+    def _places(self, timing: Timing) -> FloatArray:
+        """Give where the exposures start of all columns that blur reaches."""
+        column = np.arange(-_REACH, self._columns + _REACH)
+        return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
+
+    def _sharp(self, timing: Timing, edges: FloatArray) -> FloatArray:
+        """Give the lit fractions without blur."""
         # The running integral has corners at the edges; it is 0 at the first of them.
         levels = self._level_before + np.cumsum(self._changes)
         integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])
         ends = np.interp([0.0, float(self._period)], edges, integral)
         a_period = float(ends[1] - ends[0])
-        column = np.arange(-_REACH, self._columns + _REACH)
-        place = np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
+        place = self._places(timing)
 
         def until(where: FloatArray) -> FloatArray:
             turns = np.floor(where / self._period)
             within = np.interp(where - turns * self._period, edges, integral)
             return np.asarray(turns * a_period + within)
 
-        lit = (until(place + timing.exposure) - until(place)) / timing.exposure
-        kernel = blur_kernel(blur, tails, shape)[None]
-        return np.asarray(cv2.filter2D(lit[None], -1, kernel)[0, _REACH:-_REACH])
+        return np.asarray((until(place + timing.exposure) - until(place)) / timing.exposure)
+
+    def _passed(self, edges: FloatArray, where: FloatArray) -> NDArray[np.int64]:
+        """Count the edges before some places, from the first one on."""
+        turns = np.floor(where / self._period)
+        within = np.searchsorted(edges, where - turns * self._period)
+        return np.asarray(within + turns.astype(np.int64) * len(self._levels), dtype=np.int64)
+
+
+def _blurred(lit: FloatArray, kernel: FloatArray) -> FloatArray:
+    """Blur rows along the columns, and leave out those that only blur reaches."""
+    return np.asarray(cv2.filter2D(lit, -1, kernel[None])[:, _REACH:-_REACH], dtype=np.float64)
 
 
 def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") -> FloatArray:
@@ -112,3 +168,9 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
         square = (off / blur) ** 2
         kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
     return np.asarray(kernel / kernel.sum())
+
+
+def kernel_slope(blur: float, shape: BlurShape = "normal") -> FloatArray:
+    """Give the slope of the weights of blur over its standard deviation."""
+    more, less = (blur_kernel(blur + change, 0.0, shape) for change in (_CHANGE, -_CHANGE))
+    return np.asarray((more - less) / (2.0 * _CHANGE))

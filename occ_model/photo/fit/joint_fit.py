@@ -10,17 +10,17 @@ normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel
+from occ_model.photo.fit.blurred_light import BlurShape
 from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.joint_covariance import TRUSTED, covariance_of
-from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
+from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
+from occ_model.photo.fit.scaled_parameters import ScaledParameters
+from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, SeenStripes
 from occ_model.photo.fit.timing import Timing
-from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameter_kinds import Quantity
@@ -66,10 +66,8 @@ let what is usual of a camera outweigh what is seen of it."""
 _EDGE = 0.05
 """Share of the swing from which a column is on an edge."""
 
-_SHORTEST = 1e-3
-_LOW = np.array([0.5, _SHORTEST, -np.inf, -0.9, -0.1, -0.9, -0.9, 0.0, -0.3])
-_HIGH = np.array([2.0, np.inf, np.inf, 0.9, 0.3, 0.9, 1.5, 3.0, 0.3])
-"""Bounds of the parameters; that of the step is a ratio."""
+_GAMMAS = (-0.9, 0.9)
+"""Bounds of gamma's logarithm where it is about known."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -139,9 +137,7 @@ class JointModel:
         self._check = check
         columns = len(profiles[0].values)
         self._columns, self._step, self.gamma = columns, step, gamma
-        self._values_blurred = values_blurred
         freedom = int(np.clip(step * columns / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
-        light = BlurredLight(chips, columns)
         slow = int(np.clip(step * columns / _CHIPS_A_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
         self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
         width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK / step))
@@ -162,9 +158,7 @@ class JointModel:
             [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
         )
         self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
-        # A fit's slopes change the timing, or the tone curve: what stays need not be found again.
-        self._lit = lru_cache(maxsize=4)(light.lit_fraction)
-        self._table = lru_cache(maxsize=4)(lambda *bends: ToneCurve(*bends).table())
+        self._seen = SeenStripes(chips, columns, gamma, values_blurred=values_blurred)
 
     def start(self, timing: Timing) -> FloatArray:
         """Give the parameters of a timing, and what is usual."""
@@ -217,38 +211,25 @@ class JointModel:
         """
         free = self._free.copy()
         free[list(fixed)] = False
-        index = np.flatnonzero(free)
-        scale = self._scale[index]
-        bounds = _LOW.copy(), _HIGH.copy()
-        bounds[0][0], bounds[1][0] = 0.5 * self._step, 2.0 * self._step
-        if self.is_wide:
-            inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
-            bounds[0][3], bounds[1][3] = np.log(self._allowed * inside / self.gamma)
-        first = np.clip(first, *bounds)
-        # The exposure's logarithm: it is positive, and known by ratio.
-        scale = np.where(index == 1, 0.05, scale)
-
-        def values_of(scaled: FloatArray) -> FloatArray:
-            values = first.copy()
-            values[index] += scaled * scale
-            values[1] = first[1] * math.exp(min(values[1] - first[1], 5.0))
-            values[7] = abs(values[7])
-            return np.clip(values, *bounds)
-
+        index, blur = np.flatnonzero(free), shape or "normal"
+        scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
         found, residual, slopes = minimized(
-            lambda scaled: self._residual(values_of(scaled), 0.0, shape or "normal"),
+            lambda place: self._residual(scaled.values(place), 0.0, blur),
             np.zeros(len(index)),
             rounds,
+            slopes=lambda place: (
+                self._slopes(scaled.values(place), blur)[:, index] * scaled.slopes(place)
+            ),
         )
-        values = values_of(found)
-        scale = np.where(index == 1, scale * values[1], scale)
+        values = scaled.values(found)
+        rates = scaled.rates(values)
         covariance = np.zeros((9, 9))
         moved = np.zeros_like(residual)
         if shape is None:
             moved = (self._residual(values, _KURTOSIS) - residual) * (_TAILS / _KURTOSIS)
         covariance[np.ix_(index, index)] = covariance_of(
             slopes, residual, moved, self._block
-        ) * np.outer(scale, scale)
+        ) * np.outer(rates, rates)
         prior = residual[-len(USUAL) :]
         return JointFit(values, covariance, float(residual @ residual), float(prior @ prior))
 
@@ -258,7 +239,7 @@ class JointModel:
 
     def estimate_noise(self, values: FloatArray) -> None:
         """Take a fit's residual as the noise of each profile, neighbours being correlated."""
-        seen = self._seen(values)
+        seen = self._seen.by(values)
         for number, part in enumerate(self._parts):
             residual = part.residual(seen)[: part.data.size]
             slow = part.slow(np.ones(part.data.size))
@@ -273,36 +254,48 @@ class JointModel:
 
     def edges_seen(self, values: FloatArray) -> float:
         """Give the largest share of the edges' columns that a profile shows without clipping."""
-        lit = self._seen(values).lit
+        lit = self._seen.by(values).lit
         low, high = float(lit.min()), float(lit.max())
         edges = (lit > low + _EDGE * (high - low)) & (lit < high - _EDGE * (high - low))
         count = max(1, int(edges.sum()))
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
-    def _seen(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:
-        step, exposure, middle, *bends, blur, longer = values.tolist()
-        gamma, offset, shoulder, contrast = bends
-        timing = Timing(step, exposure, middle, self.gamma)
-        sharp = None
-        if self._values_blurred:
-            sharp = self._lit(timing, 0.0, longer, 0.0)
-        return Seen(
-            self._lit(timing, blur, longer, tails, shape),
-            self._table(self.gamma * math.exp(gamma), offset, shoulder, contrast),
-            sharp,
-            blur_kernel(blur, tails, shape),
-        )
+    def _gammas(self) -> tuple[float, float]:
+        """Give the bounds of gamma's logarithm."""
+        if not self.is_wide:
+            return _GAMMAS
+        inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
+        low, high = np.log(self._allowed * inside / self.gamma).tolist()
+        return low, high
 
     def _residual(
         self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
     ) -> FloatArray:
+        """Give the residual in standard deviations, at last that of what is usual."""
         self._check()
-        seen = self._seen(values, tails, shape)
-        parts = []
-        for part, noise, slow in zip(self._parts, self._noise, self._slow, strict=True):
-            residual = part.residual(seen) / noise
-            own = residual[: part.data.size]
-            own -= slow @ (slow.T @ own)
-            parts.append(residual)
+        seen = self._seen.by(values, tails, shape)
         unusual = (values[3:] - self._mean) / self._deviation
-        return np.concatenate([*parts, unusual])
+        return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
+
+    def _slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
+        """Give the residual's slopes over all nine parameters, shape (residuals, 9)."""
+        self._check()
+        seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape)
+        found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
+        slopes = np.zeros((9, found.shape[1] + len(USUAL)))
+        slopes[IN_ORDER, : -len(USUAL)] = found
+        slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
+        slopes[3:, -len(USUAL) :] = np.diag(1.0 / self._deviation)
+        return slopes.T
+
+    def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
+        """Divide residuals, or slopes, by the noise, and take out what is slow."""
+        found = []
+        for values, part, noise, slow in zip(
+            parts, self._parts, self._noise, self._slow, strict=True
+        ):
+            white = values / noise
+            own = white[..., : part.data.size]
+            own -= (own @ slow) @ slow.T
+            found.append(white)
+        return found

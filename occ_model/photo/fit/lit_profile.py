@@ -10,10 +10,13 @@ from functools import lru_cache
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import WHITE
-from occ_model.photo.fit.tone_curve import ToneTable
+from occ_model.photo.fit.blurred_light import BLUR
+from occ_model.photo.fit.lit_columns import LitColumns
+from occ_model.photo.fit.normal_equations import NormalEquations, solved
+from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
@@ -32,6 +35,59 @@ class Seen:
     table: ToneTable
     sharp: FloatArray | None
     kernel: FloatArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SeenSlopes:
+    """The slopes of what the columns see.
+
+    Parameters
+    ----------
+    lit : ndarray of float64, shape (light's parameters, columns)
+        Of the lit fractions, blurred.
+    tone
+        Of the tone curve, over its own parameters.
+    sharp : ndarray of float64, shape (light's parameters, columns), or None
+        Of the sharp lit fractions, where pixel values are blurred.
+    kernel : ndarray of float64, shape (weights,)
+        Of the blur's weights, over the blur.
+    """
+
+    lit: FloatArray
+    tone: ToneSlopes
+    sharp: FloatArray | None
+    kernel: FloatArray
+
+    @property
+    def parameters(self) -> int:
+        """The number of all parameters."""
+        return len(self.lit) + self.tone.parameters
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Fitted:
+    """The levels that fit a profile, and what they follow from.
+
+    Parameters
+    ----------
+    light, weight : ndarray of float64, shape (kept,)
+        The light of the kept columns' data, and its weight.
+    products : ndarray of float64, shape (levels, levels)
+        The matrix of the normal equations.
+    levels : ndarray of float64, shape (levels,)
+        Their solution: the levels as if light were blurred.
+    dark : ndarray of bool, shape (clipped,)
+        The clipped columns that count in them, as if they were seen at white.
+    shown : ndarray of float64, shape (levels,)
+        The levels of the model: corrected where pixel values are blurred.
+    """
+
+    light: FloatArray
+    weight: FloatArray
+    products: FloatArray
+    levels: FloatArray
+    dark: NDArray[np.bool_]
+    shown: FloatArray
 
 
 class LitProfile:
@@ -56,29 +112,51 @@ class LitProfile:
         self._slow = self._slow_shapes(len(profile.values), slow)
         shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
-        self._kept_shapes = np.ascontiguousarray(shapes[self.kept].T)
-        self._clipped_shapes = shapes[self.clipped, :freedom]
-        place = np.arange(freedom)
-        self._up, self._down = place[:, None] + place, np.abs(place[:, None] - place)
-        # A fit's slopes need the same tone curve again and again.
-        self._weighted = lru_cache(maxsize=4)(self._weighted_by)
+        self._equations = NormalEquations(shapes[self.kept], freedom)
+        self._kept_shapes = np.ascontiguousarray(self._shapes[:, self.kept])
+        self._clipped_shapes = np.ascontiguousarray(self._shapes[:, self.clipped])
+        # Slopes are asked for where the residual has just been.
+        self._fitted = lru_cache(maxsize=1)(self._fitted_to)
 
     def residual(self, seen: Seen) -> FloatArray:
         """Give data less model in grey levels: of the kept columns, then of the clipped ones."""
-        light, weight, once, of_light = self._weighted(seen.table)
-        lit = seen.lit[self.kept]
-        products = self._block(once, weight * lit, lit)
-        own = self._kept_shapes[: self.freedom]
-        sums = np.concatenate([of_light, own @ (weight * lit * light)])
-        if self.clipped.size:
-            levels, short = self._with_clipped(seen, products, sums)
-        else:
-            levels, short = _solved(products, sums), np.zeros(0)
+        fitted = self._fitted(seen)
         if seen.sharp is None:
-            residual = self.data - seen.table.value_of(self._light(own, lit, levels))
+            kept = self.data - seen.table.value_of(self._kept(seen).light(fitted.levels))
         else:
-            residual = self._blurred(seen, seen.sharp, levels)
-        return np.concatenate([residual, short])
+            picture = LitColumns(self._shapes, seen.sharp)
+            kept = self._less_blurred(seen, picture.light(fitted.shown))
+        if not self.clipped.size:
+            return kept
+        short = 1.0 - self._beyond(seen).light(fitted.levels)
+        return np.concatenate([kept, seen.table.steepness * np.maximum(short, 0.0)])
+
+    def slopes(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
+        """Give the residual's slopes over the parameters of the light, then over the tone's.
+
+        Where pixel values are blurred, what has the residual as a factor is left out (Kaufman, BIT
+        15:49, 1975).
+
+        Returns
+        -------
+        ndarray of float64, shape (parameters, residuals)
+        """
+        fitted = self._fitted(seen)
+        of_levels = self._slopes_of_levels(seen, rates)
+        if seen.sharp is None or rates.sharp is None:
+            kept = self._kept(seen)
+            values = seen.table.value_of(kept.light(fitted.levels))
+            light = kept.slopes(fitted.levels, of_levels, rates.lit[:, self.kept])
+            slopes = -rates.tone.of_values(values, light)
+        else:
+            slopes = self._slopes_of_blurred(seen, rates, seen.sharp, rates.sharp)
+        if not self.clipped.size:
+            return slopes
+        beyond, by_lit = self._beyond(seen), rates.lit[:, self.clipped]
+        short = 1.0 - beyond.light(fitted.levels)
+        of_short = -seen.table.steepness * beyond.slopes(fitted.levels, of_levels, by_lit)
+        of_short[len(by_lit) :] += short * rates.tone.of_steepness[:, None]
+        return np.hstack([slopes, np.where(short > 0.0, of_short, 0.0)])
 
     def _slow_shapes(self, columns: int, count: int) -> FloatArray:
         """Give the slow shapes at the kept columns, shape (kept, count)."""
@@ -89,68 +167,90 @@ class LitProfile:
         """Give an orthonormal basis of what is slow in a residual that is divided by its noise."""
         return np.asarray(np.linalg.qr(self._slow / noise[:, None])[0])
 
-    def _weighted_by(
-        self, table: ToneTable
-    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-        """Give the data's light, its weight, and the sums with it that need no lit fractions."""
-        light, weight = table.light_of(self.data), table.slope_at(self.data) ** 2
-        of_light = self._kept_shapes[: self.freedom] @ (weight * light)
-        return light, weight, self._products(weight), of_light
+    def _kept(self, seen: Seen) -> LitColumns:
+        return LitColumns(self._kept_shapes, seen.lit[self.kept])
 
-    def _light(self, shapes: FloatArray, lit: FloatArray, levels: FloatArray) -> FloatArray:
-        return np.asarray(levels[: self.freedom] @ shapes + lit * (levels[self.freedom :] @ shapes))
+    def _beyond(self, seen: Seen) -> LitColumns:
+        return LitColumns(self._clipped_shapes, seen.lit[self.clipped])
 
-    def _products(self, weight: FloatArray) -> FloatArray:
-        """Give the weighted sums over the kept columns of the products of any two shapes.
+    def _fitted_to(self, seen: Seen) -> _Fitted:
+        """Find the levels.
 
-        Of Chebyshev polynomials the product is half the sum of two others,
-        T_i T_j = (T_(i+j) + T_|i-j|) / 2: all products follow from one sum for each polynomial.
+        Clipped columns that they leave below white count as seen at white, for which they are found
+        anew, twice.
         """
-        sums = self._kept_shapes @ weight
-        return np.asarray(0.5 * (sums[self._up] + sums[self._down]))
-
-    def _block(self, dark: FloatArray, weight: FloatArray, lit: FloatArray) -> FloatArray:
-        """Give the matrix of the normal equations of both levels."""
-        count = self.freedom
-        products = np.empty((2 * count, 2 * count))
-        products[:count, :count] = dark
-        products[:count, count:] = products[count:, :count] = self._products(weight)
-        products[count:, count:] = self._products(weight * lit)
-        return products
-
-    def _with_clipped(
-        self, seen: Seen, products: FloatArray, sums: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Give the levels, and by how many grey levels they leave clipped columns below white."""
-        table, lit = seen.table, seen.lit[self.clipped]
-        beyond = np.hstack([self._clipped_shapes, self._clipped_shapes * lit[:, None]])
-        levels = _solved(products, sums)
-        white, slope = float(table.light_of(np.array([WHITE]))[0]), WHITE * float(table.slope[-1])
+        light, weight = seen.table.light_of(self.data), seen.table.slope_at(self.data) ** 2
+        kept, beyond = self._kept(seen), self._beyond(seen)
+        own = self._equations.matrix(weight, kept.lit)
+        sums = kept.sums(weight * light)
+        products, levels = own, solved(own, sums)
+        counts = np.zeros(self.clipped.size, dtype=bool)
         for _ in range(2):
-            dark = beyond[beyond @ levels < white]
-            if not len(dark):
+            dark = beyond.light(levels) < 1.0
+            if not dark.any():
                 break
-            levels = _solved(
-                products + slope**2 * dark.T @ dark, sums + slope**2 * white * dark.sum(0)
-            )
-        return levels, np.maximum(white - beyond @ levels, 0.0) * slope
+            counted = np.vstack([beyond.shapes, beyond.shapes * beyond.lit])[:, dark]
+            square = seen.table.steepness**2
+            products = own + square * counted @ counted.T
+            levels = solved(products, sums + square * counted.sum(axis=1))
+            counts = dark
+        shown = levels if seen.sharp is None else self._corrected(seen, seen.sharp, levels)
+        return _Fitted(light, weight, products, levels, counts, shown)
 
-    def _blurred(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
-        """Give the residual of the kept columns where pixel values are blurred.
+    def _slopes_of_levels(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
+        """Give the levels' slopes, shape (parameters, levels)."""
+        fitted, kept = self._fitted(seen), self._kept(seen)
+        by_light, by_slope = rates.tone.at(self.data)
+        error = fitted.light - kept.light(fitted.levels)
+        of_weight = 2.0 * seen.table.slope_at(self.data) * by_slope
+        by_tone = fitted.weight * by_light + error * of_weight
+        by_lit = rates.lit[:, self.kept]
+        pulls = kept.pulls(fitted.levels, fitted.weight, error, by_lit, by_tone)
+        if fitted.dark.any():
+            dark = self.clipped[fitted.dark]
+            counted = LitColumns(self._shapes[:, dark], seen.lit[dark])
+            error = 1.0 - counted.light(fitted.levels)
+            weight = np.full(dark.size, seen.table.steepness**2)
+            by_tone = error * (2.0 * seen.table.steepness * rates.tone.of_steepness)[:, None]
+            pulls += counted.pulls(fitted.levels, weight, error, rates.lit[:, dark], by_tone)
+        return solved(fitted.products, pulls)
 
-        The levels, found as if light were blurred, are corrected by a Gauss-Newton step; their
-        shapes are so smooth that blur does not change them.
+    def _corrected(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
+        """Correct levels that were found as if light were blurred by a Gauss-Newton step.
+
+        Their shapes are so smooth that blur does not change them.
         """
-        light = self._light(self._shapes, sharp, levels)
+        light = LitColumns(self._shapes, sharp).light(levels)
+        steep, columns = self._steep(seen, sharp, light)
+        return levels + self._explained(steep, columns, self._less_blurred(seen, light))
+
+    def _slopes_of_blurred(
+        self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray
+    ) -> FloatArray:
+        """Give the slopes of the kept columns' residual where pixel values are blurred."""
+        levels, picture = self._fitted(seen).shown, LitColumns(self._shapes, sharp)
+        light, fixed = picture.light(levels), np.zeros((rates.parameters, len(levels)))
+        values = seen.table.value_of(light)
+        by_values = rates.tone.of_values(values, picture.slopes(levels, fixed, by_sharp))
+        slopes = -_convolved(by_values, seen.kernel)
+        slopes[BLUR] -= _convolved(values, rates.kernel)
+        slopes = slopes[:, self.kept]
+        steep, columns = self._steep(seen, sharp, light)
+        moved = self._explained(steep, columns, slopes)
+        return slopes - steep * columns.light(moved)
+
+    def _steep(
+        self, seen: Seen, sharp: FloatArray, light: FloatArray
+    ) -> tuple[FloatArray, LitColumns]:
+        """Give the kept columns' slopes over the levels: a factor of columns."""
         steep = seen.table.slope_of(light)
-        dark = _convolved(steep, seen.kernel)[self.kept]
-        lit = _convolved(steep * sharp, seen.kernel)[self.kept]
-        residual = self._less_blurred(seen, light)
-        products = self._block(self._products(dark**2), dark * lit, lit / dark)
-        own = self._kept_shapes[: self.freedom]
-        sums = np.concatenate([own @ (dark * residual), own @ (lit * residual)])
-        levels = levels + _solved(products, sums)
-        return self._less_blurred(seen, self._light(self._shapes, sharp, levels))
+        both = _convolved(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
+        return both[0], LitColumns(self._kept_shapes, both[1] / both[0])
+
+    def _explained(self, steep: FloatArray, columns: LitColumns, values: FloatArray) -> FloatArray:
+        """Give the changes of the levels that explain changes of the kept columns' values best."""
+        products = self._equations.matrix(steep**2, columns.lit)
+        return solved(products, columns.sums(steep * values))
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
         """Give the kept columns' data less the blurred values of light."""
@@ -160,14 +260,10 @@ class LitProfile:
 
 
 def _convolved(values: FloatArray, kernel: FloatArray) -> FloatArray:
-    blurred = cv2.filter2D(values[None], -1, kernel[None], borderType=cv2.BORDER_REPLICATE)
-    return np.asarray(blurred[0], dtype=np.float64)
-
-
-def _solved(products: FloatArray, sums: FloatArray) -> FloatArray:
-    regular = products.copy()
-    regular.flat[:: len(regular) + 1] += 1e-9 * float(np.trace(products))
-    return np.asarray(np.linalg.solve(regular, sums))
+    """Blur along the last axis."""
+    rows = np.atleast_2d(values)
+    blurred = cv2.filter2D(rows, -1, kernel[None], borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(blurred, dtype=np.float64).reshape(values.shape)
 
 
 def deviation_of(residual: FloatArray, slope: FloatArray, freedom: float) -> FloatArray:

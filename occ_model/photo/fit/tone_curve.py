@@ -11,6 +11,7 @@ _TOE = 0.03
 """Pixel value, as a share of white, below which the curve goes on straight: noise lifts blacks."""
 
 _GRID = np.linspace(-0.1, 1.0, 441)
+_STEP = float(_GRID[1] - _GRID[0])
 _LEAST_SLOPE = 0.05
 
 
@@ -37,21 +38,51 @@ class ToneCurve:
 
     def table(self) -> "ToneTable":
         """Tabulate the curve."""
-        u = _GRID
-        bent = u * (1.0 + (1.0 - u) * (self.shoulder + self.contrast * (1.0 - 2.0 * u)))
-        steps = np.maximum(np.diff(bent), _LEAST_SLOPE * (u[1] - u[0]))
-        bent = np.concatenate([[bent[0]], bent[0] + np.cumsum(steps)])
-        bent = (bent + 1.0 - bent[-1] + self.offset) / (1.0 + self.offset)
+        bent = self._bent()[0]
         toe = _TOE**self.gamma * (1.0 + self.gamma * (bent / _TOE - 1.0))
         light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
-        return ToneTable(light, (u[1] - u[0]) / _risen(light))
+        return ToneTable(light, _STEP / _risen(light))
+
+    def slopes(self) -> "ToneSlopes":
+        """Tabulate the slopes over gamma, offset, shoulder and contrast."""
+        bent, by_shoulder, by_contrast = self._bent()
+        # The toe is a tangent: by gamma it changes as the point and the slope that it touches.
+        steady, below = np.maximum(bent, _TOE), np.minimum(bent / _TOE - 1.0, 0.0)
+        steep = self.gamma * steady ** (self.gamma - 1.0)
+        logarithm = np.log(steady)
+        by_gamma = steady**self.gamma * (logarithm + below * (1.0 + self.gamma * logarithm))
+        by_offset = steep * (1.0 - bent) / (1.0 + self.offset)
+        light = [by_gamma, by_offset, steep * by_shoulder, steep * by_contrast]
+        return ToneSlopes(self.table(), np.stack(light))
+
+    def _bent(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Give what is raised to the power of gamma, and its slopes over shoulder and contrast."""
+        u = _GRID
+        by_shoulder = u * (1.0 - u)
+        by_contrast = by_shoulder * (1.0 - 2.0 * u)
+        steps = np.diff(u + self.shoulder * by_shoulder + self.contrast * by_contrast)
+        rises = steps > _LEAST_SLOPE * _STEP
+        bent = _summed(np.where(rises, steps, _LEAST_SLOPE * _STEP))
+        bent = (bent + 1.0 + self.offset) / (1.0 + self.offset)
+        by_shoulder, by_contrast = (
+            _summed(rises * np.diff(slope)) / (1.0 + self.offset)
+            for slope in (by_shoulder, by_contrast)
+        )
+        return bent, by_shoulder, by_contrast
+
+
+def _summed(steps: FloatArray) -> FloatArray:
+    """Sum steps up so that the last sum is 0: white stays white."""
+    sums = np.concatenate([[0.0], np.cumsum(steps)])
+    return np.asarray(sums - sums[-1])
 
 
 def _risen(values: FloatArray) -> FloatArray:
     """Give half of the rise from the value before to the value after; at the ends the whole one."""
     risen = np.empty_like(values)
-    risen[1:-1] = 0.5 * (values[2:] - values[:-2])
-    risen[0], risen[-1] = values[1] - values[0], values[-1] - values[-2]
+    risen[..., 1:-1] = 0.5 * (values[..., 2:] - values[..., :-2])
+    risen[..., 0] = values[..., 1] - values[..., 0]
+    risen[..., -1] = values[..., -1] - values[..., -2]
     return risen
 
 
@@ -63,19 +94,21 @@ class EvenTable:
     first, last
         The ends; beyond them the function is constant.
     values : ndarray of float64
-        From one end to the other.
+        From one end to the other along the last axis.
     """
 
     def __init__(self, first: float, last: float, values: FloatArray) -> None:
-        self._first, self._most = first, len(values) - 1
+        self._first, self._most = first, values.shape[-1] - 1
         self._rate = self._most / (last - first)
-        self._values, self._rise = values, np.append(np.diff(values), 0.0)
+        self._values = values
+        self._rise = np.diff(values, append=values[..., -1:])
 
     def at(self, places: FloatArray) -> FloatArray:
         """Give the function at some places, by linear interpolation."""
         place = np.clip((places - self._first) * self._rate, 0.0, self._most)
         below = place.astype(np.intp)
-        return np.asarray(self._values[below] + (place - below) * self._rise[below])
+        rise = (place - below) * self._rise.take(below, axis=-1)
+        return np.asarray(self._values.take(below, axis=-1) + rise)
 
 
 class ToneTable:
@@ -85,10 +118,16 @@ class ToneTable:
     ----------
     light, slope : ndarray of float64
         The light of each tabulated pixel value, and the pixel value's slope over light.
+
+    Attributes
+    ----------
+    steepness
+        The slope of grey levels over light at white.
     """
 
     def __init__(self, light: FloatArray, slope: FloatArray) -> None:
         self.light, self.slope = light, slope
+        self.steepness = WHITE * float(slope[-1])
         self._light = EvenTable(_GRID[0], _GRID[-1], light)
         self._slope = EvenTable(_GRID[0], _GRID[-1], slope)
 
@@ -109,3 +148,58 @@ class ToneTable:
         over = np.maximum(light - self.light[-1], 0.0) * self.slope[-1]
         under = np.minimum(light - self.light[0], 0.0) * self.slope[0]
         return np.asarray(WHITE * (np.interp(light, self.light, _GRID) + over + under))
+
+
+class ToneSlopes:
+    """The slopes of a tabulated tone curve over its parameters.
+
+    Parameters
+    ----------
+    table
+        The curve.
+    light : ndarray of float64, shape (parameters, grey levels)
+        The slopes of the light of each tabulated pixel value.
+
+    Attributes
+    ----------
+    parameters
+        The number of parameters.
+    of_steepness : ndarray of float64, shape (parameters,)
+        The slopes of the grey levels' slope at white.
+    """
+
+    def __init__(self, table: ToneTable, light: FloatArray) -> None:
+        self.parameters = len(light)
+        slope = -(table.slope**2) * _risen(light) / _STEP
+        self._both = EvenTable(_GRID[0], _GRID[-1], np.concatenate([light, WHITE * slope]))
+        self._steep = WHITE * _STEP / np.diff(table.light)
+        self.of_steepness = WHITE * slope[:, -1]
+
+    def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give the slopes of grey levels' light, and of their slope over light.
+
+        Returns
+        -------
+        light, slope : ndarray of float64, shape (parameters, values)
+        """
+        both = self._both.at(values / WHITE)
+        return both[: self.parameters], both[self.parameters :]
+
+    def of_values(self, values: FloatArray, light: FloatArray) -> FloatArray:
+        """Give the slopes of grey levels, shape (parameters, values).
+
+        Parameters
+        ----------
+        values : ndarray of float64, shape (values,)
+            The grey levels.
+        light : ndarray of float64, shape (parameters, values)
+            The slopes of their light over any parameters, at last those of the curve.
+        """
+        place = (values / WHITE - _GRID[0]) / _STEP
+        steep = self._steep[np.clip(place.astype(np.intp), 0, len(self._steep) - 1)]
+        by_light, by_slope = self.at(values)
+        # Beyond both ends the curve goes on straight, by its slope there.
+        beyond = values - WHITE * np.clip(values / WHITE, _GRID[0], _GRID[-1])
+        slopes = steep * light
+        slopes[-self.parameters :] += beyond / steep * by_slope - steep * by_light
+        return np.asarray(slopes)

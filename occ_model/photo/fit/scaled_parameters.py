@@ -1,0 +1,84 @@
+"""The parameters of a joint fit, scaled so that a step of any of them matters about as much."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray
+
+_SHORTEST = 1e-3
+_LOW = np.array([0.5, _SHORTEST, -np.inf, -np.inf, -0.1, -0.9, -0.9, 0.0, -0.3])
+_HIGH = np.array([2.0, np.inf, np.inf, np.inf, 0.3, 0.9, 1.5, 3.0, 0.3])
+"""Bounds of the parameters but gamma; those of the step are ratios."""
+
+_EXPOSURE = 0.05
+"""Scale of the exposure's logarithm: it is positive, and known by ratio."""
+
+_MOST = 5.0
+"""Largest change of that logarithm."""
+
+
+class ScaledParameters:
+    """Those parameters that are fitted, as scaled differences from a first guess.
+
+    Parameters
+    ----------
+    first : ndarray of float64, shape (9,)
+        The guess: step, exposure and middle as of a timing, the logarithm of gamma over a usual
+        one, offset, shoulder, contrast, blur, and the chips by which the LED is on longer.
+    index : ndarray of int64
+        Which of them are fitted.
+    scale : ndarray of float64, shape (9,)
+        A difference of each that matters about as much; the exposure has its own.
+    step
+        Chips per column, roughly.
+    gamma
+        Bounds of gamma's logarithm.
+    """
+
+    def __init__(
+        self,
+        first: FloatArray,
+        index: NDArray[np.int64],
+        scale: FloatArray,
+        step: float,
+        gamma: tuple[float, float],
+    ) -> None:
+        self._low, self._high = _LOW.copy(), _HIGH.copy()
+        self._low[0] *= step
+        self._high[0] *= step
+        self._low[3], self._high[3] = gamma
+        self._first, self._index = np.clip(first, self._low, self._high), index
+        self._scale = np.where(index == 1, _EXPOSURE, scale[index])
+
+    def values(self, scaled: FloatArray) -> FloatArray:
+        """Give all nine parameters, within their bounds."""
+        return np.clip(self._unbounded(scaled), self._low, self._high)
+
+    def rates(self, values: FloatArray) -> FloatArray:
+        """Give the rate at which each parameter that is fitted changes, bounds left aside."""
+        return np.where(self._index == 1, self._scale * values[1], self._scale)
+
+    def slopes(self, scaled: FloatArray) -> FloatArray:
+        """Give the slope of each parameter that is fitted; 0 beyond its bounds.
+
+        At a bound it is the slope upwards: from the upper one nothing can change that way.
+        """
+        unbounded = self._unbounded(scaled)
+        inside = (unbounded >= self._low) & (unbounded < self._high)
+        inside[1] &= unbounded[1] < self._first[1] * math.exp(_MOST)
+        signs = np.ones(9)
+        signs[7] = -1.0 if self._changed(scaled)[7] < 0.0 else 1.0
+        return np.asarray((inside * signs)[self._index] * self.rates(unbounded))
+
+    def _changed(self, scaled: FloatArray) -> FloatArray:
+        values = self._first.copy()
+        values[self._index] += scaled * self._scale
+        return values
+
+    def _unbounded(self, scaled: FloatArray) -> FloatArray:
+        values = self._changed(scaled)
+        values[1] = self._first[1] * math.exp(min(values[1] - self._first[1], _MOST))
+        values[7] = abs(values[7])
+        return values

@@ -1,0 +1,79 @@
+"""What the columns see of one lamp's chips, by the parameters of a joint fit."""
+
+import math
+from collections.abc import Sequence
+from functools import lru_cache
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.fit.blurred_light import (
+    BlurredLight,
+    BlurShape,
+    blur_kernel,
+    kernel_slope,
+)
+from occ_model.photo.fit.lit_profile import Seen, SeenSlopes
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.tone_curve import ToneCurve
+
+GAMMA = 3
+IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
+"""Gamma's place among the parameters, and those of what slopes are over, in their order."""
+
+
+class SeenStripes:
+    """Lit fractions and a tone curve.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        One period.
+    columns
+        Number of columns.
+    gamma
+        The usual gamma.
+    values_blurred
+        Whether pixel values are blurred, or light.
+    """
+
+    def __init__(
+        self, chips: ByteArray, columns: int, gamma: float, *, values_blurred: bool
+    ) -> None:
+        self._light = BlurredLight(chips, columns)
+        self._gamma, self._values_blurred = gamma, values_blurred
+        # Slopes are asked for where the residual has just been.
+        self._last = lru_cache(maxsize=1)(self._by)
+
+    def by(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:
+        """Give what is seen by parameters, shape (9,), and the blur's excess kurtosis and shape."""
+        return self._last(tuple(values.tolist()), tails, shape)
+
+    def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
+        """Give its slopes, those of the tone over gamma itself."""
+        timing, curve, blur, longer = self._parts(values.tolist())
+        sharp = self._light.slopes(timing, 0.0, longer) if self._values_blurred else None
+        return SeenSlopes(
+            self._light.slopes(timing, blur, longer, shape),
+            curve.slopes(),
+            sharp,
+            kernel_slope(blur, shape),
+        )
+
+    def gamma(self, values: FloatArray) -> float:
+        """Give the gamma, of which the parameters hold the logarithm over the usual one."""
+        return self._gamma * math.exp(values[GAMMA])
+
+    def _by(self, values: Sequence[float], tails: float, shape: BlurShape) -> Seen:
+        timing, curve, blur, longer = self._parts(values)
+        sharp = self._light.lit_fraction(timing, 0.0, longer) if self._values_blurred else None
+        return Seen(
+            self._light.lit_fraction(timing, blur, longer, tails, shape),
+            curve.table(),
+            sharp,
+            blur_kernel(blur, tails, shape),
+        )
+
+    def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:
+        """Give the timing, the tone curve, the blur, and how much longer the LED is on."""
+        step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = values
+        curve = ToneCurve(self._gamma * math.exp(gamma), offset, shoulder, contrast)
+        return Timing(step, exposure, middle, self._gamma), curve, blur, longer

@@ -1,0 +1,203 @@
+"""Slopes are the limits of differences: of the light, the tone curve, a profile, and all together.
+
+A difference over a small change has an error that shrinks with the change, but for corners that it
+crosses, and for what the arithmetic's rounding leaves.
+"""
+
+from collections.abc import Callable
+
+import cv2
+import numpy as np
+import pytest
+
+from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel, kernel_slope
+from occ_model.photo.fit.joint_fit import JointModel
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.stripes.evenly_lit import EvenProfile
+
+COLUMNS = 240
+CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0, 1, 1], dtype=np.uint8)
+SHAPES: tuple[BlurShape, ...] = ("normal", "box", "exponential")
+
+Vector = Callable[[np.ndarray], np.ndarray]
+
+
+def central(function: Vector, here: np.ndarray, change: float) -> np.ndarray:
+    """Give central differences of a function, shape (parameters, values)."""
+    steps = change * np.eye(len(here))
+    sides = [(function(here + step) - function(here - step)) / (2.0 * change) for step in steps]
+    return np.stack(sides)
+
+
+def off(slopes: np.ndarray, differences: np.ndarray) -> np.ndarray:
+    """Give each parameter's error: the median over the values, as a share of the largest slope.
+
+    A difference whose change crosses a corner is no limit there: few of them are.
+    """
+    largest = np.maximum(np.abs(differences).max(axis=1), 1e-12)
+    return np.asarray(np.median(np.abs(slopes - differences), axis=1) / largest)
+
+
+def drawn(seed: int) -> np.ndarray:
+    """Draw parameters: step, exposure and middle, four of the tone, blur and longer."""
+    random = np.random.default_rng(seed)
+    low = [0.05, 0.2, 0.0, -0.15, 0.0, -0.3, -0.4, 0.3, -0.1]
+    high = [0.2, 2.5, 10.0, 0.15, 0.08, 0.3, 0.4, 1.6, 0.1]
+    return np.asarray(random.uniform(low, high))
+
+
+def light_of(parameters: np.ndarray, shape: BlurShape = "normal") -> np.ndarray:
+    """Give the lit fractions of step, exposure, middle, blur and longer."""
+    step, exposure, middle, blur, longer = parameters.tolist()
+    timing = Timing(step, exposure, middle, 2.2)
+    return BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, blur, longer, 0.0, shape)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("seed", range(4))
+def test_the_lights_slopes_are_limits_of_differences(shape: BlurShape, seed: int) -> None:
+    values = drawn(seed)[[0, 1, 2, 7, 8]]
+    step, exposure, middle, blur, longer = values.tolist()
+    timing = Timing(step, exposure, middle, 2.2)
+    slopes = BlurredLight(CHIPS, COLUMNS).slopes(timing, blur, longer, shape)
+    differences = central(lambda at: light_of(at, shape), values, 1e-7)
+    assert slopes.shape == (5, COLUMNS)
+    assert slopes == pytest.approx(differences, abs=1e-6 * np.abs(differences).max())
+
+
+def test_where_a_whole_period_is_seen_only_its_length_and_the_time_on_matter() -> None:
+    """All columns see as many ends of pulses; a longer exposure sees what comes next, half each."""
+    period = float(len(CHIPS))
+    timing = Timing(0.11, period, 3.3, 2.2)
+    slopes = BlurredLight(CHIPS, COLUMNS).slopes(timing, 0.8, 0.0)
+    pulses = np.count_nonzero(np.roll(CHIPS, 1) < CHIPS)
+    assert slopes[[0, 2, 3]] == pytest.approx(0.0, abs=1e-9)
+    assert slopes[4] == pytest.approx(pulses / period, abs=1e-9)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("blur", [0.7, 1.1, 1.7])
+def test_more_blur_takes_from_the_middle_what_it_adds_around(blur: float, shape: BlurShape) -> None:
+    slope, place = kernel_slope(blur, shape), np.arange(-8, 9)
+    assert slope.sum() == pytest.approx(0.0, abs=1e-9)
+    assert slope == pytest.approx(slope[::-1], abs=1e-9)
+    assert slope[8] < 0.0
+    if shape == "normal":
+        # The variance is the square of the blur.
+        assert slope @ place**2 == pytest.approx(2.0 * blur, rel=0.02)
+
+
+def test_a_picture_that_is_sharp_stays_so_with_hardly_more_blur() -> None:
+    assert not kernel_slope(0.0, "normal").any()
+    assert blur_kernel(0.0) == pytest.approx(blur_kernel(0.04))
+
+
+CURVES = (
+    ToneCurve(2.2, 0.03),
+    ToneCurve(2.4, 0.055, -0.3, 0.2),
+    ToneCurve(1.0, 0.0, 0.3, 0.1),
+    # Its least slope straightens a part of it.
+    ToneCurve(1.8, 0.01, 0.9, 1.4),
+    ToneCurve(2.2, -0.05, -0.7, -0.8),
+)
+
+
+@pytest.mark.parametrize("curve", CURVES)
+def test_the_tone_curves_slopes_are_limits_of_differences(curve: ToneCurve) -> None:
+    grey = np.concatenate([np.linspace(-20.0, 255.0, 321), [260.0]])
+    here = np.array([curve.gamma, curve.offset, curve.shoulder, curve.contrast])
+
+    def light(at: np.ndarray) -> np.ndarray:
+        return ToneCurve(*at.tolist()).table().light_of(grey)
+
+    def slope(at: np.ndarray) -> np.ndarray:
+        return ToneCurve(*at.tolist()).table().slope_at(grey)
+
+    of_light, of_slope = curve.slopes().at(grey)
+    for found, function in ((of_light, light), (of_slope, slope)):
+        differences = central(function, here, 1e-6)
+        assert found == pytest.approx(differences, abs=1e-4 * np.abs(differences).max())
+
+
+@pytest.mark.parametrize("curve", CURVES)
+def test_the_grey_levels_of_light_change_by_their_slopes(curve: ToneCurve) -> None:
+    """Beyond both ends too, where the curve goes on straight."""
+    table = curve.table()
+    light = np.linspace(table.light[0] - 0.01, 1.3, 200)
+    here = np.array([curve.gamma, curve.offset, curve.shoulder, curve.contrast])
+    by_tone = central(lambda at: ToneCurve(*at.tolist()).table().value_of(light), here, 1e-7)
+    by_light = (table.value_of(light + 1e-8) - table.value_of(light - 1e-8)) / 2e-8
+    # Over the light itself, and over the four parameters.
+    itself = np.eye(5)[:, :1].repeat(len(light), axis=1)
+    found = curve.slopes().of_values(table.value_of(light), itself)
+    assert off(found, np.vstack([by_light, by_tone])).max() < 1e-6
+
+
+def model_of(
+    values: np.ndarray,
+    noise: float,
+    brightest: float,
+    *,
+    gamma: float = 2.2,
+    values_blurred: bool = False,
+    wide: bool = False,
+) -> JointModel:
+    """Give the model of two profiles under uneven light, one of them half as bright."""
+    step, exposure, middle, *bends, blur, longer = values.tolist()
+    table = ToneCurve(2.2 * np.exp(bends[0]), *bends[1:]).table()
+    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(
+        Timing(step, exposure, middle, 2.2), 0.0 if values_blurred else blur, longer
+    )
+    random, profiles = np.random.default_rng(5), []
+    for bright in (brightest, 0.5 * brightest):
+        grey = table.value_of(0.05 + bright * np.linspace(1.0, 0.7, COLUMNS) * lit)
+        if values_blurred:
+            kernel = blur_kernel(blur)[None]
+            grey = cv2.filter2D(grey[None], -1, kernel, borderType=cv2.BORDER_REPLICATE)[0]
+        grey = grey + noise * random.normal(size=COLUMNS)
+        clipped = grey >= 255.0
+        profiles.append(EvenProfile(np.minimum(grey, 255.0), ~clipped, clipped, 20.0))
+    return JointModel(profiles, CHIPS, step, gamma, values_blurred=values_blurred, wide=wide)
+
+
+@pytest.mark.parametrize("brightest", [0.5, 1.5])
+@pytest.mark.parametrize(("gamma", "wide"), [(2.2, False), (2.2, True), (1.0, False)])
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_residuals_slopes_are_limits_of_differences(
+    brightest: float, gamma: float, wide: bool, shape: BlurShape, seed: int
+) -> None:
+    """Also far from the best fit, with all that is not clipped, or a part of it."""
+    true = drawn(seed)
+    model = model_of(true, 2.0, brightest, gamma=gamma, wide=wide)
+    model.estimate_noise(true)
+    here = true + 0.02 * (drawn(seed + 10) - drawn(seed + 20))
+    slopes = (model._slopes(here, shape) * model._scale).T
+
+    def residual(scaled: np.ndarray) -> np.ndarray:
+        return model._residual(here + scaled * model._scale, 0.0, shape)
+
+    coarse, fine = (
+        off(slopes, central(residual, np.zeros(9), change)).max() for change in (0.1, 1e-3)
+    )
+    assert fine < 0.1 * coarse
+    assert fine < 1e-4
+
+
+@pytest.mark.parametrize("brightest", [0.5, 1.5])
+@pytest.mark.parametrize("noise", [3.0, 10.0])
+@pytest.mark.parametrize("seed", [1, 2])
+def test_blurred_values_slopes_are_off_by_less_than_the_residuals_share(
+    brightest: float, noise: float, seed: int
+) -> None:
+    """What is left out of them has the residual as a factor: it is small beside the stripes."""
+    true = drawn(seed)
+    model = model_of(true, noise, brightest, values_blurred=True)
+
+    def residual(scaled: np.ndarray) -> np.ndarray:
+        return model._residual(true + scaled * model._scale)
+
+    slopes = (model._slopes(true, "normal") * model._scale).T
+    wrong = off(slopes, central(residual, np.zeros(9), 1e-3))
+    assert wrong.max() < noise / 255.0

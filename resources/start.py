@@ -17,7 +17,7 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -271,6 +271,15 @@ def make_venv() -> None:
     UNFINISHED.unlink()
 
 
+def uncompiled(extras: Collection[str]) -> list[str]:
+    """Return the option with which pip compiles no modules, where whoever imports them does.
+
+    That is a small part of what is installed: for pip, it would be most of the installation's time.
+    The checks keep what they have compiled in any case.
+    """
+    return ["--no-compile"] if "test" in extras or UNCOMPILED not in os.environ else []
+
+
 def install_project(python: str, extras: Iterable[str]) -> None:
     """Have pip install the project, editable, and note it down once that is done."""
     stamp = read_stamp()
@@ -279,7 +288,7 @@ def install_project(python: str, extras: Iterable[str]) -> None:
     say(f"Installing the project into .venv ({occasion}, a minute or two) ...")
     STAMP.unlink(missing_ok=True)  # a pip that is stopped half-way must run again
     target = f".[{','.join(sorted(extras))}]" if extras else "."
-    pip = [str(PYTHON), "-m", "pip", "install", "-e", target]
+    pip = [str(PYTHON), "-m", "pip", "install", *uncompiled(extras), "-e", target]
     if not run_visibly(pip, PIP_DISABLE_PIP_VERSION_CHECK="1"):
         raise SetUpError(
             "pip could not install the project; its own words are above. "

@@ -22,8 +22,35 @@ def ready_venv(start: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
 def test_pip_runs_only_for_extras_not_yet_there(start: ModuleType, visible: list[str]) -> None:
     for extras in ([], [], ["test"], ["test"], []):
         start.set_up("offscreen", extras)
-    pip = f"PIP_DISABLE_PIP_VERSION_CHECK=1 {start.PYTHON} -m pip install -e"
-    assert visible == [f"{pip} .", f"{pip} .[test]"]
+    assert [line.split()[-1] for line in visible] == [".", ".[test]"]
+
+
+@pytest.mark.usefixtures("ready_venv")
+@pytest.mark.parametrize(
+    ("extras", "kept", "option"),
+    [
+        ([], True, "--no-compile "),
+        (["test"], True, "--no-compile "),
+        # An application that keeps none would compile the same modules at each of its starts.
+        ([], False, ""),
+        (["test"], False, "--no-compile "),
+    ],
+)
+def test_pip_compiles_only_what_nobody_else_would_keep(
+    start: ModuleType,
+    visible: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    extras: list[str],
+    kept: bool,
+    option: str,
+) -> None:
+    monkeypatch.delenv(start.UNCOMPILED, raising=False)
+    if not kept:
+        monkeypatch.setenv(start.UNCOMPILED, "1")
+    start.set_up("offscreen", extras)
+    (line,) = visible
+    pip = f"PIP_DISABLE_PIP_VERSION_CHECK=1 {start.PYTHON} -m pip install"
+    assert line == f"{pip} {option}-e .{'[test]' if extras else ''}"
 
 
 @pytest.mark.usefixtures("ready_venv")

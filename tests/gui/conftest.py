@@ -133,9 +133,9 @@ def starts() -> Iterator[Starts]:
     starts.close()
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def kept_window() -> Iterator[SharedWindow]:
-    """Keep a window for the tests of a file."""
+    """Keep a window for the tests of this process."""
     shared = SharedWindow()
     yield shared
     shared.close()

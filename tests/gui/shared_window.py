@@ -1,4 +1,4 @@
-"""A window that tests of a file use one after another, each of which finds it as the first did."""
+"""A window that tests use one after another, each of which finds it as the first did."""
 
 import gc
 from collections.abc import Callable, Iterator, Sequence
@@ -181,6 +181,10 @@ class SharedWindow:
         if self._kept is None:
             self._open(qtbot, scene)
         assert self._kept is not None
+        # The keys, which a widget has had that another test has shown.
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        self._kept.window.activateWindow()
+        qtbot.waitUntil(self._kept.window.isActiveWindow)
         yield self._kept
         if not self._is_as_at_first(qtbot, scene, self._kept):
             self.close()
@@ -213,7 +217,7 @@ class SharedWindow:
         gc.disable()  # let no worker destroy what is left of the widgets
         end(kept, self._before)
         self._before, kept = [], None
-        gc.collect(1)
+        gc.collect()  # it has outlived collections, so that a smaller one would leave it
         if was_on:
             gc.enable()
 
@@ -236,6 +240,10 @@ class SharedWindow:
         kept.store.put(scene, "first scene", force={})
         kept.settings.restore(FIRST_SETTINGS)
         kept.store.undo_stack.clear()
+        kept.desktop.document.path = None
+        kept.desktop.document.show_photo(None)  # writes the title
+        kept.photo_wiring.many.show_files(())
+        kept._show_listed()
         if kept.desktop.theme.theme != THEMES[0]:
             kept.desktop.theme.choose(THEMES[0])
         is_moved = window.size() != home.size or bool(window.modes.layouts)
@@ -256,6 +264,7 @@ class SharedWindow:
         kept.image.choose_picture("camera")
         kept.decode.choose_decoder(next(iter(DECODERS)))
         kept.desktop.brightness.switch(False)
+        window.actions_by_name["measure"].setChecked(False)
         qtbot.waitUntil(lambda: kept.is_idle)
         kept.story.rows.crosshair.choose(home.column)
         kept.image.fit()
@@ -263,5 +272,6 @@ class SharedWindow:
         QApplication.processEvents()
         # What the status line says of the last change, and of the time that it took.
         window.statusBar().clearMessage()
+        window.pointed.set_full_text("")
         window.show_plan_change("")
         window.show_timing(0.0, 0.0)

@@ -1,6 +1,7 @@
 """A window is lent to another test only where that finds it as the first did."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from gui.shared_window import SharedWindow
@@ -32,6 +33,10 @@ UNDONE: dict[str, Change] = {
     "column": lambda at: at.story.rows.crosshair.choose(7),
     "page of the controls": lambda at: at.controls.findChildren(QTabWidget)[0].setCurrentIndex(1),
     "sentence": lambda at: at.window.say("something"),
+    "readout": lambda at: at.window.pointed.set_full_text("something"),
+    "measuring": lambda at: at.window.actions_by_name["measure"].trigger(),
+    "scene file": lambda at: at.desktop.document.resume(Path("some.toml"), None),
+    "several photos": lambda at: at._show_several([Path("a.png"), Path("b.png")]),
 }
 
 LASTING: dict[str, Change] = {

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from gui.shared_window import SharedWindow
 from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QInputDialog, QMessageBox
@@ -23,12 +24,14 @@ Answer = Callable[[str, bool], None]
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Let the window read the user's own presets from a folder of the tests."""
+def folder(tmp_path_factory: pytest.TempPathFactory, kept_window: SharedWindow) -> Iterator[Path]:
+    """Let windows read the user's own presets from a folder of the tests, none but these."""
     folder = tmp_path_factory.mktemp("own")
+    kept_window.close()
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv(USER_FOLDER, str(folder))
         yield folder
+    kept_window.close()
 
 
 @pytest.fixture

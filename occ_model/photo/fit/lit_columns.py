@@ -83,7 +83,7 @@ class LitColumns:
         -------
         ndarray of float64, shape (parameters, 2 shapes)
         """
-        of_error = -weight * self.swing(levels) * by_lit
-        sums = self.sums(np.concatenate([of_error, by_tone]))
-        sums[: len(by_lit), len(self.shapes) :] += (weight * error * by_lit) @ self.shapes.T
-        return sums
+        pull = -weight * self.swing(levels)
+        of_dark = (pull * by_lit) @ self.shapes.T
+        of_lit = ((self.lit * pull + weight * error) * by_lit) @ self.shapes.T
+        return np.vstack([np.hstack([of_dark, of_lit]), self.sums(by_tone)])

@@ -70,8 +70,11 @@ class _Fitted:
 
     Parameters
     ----------
-    light, weight : ndarray of float64, shape (kept,)
-        The light of the kept columns' data, and its weight.
+    kept
+        The kept columns.
+    error, slope : ndarray of float64, shape (kept,)
+        The light of their data less that of the levels, and the data's slope over light, whose
+        square is its weight.
     products : ndarray of float64, shape (levels, levels)
         The matrix of the normal equations.
     levels : ndarray of float64, shape (levels,)
@@ -82,8 +85,9 @@ class _Fitted:
         The levels of the model: corrected where pixel values are blurred.
     """
 
-    light: FloatArray
-    weight: FloatArray
+    kept: LitColumns
+    error: FloatArray
+    slope: FloatArray
     products: FloatArray
     levels: FloatArray
     dark: NDArray[np.bool_]
@@ -117,12 +121,13 @@ class LitProfile:
         self._clipped_shapes = np.ascontiguousarray(self._shapes[:, self.clipped])
         # Slopes are asked for where the residual has just been.
         self._fitted = lru_cache(maxsize=1)(self._fitted_to)
+        self._of_levels = lru_cache(maxsize=1)(self._slopes_of_levels)
 
     def residual(self, seen: Seen) -> FloatArray:
         """Give data less model in grey levels: of the kept columns, then of the clipped ones."""
         fitted = self._fitted(seen)
         if seen.sharp is None:
-            kept = self.data - seen.table.value_of(self._kept(seen).light(fitted.levels))
+            kept = self.data - seen.table.value_of(fitted.kept.light(fitted.levels))
         else:
             picture = LitColumns(self._shapes, seen.sharp)
             kept = self._less_blurred(seen, picture.light(fitted.shown))
@@ -141,22 +146,10 @@ class LitProfile:
         -------
         ndarray of float64, shape (parameters, residuals)
         """
-        fitted = self._fitted(seen)
-        of_levels = self._slopes_of_levels(seen, rates)
-        if seen.sharp is None or rates.sharp is None:
-            kept = self._kept(seen)
-            values = seen.table.value_of(kept.light(fitted.levels))
-            light = kept.slopes(fitted.levels, of_levels, rates.lit[:, self.kept])
-            slopes = -rates.tone.of_values(values, light)
-        else:
-            slopes = self._slopes_of_blurred(seen, rates, seen.sharp, rates.sharp)
+        kept = self._slopes_of_kept(seen, rates)
         if not self.clipped.size:
-            return slopes
-        beyond, by_lit = self._beyond(seen), rates.lit[:, self.clipped]
-        short = 1.0 - beyond.light(fitted.levels)
-        of_short = -seen.table.steepness * beyond.slopes(fitted.levels, of_levels, by_lit)
-        of_short[len(by_lit) :] += short * rates.tone.of_steepness[:, None]
-        return np.hstack([slopes, np.where(short > 0.0, of_short, 0.0)])
+            return kept
+        return np.hstack([kept, self._slopes_of_clipped(seen, rates)])
 
     def _slow_shapes(self, columns: int, count: int) -> FloatArray:
         """Give the slow shapes at the kept columns, shape (kept, count)."""
@@ -167,9 +160,6 @@ class LitProfile:
         """Give an orthonormal basis of what is slow in a residual that is divided by its noise."""
         return np.asarray(np.linalg.qr(self._slow / noise[:, None])[0])
 
-    def _kept(self, seen: Seen) -> LitColumns:
-        return LitColumns(self._kept_shapes, seen.lit[self.kept])
-
     def _beyond(self, seen: Seen) -> LitColumns:
         return LitColumns(self._clipped_shapes, seen.lit[self.clipped])
 
@@ -179,12 +169,12 @@ class LitProfile:
         Clipped columns that they leave below white count as seen at white, for which they are found
         anew, twice.
         """
-        light, weight = seen.table.light_of(self.data), seen.table.slope_at(self.data) ** 2
-        kept, beyond = self._kept(seen), self._beyond(seen)
-        own = self._equations.matrix(weight, kept.lit)
-        sums = kept.sums(weight * light)
+        kept = LitColumns(self._kept_shapes, seen.lit[self.kept])
+        light, slope = seen.table.light_of(self.data), seen.table.slope_at(self.data)
+        own = self._equations.matrix(slope**2, kept.lit)
+        sums = kept.sums(slope**2 * light)
         products, levels = own, solved(own, sums)
-        counts = np.zeros(self.clipped.size, dtype=bool)
+        beyond, counts = self._beyond(seen), np.zeros(self.clipped.size, dtype=bool)
         for _ in range(2):
             dark = beyond.light(levels) < 1.0
             if not dark.any():
@@ -195,17 +185,31 @@ class LitProfile:
             levels = solved(products, sums + square * counted.sum(axis=1))
             counts = dark
         shown = levels if seen.sharp is None else self._corrected(seen, seen.sharp, levels)
-        return _Fitted(light, weight, products, levels, counts, shown)
+        return _Fitted(kept, light - kept.light(levels), slope, products, levels, counts, shown)
+
+    def _slopes_of_kept(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
+        if seen.sharp is not None and rates.sharp is not None:
+            return self._slopes_of_blurred(seen, rates, seen.sharp, rates.sharp)
+        fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
+        light = fitted.kept.slopes(fitted.levels, self._of_levels(seen, rates), by_lit)
+        values = seen.table.value_of(fitted.kept.light(fitted.levels))
+        return -rates.tone.of_values(values, light)
+
+    def _slopes_of_clipped(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
+        levels, beyond = self._fitted(seen).levels, self._beyond(seen)
+        short, by_lit = 1.0 - beyond.light(levels), rates.lit[:, self.clipped]
+        light = beyond.slopes(levels, self._of_levels(seen, rates), by_lit)
+        slopes = -seen.table.steepness * light
+        slopes[len(by_lit) :] += short * rates.tone.of_steepness[:, None]
+        return np.where(short > 0.0, slopes, 0.0)
 
     def _slopes_of_levels(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
         """Give the levels' slopes, shape (parameters, levels)."""
-        fitted, kept = self._fitted(seen), self._kept(seen)
+        fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
+        error, weight = fitted.error, fitted.slope**2
         by_light, by_slope = rates.tone.at(self.data)
-        error = fitted.light - kept.light(fitted.levels)
-        of_weight = 2.0 * seen.table.slope_at(self.data) * by_slope
-        by_tone = fitted.weight * by_light + error * of_weight
-        by_lit = rates.lit[:, self.kept]
-        pulls = kept.pulls(fitted.levels, fitted.weight, error, by_lit, by_tone)
+        by_tone = weight * by_light + 2.0 * error * fitted.slope * by_slope
+        pulls = fitted.kept.pulls(fitted.levels, weight, error, by_lit, by_tone)
         if fitted.dark.any():
             dark = self.clipped[fitted.dark]
             counted = LitColumns(self._shapes[:, dark], seen.lit[dark])

@@ -50,10 +50,11 @@ class SeenStripes:
     def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
         """Give its slopes, those of the tone over gamma itself."""
         timing, curve, blur, longer = self._parts(values.tolist())
+        table = self.by(values, 0.0, shape).table
         sharp = self._light.slopes(timing, 0.0, longer) if self._values_blurred else None
         return SeenSlopes(
             self._light.slopes(timing, blur, longer, shape),
-            curve.slopes(),
+            curve.slopes(table),
             sharp,
             kernel_slope(blur, shape),
         )

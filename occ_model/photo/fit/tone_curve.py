@@ -43,8 +43,8 @@ class ToneCurve:
         light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
         return ToneTable(light, _STEP / _risen(light))
 
-    def slopes(self) -> "ToneSlopes":
-        """Tabulate the slopes over gamma, offset, shoulder and contrast."""
+    def slopes(self, table: "ToneTable") -> "ToneSlopes":
+        """Tabulate the slopes of its table over gamma, offset, shoulder and contrast."""
         bent, by_shoulder, by_contrast = self._bent()
         # The toe is a tangent: by gamma it changes as the point and the slope that it touches.
         steady, below = np.maximum(bent, _TOE), np.minimum(bent / _TOE - 1.0, 0.0)
@@ -53,7 +53,7 @@ class ToneCurve:
         by_gamma = steady**self.gamma * (logarithm + below * (1.0 + self.gamma * logarithm))
         by_offset = steep * (1.0 - bent) / (1.0 + self.offset)
         light = [by_gamma, by_offset, steep * by_shoulder, steep * by_contrast]
-        return ToneSlopes(self.table(), np.stack(light))
+        return ToneSlopes(table, np.stack(light))
 
     def _bent(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Give what is raised to the power of gamma, and its slopes over shoulder and contrast."""
@@ -107,8 +107,10 @@ class EvenTable:
         """Give the function at some places, by linear interpolation."""
         place = np.clip((places - self._first) * self._rate, 0.0, self._most)
         below = place.astype(np.intp)
-        rise = (place - below) * self._rise.take(below, axis=-1)
-        return np.asarray(self._values.take(below, axis=-1) + rise)
+        found = self._rise.take(below, axis=-1)
+        found *= place - below
+        found += self._values.take(below, axis=-1)
+        return np.asarray(found)
 
 
 class ToneTable:

@@ -49,6 +49,7 @@ def test_every_run_time_package_is_installed() -> None:
     assert [name for name in names if installed(name) is None] == []
 
 
+@pytest.mark.whole
 def test_no_installed_package_contradicts_another() -> None:
     done = subprocess.run(
         [sys.executable, "-m", "pip", "check", "--disable-pip-version-check"],

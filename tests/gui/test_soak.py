@@ -1,7 +1,7 @@
 """Whatever is done in whatever order, the window lives, and its memory stays what it was.
 
-``OCC_SOAK=20000`` does as many random actions; every day each is done about once. ``-rP`` prints by
-how much the memory grew; with ``-s`` nobody would look for Qt's warnings.
+It runs in CI, and with ``--whole``: each action about once, or ``OCC_SOAK=20000`` of them. ``-rP``
+prints by how much the memory grew; with ``-s`` nobody would look for Qt's warnings.
 """
 
 import ctypes
@@ -13,7 +13,6 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
-from amount import amount
 from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
 from gui.soak_errands import install_plugins
 from PySide6.QtGui import QGuiApplication
@@ -23,7 +22,7 @@ from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import GarbageCollector
 from occ_gui.lessons import lesson_controller as lessons_room
 
-ACTIONS = int(os.environ.get("OCC_SOAK", amount(80, 120)))
+ACTIONS = int(os.environ.get("OCC_SOAK", 120))
 _LONG = 5_000
 """Actions after whose first fifth all that is kept on purpose has been filled."""
 
@@ -83,6 +82,7 @@ def monkey(
     QGuiApplication.clipboard().clear()
 
 
+@pytest.mark.whole
 def test_random_actions_cause_no_exception_warning_or_leak(
     monkey: Monkey, application: Application, caplog: pytest.LogCaptureFixture
 ) -> None:

@@ -71,6 +71,7 @@ def test_a_fault_that_a_test_sees_is_killed_and_another_survives(copy: Copy) -> 
     assert (copy.root / "sizes.py").read_text() == SOURCE
 
 
+@pytest.mark.whole
 def test_a_loop_without_end_is_killed_unless_all_takes_as_long_without_it(
     copy: Copy, monkeypatch: pytest.MonkeyPatch
 ) -> None:

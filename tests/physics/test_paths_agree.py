@@ -32,7 +32,14 @@ def test_both_paths_give_the_same_rates() -> None:
             assert abs(pair.profile.mean() - pair.image.mean()) <= 0.1, pair
 
 
-@pytest.mark.parametrize("frequency", [14.2e3, 14.4e3, 14.6e3])
+@pytest.mark.parametrize(
+    "frequency",
+    [
+        pytest.param(14.2e3, marks=pytest.mark.whole),
+        14.4e3,
+        pytest.param(14.6e3, marks=pytest.mark.whole),
+    ],
+)
 def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
     # Every second column and a part of the rows, read in the same time.
     scene = occ.load_preset("phone-136us")
@@ -48,7 +55,14 @@ def test_what_a_study_says_is_what_pictures_show(frequency: float) -> None:
     assert abs(by_study - 100.0 * read / (20 * scene.transmitter.bits)) <= 10.0
 
 
-@pytest.mark.parametrize("frequency", [10e3, 13.4e3, 14e3])
+@pytest.mark.parametrize(
+    "frequency",
+    [
+        pytest.param(10e3, marks=pytest.mark.whole),
+        13.4e3,
+        pytest.param(14e3, marks=pytest.mark.whole),
+    ],
+)
 def test_a_sample_of_the_rows_reads_what_whole_pictures_do(frequency: float) -> None:
     scene = occ.load_preset("phone-136us-real").replace(switching_frequency=frequency)
     scene = scene.replace(

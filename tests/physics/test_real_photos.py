@@ -54,6 +54,7 @@ def test_the_square_wave_explains_the_photo(square_wave: occ.Match) -> None:
     assert not square_wave.pattern_was_read
 
 
+@pytest.mark.whole
 def test_light_is_averaged_in_a_real_camera_not_pixel_values(
     square_wave: occ.Match, stripes: occ.Match
 ) -> None:

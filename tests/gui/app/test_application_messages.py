@@ -104,6 +104,7 @@ def test_a_photo_that_cannot_be_read_is_answered_by_a_sentence(
     assert application.window.windowTitle() == title
 
 
+@pytest.mark.whole
 def test_a_preset_that_has_a_picture_says_nothing(application: Application, user: User) -> None:
     for _ in occ.presets():
         user.choose_next_preset()

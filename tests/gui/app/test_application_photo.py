@@ -192,6 +192,7 @@ def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
 
+@pytest.mark.whole
 @pytest.mark.photos
 def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
     application: Application, user: User, photos: Path

@@ -71,6 +71,7 @@ def test_the_study_says_what_the_pictures_show_at_many_scenes() -> None:
     agreement_holds(frontier_scenes(36))
 
 
+@pytest.mark.whole
 def test_the_decoding_pane_says_what_the_decoder_does(application: Application, user: User) -> None:
     verdicts = set()
     for scene in frontier_scenes(12):

@@ -124,6 +124,7 @@ def test_photos_dropped_together_become_a_table_and_the_first_opens(
     assert application.window.windowTitle().startswith("stripes.png")
 
 
+@pytest.mark.whole
 def test_a_table_whose_first_photo_is_damaged_is_shown(
     application: Application, user: User, photo_file: Path, tmp_path: Path
 ) -> None:

@@ -281,6 +281,7 @@ def test_choosing_one_parameter_twice_exchanges_both(bench_of: Callable[..., Ben
     assert bench.pane.axes == (FREQUENCY, DISTANCE)
 
 
+@pytest.mark.whole
 def test_the_map_of_other_parameters_is_theirs(bench_of: Callable[..., Bench]) -> None:
     bench = bench_of()
     bench.look()

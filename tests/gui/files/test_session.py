@@ -119,6 +119,7 @@ def test_a_layout_of_other_panes_is_left_alone(start: Start, kept: QSettings) ->
 RUBBISH = ("", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000)
 
 
+@pytest.mark.whole
 def test_rubbish_in_what_was_kept_is_left_out(
     start: Start, kept: QSettings, tmp_path: Path, small_scene: Scene
 ) -> None:

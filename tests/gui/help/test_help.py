@@ -85,6 +85,7 @@ def test_every_pane_has_a_page_and_its_heading(manual: HelpWindow) -> None:
         assert manual.browser.source().fileName() == name
 
 
+@pytest.mark.whole
 def test_every_page_is_listed_and_shown_under_its_title(manual: HelpWindow) -> None:
     for place, (title, name) in enumerate(pages(docs_folder())):
         manual.page_list.itemClicked.emit(manual.page_list.item(place))
@@ -94,6 +95,7 @@ def test_every_page_is_listed_and_shown_under_its_title(manual: HelpWindow) -> N
         assert len(manual.browser.toPlainText()) > 300
 
 
+@pytest.mark.whole
 def test_every_page_is_laid_out_to_its_end_and_no_wider_than_its_window(
     qtbot: QtBot, manual: HelpWindow
 ) -> None:

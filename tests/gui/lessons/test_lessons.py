@@ -176,6 +176,7 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
     assert in_front(application, "lessons")
 
 
+@pytest.mark.whole
 def test_the_photos_give_the_numbers_that_the_answers_state(
     application: Application, guide: LessonView, user: User
 ) -> None:
@@ -330,6 +331,7 @@ def test_the_users_photo_returns_after_a_lesson(
     assert application.desktop._photo == photo_file
 
 
+@pytest.mark.whole
 def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that_was_found(
     application: Application, user: User, qtbot: QtBot
 ) -> None:

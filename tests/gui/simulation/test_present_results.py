@@ -47,7 +47,9 @@ def test_a_saved_picture_is_of_the_scene_just_chosen(
     assert np.array_equal(written, expected)
 
 
-@pytest.mark.parametrize("where", ["file", "folder", "clipboard"])
+@pytest.mark.parametrize(
+    "where", ["file", pytest.param("folder", marks=pytest.mark.whole), "clipboard"]
+)
 def test_an_exported_figure_is_of_the_scene_just_chosen(
     application: Application, user: User, tmp_path: Path, where: str
 ) -> None:

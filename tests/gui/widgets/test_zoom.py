@@ -36,6 +36,7 @@ def spans(box: pg.ViewBox) -> list[float]:
     return [high - low for low, high in box.viewRange()]
 
 
+@pytest.mark.whole
 def test_every_plot_of_the_window_has_an_end_to_its_zoom(
     application: Application, qtbot: QtBot
 ) -> None:

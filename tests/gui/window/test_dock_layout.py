@@ -32,7 +32,11 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 
 CONTROLS = (QLabel, QPushButton, QLineEdit, QAbstractSpinBox, QComboBox, QCheckBox, QSlider)
-SIZES = [QSize(1000, 700), QSize(1280, 800), QSize(1920, 1080)]
+LEAST, LARGE = QSize(1000, 700), QSize(1920, 1080)
+SIZES = [
+    LEAST,
+    *(pytest.param(size, marks=pytest.mark.whole) for size in (QSize(1280, 800), LARGE)),
+]
 NO_BAND_MODEL = {"exposure_time": 200e-6}
 NO_CODE = {"switching_frequency": 500.0, "distance": 5.0}
 MISREAD: dict[str, Any] = {"exposure_time": 136e-6, "switching_frequency": 20e3}
@@ -210,6 +214,7 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
     assert window.size() == size
 
 
+@pytest.mark.whole
 @pytest.mark.own_window
 def test_no_mode_and_no_step_of_a_lesson_needs_a_larger_window_than_the_least_screen_has(
     application: Application, user: User, qtbot: QtBot
@@ -302,18 +307,18 @@ def test_the_window_opens_at_the_requested_size_for_any_scene(
     qtbot: QtBot, small_scene: Scene, changes: dict[str, float]
 ) -> None:
     fresh = Application(small_scene.replace(**changes))
-    fresh.window.resize(SIZES[0])
+    fresh.window.resize(LEAST)
     fresh.window.show()
     qtbot.waitUntil(lambda: fresh.is_idle)
     QApplication.processEvents()
     size = fresh.window.size()
     fresh.window.close()
     fresh.window.deleteLater()
-    assert size == SIZES[0]
+    assert size == LEAST
 
 
 def test_both_steps_of_the_decoder_share_the_height(application: Application, user: User) -> None:
-    application.window.resize(SIZES[-1])
+    application.window.resize(LARGE)
     application.store.change(**MISREAD)
     user.wait_until_idle()
     QApplication.processEvents()

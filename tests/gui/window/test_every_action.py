@@ -275,6 +275,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
     ]
 
 
+@pytest.mark.whole
 @pytest.mark.own_window
 def test_each_entry_of_the_menus_does_something(
     with_photo: Application, user: User, dialogs: Dialogs

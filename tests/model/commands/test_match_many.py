@@ -59,6 +59,7 @@ def test_table_mean_and_lines_to_paste_are_printed(
     assert [row["verdict"] for row in rows] == ["sure", "sure", "unreadable"]
 
 
+@pytest.mark.whole
 def test_an_assumed_frequency_stands_before_every_time(
     folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -147,6 +147,7 @@ def test_figure_2_holds_the_calculated_values_and_the_mask(folder: Path) -> None
     assert "corners: column 862.24" in comments(folder / "figure-2.csv")
 
 
+@pytest.mark.whole
 @pytest.mark.usefixtures("only_rates")
 def test_figures_that_were_interrupted_go_on_with_the_rates_kept(
     tmp_path: Path, folder: Path, monkeypatch: pytest.MonkeyPatch
@@ -180,6 +181,7 @@ def test_figures_that_were_interrupted_go_on_with_the_rates_kept(
     assert (tmp_path / table).read_bytes() == (folder / table).read_bytes()
 
 
+@pytest.mark.whole
 @pytest.mark.usefixtures("only_rates")
 def test_processes_do_not_change_the_figures(tmp_path: Path, folder: Path) -> None:
     command = ["figures", "--out", str(tmp_path), "--images", "1", "--seed", "3", "--jobs", "2"]

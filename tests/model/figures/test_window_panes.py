@@ -51,6 +51,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.whole
 def test_every_drawing_comes_in_every_format(folder: Path) -> None:
     names = {"picture", "profile", "decoding-threshold", "decoding-matched"}
     assert {p.name for p in folder.iterdir()} == {f"{n}{end}" for n in names for end in ENDINGS}

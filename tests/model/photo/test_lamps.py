@@ -138,6 +138,7 @@ def test_a_round_lamps_columns_are_alike_bright() -> None:
     assert not lamp.covers(20, 200)
 
 
+@pytest.mark.whole
 def test_every_lamp_is_matched_by_itself() -> None:
     image = picture(
         ((20, 120, 100, 400), 200.0, 30.0, 3.0), ((120, 220, 100, 400), 150.0, 41.0, 11.0)
@@ -166,6 +167,7 @@ def test_what_progress_raises_ends_the_search() -> None:
     assert shares[-1] < 0.5
 
 
+@pytest.mark.whole
 def test_the_shell_lists_the_lamps(tmp_path: object, capsys: pytest.CaptureFixture[str]) -> None:
     from pathlib import Path
 

@@ -92,6 +92,7 @@ def test_what_never_changes_is_no_explanation() -> None:
         occ.match_photo(PHOTO, KNOWN.replace(pattern="1111"), sent="scene")
 
 
+@pytest.mark.whole
 def test_an_estimated_gamma_is_one_that_a_scene_may_have() -> None:
     """Also where the likeliest one is below 1, as for this lamp with a halo."""
     world = random_world(50000)

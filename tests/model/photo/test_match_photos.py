@@ -105,6 +105,7 @@ def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
     assert reports[-1] == (5, 5)
 
 
+@pytest.mark.whole
 def test_photos_that_were_read_give_the_same_rows(folder: Path, table: PhotoTable) -> None:
     some = amount(1, 3)
     photos = [occ.load_photo(folder / f"{seed}.png") for seed in range(some)]

@@ -32,6 +32,7 @@ def dimmed_lamp_on_the_mains() -> occ.Photo:
     return photo_of(np.rint(255.0 * rows ** (1.0 / 2.22)).astype(np.uint8))
 
 
+@pytest.mark.whole
 def test_mains_ripple_taken_for_the_lamp_is_doubted() -> None:
     told = occ.load_preset("phone-68us").replace(
         pattern="10", switching_frequency=2.0 * LAMP, readout_time=1e-6

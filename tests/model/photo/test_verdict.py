@@ -83,6 +83,7 @@ def test_an_exposure_of_many_chips_is_never_sure() -> None:
     assert any("times as long as a chip" in why for why in match.reasons)
 
 
+@pytest.mark.whole
 def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     bars = np.tile(np.repeat([30, 210], 20).astype(np.uint8), (80, 20))
     scene = occ.load_preset("phone-136us")
@@ -94,7 +95,8 @@ def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     assert (given_one.pattern, given_one.pattern_was_read) == ("10", False)
 
 
-@pytest.mark.parametrize("percent", [20, pytest.param(60, marks=pytest.mark.whole)])
+@pytest.mark.whole
+@pytest.mark.parametrize("percent", [20, 60])
 def test_the_duty_of_a_dimmed_lamp_comes_out(percent: int) -> None:
     cycles = 1500.0
     chips = "".join(map(str, pulse(percent, 100).tolist()))

@@ -76,6 +76,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     assert not started
 
 
+@pytest.mark.whole
 def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
     application: Application, user: User, listed: tuple[Path, ...]
 ) -> None:
@@ -89,6 +90,7 @@ def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
     user.wait_until_idle()
 
 
+@pytest.mark.whole
 def test_a_row_says_that_its_photo_was_matched_by_itself_since(
     application: Application, user: User, listed: tuple[Path, ...]
 ) -> None:

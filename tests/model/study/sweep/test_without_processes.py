@@ -37,6 +37,7 @@ def table(scene: Scene) -> SweepTable:
     return occ.sweep(scene, AXES)
 
 
+@pytest.mark.whole
 def test_a_long_path_of_the_temporary_folder_costs_no_workers(
     tmp_path: Path, table: SweepTable
 ) -> None:

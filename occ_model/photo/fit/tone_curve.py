@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
@@ -13,6 +14,8 @@ _TOE = 0.03
 _GRID = np.linspace(-0.1, 1.0, 441)
 _STEP = float(_GRID[1] - _GRID[0])
 _LEAST_SLOPE = 0.05
+_BENDS = np.diff([_GRID * (1.0 - _GRID), _GRID * (1.0 - _GRID) * (1.0 - 2.0 * _GRID)])
+"""By how much shoulder and contrast change each step of the grid."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,37 +41,28 @@ class ToneCurve:
 
     def table(self) -> "ToneTable":
         """Tabulate the curve."""
-        bent = self._bent()[0]
+        bent, _ = self._bent()
         toe = _TOE**self.gamma * (1.0 + self.gamma * (bent / _TOE - 1.0))
         light = np.where(bent > _TOE, np.maximum(bent, _TOE) ** self.gamma, toe)
         return ToneTable(light, _STEP / _risen(light))
 
     def slopes(self, table: "ToneTable") -> "ToneSlopes":
         """Tabulate the slopes of its table over gamma, offset, shoulder and contrast."""
-        bent, by_shoulder, by_contrast = self._bent()
+        bent, rises = self._bent()
         # The toe is a tangent: by gamma it changes as the point and the slope that it touches.
         steady, below = np.maximum(bent, _TOE), np.minimum(bent / _TOE - 1.0, 0.0)
         steep = self.gamma * steady ** (self.gamma - 1.0)
         logarithm = np.log(steady)
         by_gamma = steady**self.gamma * (logarithm + below * (1.0 + self.gamma * logarithm))
-        by_offset = steep * (1.0 - bent) / (1.0 + self.offset)
-        light = [by_gamma, by_offset, steep * by_shoulder, steep * by_contrast]
-        return ToneSlopes(table, np.stack(light))
+        by_bends = np.stack([1.0 - bent, *(_summed(rises * bend) for bend in _BENDS)])
+        return ToneSlopes(table, np.vstack([by_gamma, steep / (1.0 + self.offset) * by_bends]))
 
-    def _bent(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Give what is raised to the power of gamma, and its slopes over shoulder and contrast."""
-        u = _GRID
-        by_shoulder = u * (1.0 - u)
-        by_contrast = by_shoulder * (1.0 - 2.0 * u)
-        steps = np.diff(u + self.shoulder * by_shoulder + self.contrast * by_contrast)
+    def _bent(self) -> tuple[FloatArray, NDArray[np.bool_]]:
+        """Give what is raised to the power of gamma, and which of its steps are not the least."""
+        steps = _STEP + self.shoulder * _BENDS[0] + self.contrast * _BENDS[1]
         rises = steps > _LEAST_SLOPE * _STEP
         bent = _summed(np.where(rises, steps, _LEAST_SLOPE * _STEP))
-        bent = (bent + 1.0 + self.offset) / (1.0 + self.offset)
-        by_shoulder, by_contrast = (
-            _summed(rises * np.diff(slope)) / (1.0 + self.offset)
-            for slope in (by_shoulder, by_contrast)
-        )
-        return bent, by_shoulder, by_contrast
+        return (bent + 1.0 + self.offset) / (1.0 + self.offset), rises
 
 
 def _summed(steps: FloatArray) -> FloatArray:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.shared_window import SharedWindow
 from gui.snapshots.difference import LEAST_SIMILARITY, MOST_COLOUR, difference
 from gui.snapshots.drawing import settled
 from PIL import Image
@@ -38,8 +39,9 @@ def font(qapp: QApplication) -> QFont:
 
 
 @pytest.fixture(autouse=True)
-def one_look(qapp: QApplication, font: QFont) -> Iterator[None]:
+def one_look(qapp: QApplication, font: QFont, kept_window: SharedWindow) -> Iterator[None]:
     """Draw in Fusion, in the light theme and in one font, and put back what was before."""
+    kept_window.close()  # all of it would be styled anew, twice a test
     style, palette, other_font = qapp.style().objectName(), qapp.palette(), qapp.font()
     qapp.setStyle("Fusion")
     qapp.setPalette(palette_of("light"))

@@ -60,9 +60,9 @@ class ToneCurve:
     def _bent(self) -> tuple[FloatArray, NDArray[np.bool_]]:
         """Give what is raised to the power of gamma, and which of its steps are not the least."""
         steps = _STEP + self.shoulder * _BENDS[0] + self.contrast * _BENDS[1]
-        rises = steps > _LEAST_SLOPE * _STEP
-        bent = _summed(np.where(rises, steps, _LEAST_SLOPE * _STEP))
-        return (bent + 1.0 + self.offset) / (1.0 + self.offset), rises
+        least = _LEAST_SLOPE * _STEP
+        bent = _summed(np.maximum(steps, least))
+        return (bent + 1.0 + self.offset) / (1.0 + self.offset), steps > least
 
 
 def _summed(steps: FloatArray) -> FloatArray:

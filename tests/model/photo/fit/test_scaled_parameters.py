@@ -30,15 +30,26 @@ def test_equal_changes_of_the_exposure_are_equal_ratios() -> None:
     assert ratios[2] == pytest.approx(ratios[1] ** 3)
 
 
+@pytest.mark.parametrize("blur", [-2.5, -0.1, 0.4])
 @pytest.mark.parametrize("seed", range(3))
-def test_the_slopes_are_limits_of_differences(seed: int) -> None:
-    """Also of a blur below 0, which is that above it."""
+def test_the_slopes_are_limits_of_differences(seed: int, blur: float) -> None:
     scaled = ScaledParameters(FIRST, ALL, SCALE, 0.09, GAMMA)
     here = np.random.default_rng(seed).normal(size=9)
-    here[7] -= 2.0
+    here[7] = blur
     steps = 1e-6 * np.eye(9)
     differences = [scaled.values(here + step) - scaled.values(here - step) for step in steps]
     assert np.diag(scaled.slopes(here)) == pytest.approx(np.array(differences) / 2e-6, abs=1e-6)
+
+
+def test_a_blur_below_none_is_that_above_it() -> None:
+    scaled = ScaledParameters(FIRST, np.array([7]), SCALE, 0.09, GAMMA)
+    none = FIRST[7] / SCALE[7]
+    for more in (0.0, 0.3, 2.0):
+        below, above = (np.array([sign * more - none]) for sign in (-1.0, 1.0))
+        assert scaled.values(above)[7] == pytest.approx(more * SCALE[7])
+        assert scaled.values(below) == pytest.approx(scaled.values(above))
+        assert scaled.slopes(above) == pytest.approx(SCALE[7])
+        assert scaled.slopes(below) == pytest.approx(-SCALE[7] if more else SCALE[7])
 
 
 def test_beyond_a_bound_nothing_changes() -> None:

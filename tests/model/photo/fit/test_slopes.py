@@ -30,13 +30,13 @@ def central(function: Vector, here: np.ndarray, change: float) -> np.ndarray:
     return np.stack(sides)
 
 
-def off(slopes: np.ndarray, differences: np.ndarray) -> np.ndarray:
-    """Give each parameter's error: the median over the values, as a share of the largest slope.
+def off(slopes: np.ndarray, differences: np.ndarray, share: float = 0.9) -> np.ndarray:
+    """Give the error, over the largest slope, of each parameter that a share of values is within.
 
     A difference whose change crosses a corner is no limit there: few of them are.
     """
     largest = np.maximum(np.abs(differences).max(axis=1), 1e-12)
-    return np.asarray(np.median(np.abs(slopes - differences), axis=1) / largest)
+    return np.asarray(np.quantile(np.abs(slopes - differences), share, axis=1) / largest)
 
 
 def drawn(seed: int) -> np.ndarray:
@@ -97,8 +97,8 @@ CURVES = (
     ToneCurve(2.2, 0.03),
     ToneCurve(2.4, 0.055, -0.3, 0.2),
     ToneCurve(1.0, 0.0, 0.3, 0.1),
-    # Its least slope straightens a part of it.
     ToneCurve(1.8, 0.01, 0.9, 1.4),
+    # Its least slope straightens a part of it.
     ToneCurve(2.2, -0.05, -0.7, -0.8),
 )
 
@@ -161,25 +161,26 @@ def model_of(
     return JointModel(profiles, CHIPS, step, gamma, values_blurred=values_blurred, wide=wide)
 
 
-@pytest.mark.parametrize("brightest", [0.5, 1.5])
+@pytest.mark.parametrize(("brightest", "late"), [(0.5, 0.0), (1.5, 0.0), (1.5, 0.4)])
 @pytest.mark.parametrize(("gamma", "wide"), [(2.2, False), (2.2, True), (1.0, False)])
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_residuals_slopes_are_limits_of_differences(
-    brightest: float, gamma: float, wide: bool, shape: BlurShape, seed: int
+    brightest: float, late: float, gamma: float, wide: bool, shape: BlurShape, seed: int
 ) -> None:
-    """Also far from the best fit, with all that is not clipped, or a part of it."""
+    """Also off the best fit, with some columns clipped, and some of these dark by the model."""
     true = drawn(seed)
     model = model_of(true, 2.0, brightest, gamma=gamma, wide=wide)
     model.estimate_noise(true)
     here = true + 0.02 * (drawn(seed + 10) - drawn(seed + 20))
+    here[2] += late
     slopes = (model._slopes(here, shape) * model._scale).T
 
     def residual(scaled: np.ndarray) -> np.ndarray:
         return model._residual(here + scaled * model._scale, 0.0, shape)
 
     coarse, fine = (
-        off(slopes, central(residual, np.zeros(9), change)).max() for change in (0.1, 1e-3)
+        off(slopes, central(residual, np.zeros(9), change)).max() for change in (0.1, 1e-4)
     )
     assert fine < 0.1 * coarse
     assert fine < 1e-4
@@ -188,7 +189,7 @@ def test_the_residuals_slopes_are_limits_of_differences(
 @pytest.mark.parametrize("brightest", [0.5, 1.5])
 @pytest.mark.parametrize("noise", [3.0, 10.0])
 @pytest.mark.parametrize("seed", [1, 2])
-def test_blurred_values_slopes_are_off_by_less_than_the_residuals_share(
+def test_half_of_blurred_values_slopes_are_off_by_less_than_the_residuals_share(
     brightest: float, noise: float, seed: int
 ) -> None:
     """What is left out of them has the residual as a factor: it is small beside the stripes."""
@@ -199,5 +200,5 @@ def test_blurred_values_slopes_are_off_by_less_than_the_residuals_share(
         return model._residual(true + scaled * model._scale)
 
     slopes = (model._slopes(true, "normal") * model._scale).T
-    wrong = off(slopes, central(residual, np.zeros(9), 1e-3))
+    wrong = off(slopes, central(residual, np.zeros(9), 1e-3), 0.5)
     assert wrong.max() < noise / 255.0

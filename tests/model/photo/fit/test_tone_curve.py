@@ -77,3 +77,13 @@ def test_a_table_of_equal_distances_gives_what_any_table_gives() -> None:
     asked = np.linspace(-1.0, 2.5, 333)
     found = EvenTable(-0.3, 1.7, values).at(asked)
     assert found == pytest.approx(np.interp(asked, places, values), abs=1e-12)
+
+
+def test_where_its_bends_would_make_it_fall_it_rises_by_a_twentieth() -> None:
+    """A gamma of 1 leaves the bent curve as it is; the straight one rises by as much as it goes."""
+    share = np.linspace(-0.1, 1.0, 441)
+    table = ToneCurve(1.0, 0.0, -0.7, -0.8).table()
+    bent = share + share * (1.0 - share) * (-0.7 - 0.8 * (1.0 - 2.0 * share))
+    rises = np.diff(bent) / np.diff(share)
+    assert rises.min() < -0.5
+    assert np.diff(table.light) / np.diff(share) == pytest.approx(np.maximum(rises, 0.05))

@@ -103,8 +103,8 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     application.store.change(iso=60.0, jpeg_quality=jpeg)
     outdated = application.outdated
     late = [*outdated.of_picture, *outdated.of_results, *(outdated.of_readings if jpeg else ())]
-    qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in late))
-    assert all(mark.isHidden() for mark in outdated.of_readings) == (not jpeg)
+    # A reading that is late on a busy machine is marked until it is there.
+    qtbot.waitUntil(lambda: all(mark.isHidden() != (mark in late) for mark in marks(application)))
     assert {mark.accessibleName() for mark in late} == {"computing…"}
     held.set()
     user.wait_until_idle()

@@ -175,8 +175,8 @@ def test_the_photos_give_what_the_answers_say(number: int, readout: float) -> No
         assert found.scene.transmitter.code == 345 != asked.scene.transmitter.code
         assert "doubtful" in asked.answer
         assert found.verdict == "doubtful"
-        assert "138 µs give or take 4" in asked.answer
-        assert found.exposure_time == pytest.approx(138e-6, abs=0.6e-6)
+        assert "137 µs give or take 4" in asked.answer
+        assert found.exposure_time == pytest.approx(137e-6, abs=0.5e-6)
         assert found.uncertainties["exposure_time"] == pytest.approx(4e-6, abs=0.5e-6)
         assert "it was 136 µs" in asked.answer
         assert abs(found.exposure_time - 136e-6) < 3 * found.uncertainties["exposure_time"]

@@ -16,7 +16,12 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
-from occ_model.photo.fit.other_starts import APART_CHIPS, other_starts, scanned_starts
+from occ_model.photo.fit.other_starts import (
+    APART_CHIPS,
+    alike_among,
+    other_starts,
+    scanned_starts,
+)
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results import Stripes
@@ -174,17 +179,21 @@ def _modes(
     likely.model.estimate_noise(likely.fit.values)
     for model in models:
         model.take_noise(likely.model)
-    means = []
+    means, tried = [], list[JointFit]()
     for group in groups:
         most = min(one.fit.misfit for one in group) + _HOPELESS
-        means.append(
-            averaged([fit for one in group if one.fit.misfit <= most for fit in one.again()])
-        )
+        fits = [fit for one in group if one.fit.misfit <= most for fit in one.again()]
+        means.append(averaged(fits))
+        tried += fits
     least = min(fit.misfit for fit in means)
     most = _RATIO * least + _AS_LIKELY
     # A square wave's first one stays: its stripes are those of the others, to the last column.
     stays = means[0] if is_square else None
     kept = [fit for fit in means if fit.misfit < most or fit is stays]
+    if is_square:
+        alike += alike_among(
+            tried, kept, _ALIKE * least, lambda fit: is_possible(first.timing(fit.values))
+        )
     return sorted(kept, key=lambda fit: fit.misfit), alike
 
 

@@ -167,10 +167,14 @@ class JointModel:
             values[4] = 0.0
         return values
 
+    def timing(self, values: FloatArray) -> Timing:
+        """Give the timing of parameters, by the usual gamma."""
+        step, exposure, middle = values[:3].tolist()
+        return Timing(step, exposure, middle, self.gamma)
+
     def adapted(self, values: FloatArray) -> FloatArray:
         """Give another model's parameters, what this one does not fit being as usual."""
-        step, exposure, middle = values[:3].tolist()
-        usual = self.start(Timing(step, exposure, middle, self.gamma))
+        usual = self.start(self.timing(values))
         return np.where(self._free, values, usual)
 
     @property
@@ -180,8 +184,7 @@ class JointModel:
 
     def with_usual(self, values: FloatArray) -> FloatArray:
         """Keep the timing and the blur of parameters, and let all else be as usual."""
-        step, exposure, middle = values[:3].tolist()
-        usual = self.start(Timing(step, exposure, middle, self.gamma))
+        usual = self.start(self.timing(values))
         usual[7] = values[7]
         return usual
 

@@ -10,7 +10,7 @@ import pytest
 import occ_model as occ
 from occ_model.photo.fit.camera_response import camera_tones
 from occ_model.photo.fit.initial_search import Search
-from occ_model.photo.fit.other_starts import other_starts, scanned_starts
+from occ_model.photo.fit.other_starts import alike_among, other_starts, scanned_starts
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 
@@ -42,7 +42,9 @@ def test_of_other_chips_the_first_few_other_starts_are_tried() -> None:
 class Scanned:
     """In place of a model: its misfit is least at some exposures."""
 
-    gamma = 2.2
+    def timing(self, values: np.ndarray) -> Timing:
+        step, exposure, middle = values[:3].tolist()
+        return Timing(step, exposure, middle, 2.2)
 
     def with_usual(self, values: np.ndarray) -> np.ndarray:
         return values
@@ -134,3 +136,26 @@ def test_of_an_equalized_picture_a_column_shows_its_rank() -> None:
     constant = tones[1].tone(np.full(4, 0.3), 2.2)
     assert np.ptp(constant) == 0.0
     assert math.isfinite(constant[0])
+
+
+@pytest.mark.parametrize(
+    ("exposures", "misfits", "possible", "expected"),
+    [
+        ([1.393, 0.622], [129.0, 203.0], 3.0, [0.622]),  # 2 - t
+        ([0.4, 2.38], [100.0, 290.0], 3.0, [2.38]),  # 2 + t
+        ([0.4, 2.38], [100.0, 310.0], 3.0, []),  # surely worse
+        ([0.4, 2.38], [100.0, 290.0], 2.0, []),  # darker than black
+        ([0.4, 0.43], [100.0, 110.0], 3.0, []),  # the same exposure
+        ([0.4, 0.7], [100.0, 110.0], 3.0, []),  # looks otherwise
+        ([0.4, 1.62, 1.59, 2.41], [100.0, 150.0, 120.0, 130.0], 3.0, [1.59, 2.41]),
+    ],
+)
+def test_exposures_that_look_like_a_kept_one_are_found_among_all_that_were_tried(
+    exposures: list[float], misfits: list[float], possible: float, expected: list[float]
+) -> None:
+    fits: list[Any] = [
+        SimpleNamespace(exposure=exposure, misfit=misfit)
+        for exposure, misfit in zip(exposures, misfits, strict=True)
+    ]
+    found = alike_among(fits, fits[:1], 3.0 * misfits[0], lambda fit: fit.exposure < possible)
+    assert [fit.exposure for fit in found] == expected

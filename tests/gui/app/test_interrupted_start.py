@@ -40,14 +40,8 @@ def test_an_interrupted_start_is_one_line_and_leaves_no_process(
         assert not picture.exists()
 
 
-@pytest.mark.parametrize(
-    "redirect",
-    [
-        pytest.param(">&-", marks=pytest.mark.whole),
-        pytest.param(">&- 2>&-", marks=pytest.mark.whole),
-        "<&- >&- 2>&-",
-    ],
-)
+@pytest.mark.whole
+@pytest.mark.parametrize("redirect", [">&-", ">&- 2>&-", "<&- >&- 2>&-"])
 def test_a_window_needs_no_standard_streams(tmp_path: Path, redirect: str) -> None:
     picture = tmp_path / "w.png"
     shell = ("sh", "-c", f'exec "$@" {redirect}', "sh")

@@ -118,6 +118,7 @@ def test_the_difference_is_exported_as_it_is_seen(
     assert "difference from the photo" in path.read_text(encoding="utf-8")
 
 
+@pytest.mark.whole
 def test_all_figures_go_into_a_folder_in_all_formats_with_scene_settings_version_and_date(
     application: Application, user: User, tmp_path: Path
 ) -> None:

@@ -175,6 +175,7 @@ def test_what_cannot_be_is_a_sentence_and_nothing_is_written(
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.whole
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_cluster_is_reached_with_dasks_certificates(
     monkeypatch: pytest.MonkeyPatch,

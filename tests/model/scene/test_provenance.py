@@ -140,6 +140,7 @@ for name in sys.argv[1:]:
 """
 
 
+@pytest.mark.whole
 @pytest.mark.skipif(sys.platform != "linux", reason="only there the limits can be set like this")
 def test_no_file_hangs_the_reader_or_fills_the_memory(tmp_path: Path) -> None:
     # A second is enough for each; a minute of the processor's time only ends what would hang.

@@ -45,14 +45,8 @@ def slow_whole(slow: Callable[[Path], SweepTable], tmp_path_factory: pytest.Temp
     return path.read_text()
 
 
-@pytest.mark.parametrize(
-    "kind",
-    [
-        pytest.param("alone", marks=pytest.mark.whole),
-        "own",
-        pytest.param("forked", marks=pytest.mark.whole),
-    ],
-)
+@pytest.mark.whole
+@pytest.mark.parametrize("kind", ["alone", "own", "forked"])
 def test_what_kill_9_leaves_is_continued_at_once_and_ends_alike(
     tmp_path: Path, kind: str, slow: Callable[[Path], SweepTable], slow_whole: str
 ) -> None:

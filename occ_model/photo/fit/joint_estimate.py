@@ -192,7 +192,10 @@ def _modes(
     kept = [fit for fit in means if fit.misfit < most or fit is stays]
     if is_square:
         alike += alike_among(
-            tried, kept, _ALIKE * least, lambda fit: is_possible(first.timing(fit.values))
+            tried,
+            [*kept, *alike],
+            _ALIKE * least,
+            lambda fit: is_possible(first.timing(fit.values)),
         )
     return sorted(kept, key=lambda fit: fit.misfit), alike
 

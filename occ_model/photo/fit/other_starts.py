@@ -92,7 +92,7 @@ def alike_among(
     tried
         All fits.
     kept
-        Those that are taken.
+        Those that are taken, or known to look like one of these.
     most
         Misfit from which another exposure is surely worse.
     is_possible

@@ -59,7 +59,7 @@ class SeenStripes:
             kernel_slope(blur, shape),
         )
 
-    def gamma(self, values: FloatArray) -> float:
+    def gamma(self, values: FloatArray | Sequence[float]) -> float:
         """Give the gamma, of which the parameters hold the logarithm over the usual one."""
         return self._gamma * math.exp(values[GAMMA])
 
@@ -75,6 +75,6 @@ class SeenStripes:
 
     def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:
         """Give the timing, the tone curve, the blur, and how much longer the LED is on."""
-        step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = values
-        curve = ToneCurve(self._gamma * math.exp(gamma), offset, shoulder, contrast)
+        step, exposure, middle, _, offset, shoulder, contrast, blur, longer = values
+        curve = ToneCurve(self.gamma(values), offset, shoulder, contrast)
         return Timing(step, exposure, middle, self._gamma), curve, blur, longer

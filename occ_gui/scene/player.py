@@ -88,15 +88,15 @@ class Player(QObject):
     def _advance(self) -> None:
         passed = 1e-3 * self._clock.restart() / SPEEDS[self.speed]
         self._fraction += self._direction * passed
+        is_over = self._fraction < 0.0 and not self.is_looping
         if not 0.0 <= self._fraction <= 1.0:
-            if self._fraction < 0.0 and not self.is_looping:
-                self.stop()
-                return
             self._fraction = min(max(self._fraction, 0.0), 1.0)
             self._direction = -self._direction
         row = self._rows[self.playing]
         self._set = row.value_at(self._fraction)  # before the scene changes
         row.run_to(self._fraction)
+        if is_over:
+            self.stop()
 
     def _switch(self, name: str, on: bool) -> None:
         if on:

@@ -9,8 +9,6 @@ from occ_gui.app.application import Application
 from occ_gui.scene.slider_scale import SliderScale
 from occ_model.scene.scene import Scene
 
-pytestmark = pytest.mark.own_window
-
 NAME = "switching_frequency"
 
 
@@ -74,6 +72,7 @@ def test_a_run_goes_on_while_another_parameter_is_changed(
     user.wait_until_idle()
 
 
+@pytest.mark.own_window
 def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(application: Application) -> None:
     player, asked = application.controls.player, list[str]()
     player.film_asked.disconnect(application.desktop.animation.ask)

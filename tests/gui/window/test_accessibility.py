@@ -14,8 +14,6 @@ from occ_gui.app.application import Application
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.window.modes.mode import MODES
 
-pytestmark = pytest.mark.own_window
-
 NAME, VALUE, DESCRIPTION = (
     QAccessible.Text.Name, QAccessible.Text.Value, QAccessible.Text.Description,
 )  # fmt: skip

@@ -44,7 +44,7 @@ def cluster_executor(address: str) -> Iterator[Executor]:
             f"The cluster at {shown(address)} has no workers; start one with "
             f"'dask worker {one_line(address)}'."
         )
-    client: Any = Client(address, timeout=_SECONDS, set_as_default=False)  # type: ignore[no-untyped-call]
+    client: Any = Client(address, timeout=_SECONDS, set_as_default=False)
     try:
         yield client.get_executor()
     finally:
@@ -58,9 +58,9 @@ async def _workers(address: str) -> int:
 
     try:
         # As the client does: certificates for tls:// come from dask's configuration.
-        keys: Any = Security().get_connection_args("client")  # type: ignore[no-untyped-call]
+        keys: Any = Security().get_connection_args("client")
         async with asyncio.timeout(_SECONDS):
-            async with rpc(address, connection_args=keys) as scheduler:  # type: ignore[no-untyped-call]
+            async with rpc(address, connection_args=keys) as scheduler:
                 known = await scheduler.identity()
             return len(known["workers"])
     except TimeoutError:

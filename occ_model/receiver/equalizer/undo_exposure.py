@@ -100,9 +100,7 @@ def undo_exposure(
         noise = _noise_over_light(faded, light, passed, spectrum)
     # Complex: scikit-image takes it for a response, not for an impulse response.
     shape = (1.0 / np.sqrt(spectrum)).astype(np.complex128)
-    undone = wiener(  # type: ignore[no-untyped-call]
-        faded, box(exposure), noise, reg=shape, clip=False
-    )
+    undone = wiener(faded, box(exposure), noise, reg=shape, clip=False)
     return np.asarray(undone[margin : margin + len(light)] + mean, dtype=np.float64)
 
 

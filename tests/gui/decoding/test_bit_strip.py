@@ -162,12 +162,9 @@ def test_missing_bars_are_a_line_where_those_of_zeros_end(
     sent = [1] * 2000
     received = picture(sent, sent[:1000])
     left, right = 66 + 10, strip.width() - 20
-    ends = {
-        column: np.flatnonzero(
-            np.abs(np.diff(received[received.shape[0] // 2 :, column].astype(int))) > 5
-        )
-        for column in (left, right)
-    }
+    lower = received[received.shape[0] // 2 :].astype(np.int64)
+    is_end = np.abs(np.diff(lower, axis=0)) > 5
+    ends = {column: np.flatnonzero(is_end[:, column]) for column in (left, right)}
     # Bars of ones have a top and a bottom; a missing one has a line of a pixel.
     assert ends[left].size >= 1
     assert ends[right].size >= 1

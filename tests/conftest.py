@@ -71,7 +71,7 @@ def pytest_configure(config: pytest.Config) -> None:
     """Tell the modules with tests, before they are imported, how much is tried."""
     if config.getoption("--whole"):
         os.environ[VARIABLE] = "1"
-    examples = 100 if NEW_EXAMPLES else amount(30, 60)
+    examples = 100 if NEW_EXAMPLES else amount(30, 40)
     settings.register_profile(
         "occ", deadline=None, print_blob=True, derandomize=not NEW_EXAMPLES, max_examples=examples
     )

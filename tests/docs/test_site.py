@@ -171,6 +171,7 @@ def test_the_site_lists_the_pages_of_the_manual() -> None:
     assert sorted(listed) == [page.name for page in PAGES]
 
 
+@pytest.mark.whole
 def test_the_code_of_the_tutorial_runs() -> None:
     names: dict[str, object] = {}
     for code in blocks(text_of(FOLDER / "tutorial.md"), "python"):

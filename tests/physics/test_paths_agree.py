@@ -16,6 +16,7 @@ SETTLED = (1, 2, 3, 4, 5)
 """Seeds of others."""
 
 
+@pytest.mark.whole
 def test_both_paths_give_the_same_rates() -> None:
     seeds = (*IN_DOUBT[: amount(4, 10)], *SETTLED[: amount(2, 5)])
     images = amount(10, 16)

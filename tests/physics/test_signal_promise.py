@@ -80,6 +80,7 @@ def test_the_signal_changes_by_no_more_than_the_tolerance(tolerance: float) -> N
     assert left_out >= SCENES * {0.5: 0.0, 4.0: 1 / 15, 20.0: 1 / 5, 80.0: 1 / 3}[tolerance]
 
 
+@pytest.mark.whole
 def test_an_effect_by_itself_keeps_its_bound_in_the_signal() -> None:
     for number, scene in enumerate(scenes()[: SCENES // 2]):
         everything, whole = complete(number)

@@ -11,6 +11,7 @@ from occ_model.cli import main
 FEW = ("--exposure", "1", "--snr", "30", "--bits", "64", "--payload-bits", "64")
 
 
+@pytest.mark.whole
 def test_the_bench_prints_and_writes_one_table(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

@@ -71,6 +71,7 @@ def rows(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
+@pytest.mark.whole
 def test_every_figure_comes_as_pdf_png_and_csv(folder: Path) -> None:
     expected = {f"figure-{n}.{end}" for n in range(2, 7) for end in ("pdf", "png", "csv")}
     assert {path.name for path in folder.iterdir()} == expected

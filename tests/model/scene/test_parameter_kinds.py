@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from amount import amount
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -30,7 +31,7 @@ every_quantity = pytest.mark.parametrize("quantity", QUANTITIES, ids=lambda p: p
 every_count = pytest.mark.parametrize("count", COUNTS, ids=lambda p: p.name)
 every_choice = pytest.mark.parametrize("choice", CHOICES, ids=lambda p: p.name)
 
-few = settings(max_examples=30)  # of each parameter, and there are many
+few = settings(max_examples=amount(10, 30))  # of each parameter, and there are many
 
 NO_NUMBERS = [True, False, None, "1", b"1", 1j, [1.0], np.array([1.0]), np.True_, {"x": 1}]
 

@@ -4,6 +4,7 @@ import re
 from typing import Any
 
 import pytest
+from amount import amount
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -16,7 +17,7 @@ every_parameter = pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=
 every_quantity = pytest.mark.parametrize(
     "quantity", [p for p in PARAMETERS.values() if isinstance(p, Quantity)], ids=lambda p: p.name
 )
-few = settings(max_examples=30)  # of each parameter, and there are many
+few = settings(max_examples=amount(10, 30))  # of each parameter, and there are many
 positions = st.floats(0.0, 1.0)
 
 

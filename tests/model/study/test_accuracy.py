@@ -104,6 +104,7 @@ def test_a_bad_setting_is_refused_before_anything_is_measured() -> None:
         accuracy(Scene(), SimulationSettings(tolerance=-1.0))
 
 
+@pytest.mark.whole
 def test_the_command_prints_the_table_and_writes_the_figure(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -19,7 +19,7 @@ _EVERYDAY = (3,)
 _WHOLE = range(0, 24, 3)
 """Some of each frame rate, framing and line code; tests/benchmarks/film_reading.py reads all."""
 
-_FRAMES = 125
+_FRAMES = 100
 """Most frames of a film here: what many frames a second show sooner is as exact."""
 
 SCENE = occ.load_preset("phone-68us").replace(

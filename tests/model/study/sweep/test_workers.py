@@ -207,6 +207,7 @@ def test_a_slow_point_gives_signs_of_life_from_image_to_image(
     assert told == [0] * 4 + [1] * 5 + [2]
 
 
+@pytest.mark.whole
 def test_a_sweep_of_200000_points_takes_the_memory_of_a_few(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:

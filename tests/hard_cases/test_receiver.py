@@ -82,6 +82,11 @@ def test_any_profile_is_read_or_refused_with_a_sentence(
     assert error == 0.0
 
 
+def test_an_exposure_of_a_billionth_of_a_chip_is_read() -> None:
+    scene = Scene().replace(pattern="01", switching_frequency=1.0, exposure_time=1e-9)
+    assert tried(np.array([6.4, 1.05, 1.05]), scene, "sequence", 3) == 0.0
+
+
 @st.composite
 def garbage_images(draw: st.DrawFn) -> np.ndarray:
     """Noise, specks, stripes and constants of every type, with numbers that are none."""

@@ -35,8 +35,8 @@ class Timing:
 
     @property
     def memory(self) -> int:
-        """Chips that an exposure can reach back to, from the one that it ends in."""
-        return int(np.ceil(self.exposure - 1e-9))
+        """Chips that an exposure can reach back to, from the one that it ends in; at least one."""
+        return max(1, int(np.ceil(self.exposure - 1e-9)))
 
     def starts(self, rows: int) -> FloatArray:
         """Return where the exposure of each row starts, in chips, shape (rows,)."""

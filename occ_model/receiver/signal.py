@@ -53,13 +53,18 @@ def otsu_split(counts: IndexArray) -> int | None:
     int or None
         None where fewer than two bins are filled.
     """
-    weight = np.cumsum(counts, dtype=np.float64)
-    moment = np.cumsum(counts * np.arange(len(counts), dtype=np.float64))
-    splits = np.flatnonzero((weight > 0.0) & (weight < weight[-1]))
-    if splits.size == 0:
+    filled = np.flatnonzero(counts)
+    if filled.size < 2:
         return None
-    w, m = weight[splits] / weight[-1], moment[splits] / weight[-1]
-    between = (moment[-1] / weight[-1] * w - m) ** 2 / (w * (1.0 - w))
+    first, last = filled[0], filled[-1]
+    # Summed from both ends, about the middle: the smallest class keeps its digits beside a large
+    # one, and a histogram and its mirror image give the same numbers.
+    counts = counts[first : last + 1].astype(np.float64)
+    moments = counts * (np.arange(len(counts)) - 0.5 * (len(counts) - 1))
+    below, above = np.cumsum(counts)[:-1], np.cumsum(counts[::-1])[-2::-1]
+    means = np.cumsum(moments)[:-1] / below, np.cumsum(moments[::-1])[-2::-1] / above
+    between = below * above * (means[1] - means[0]) ** 2
+    splits = np.arange(first, last)
     best = splits[between >= between.max() * (1.0 - 1e-12)]
     return int(best[len(best) // 2])
 

@@ -75,6 +75,9 @@ HISTOGRAMS: dict[str, tuple[list[int], int | None]] = {
     "three equal bins": ([1, 1, 1], 1),
     # Four are: of each pair of neighbours between equal bins, the outer ones are worse.
     "two pairs": ([1, 1, 0, 0, 0, 1, 1], 3),
+    # Two are, and each leaves one beside very many.
+    "one on either side of ten thousand": ([1, 10_000, 1], 1),
+    "one on either side of a trillion": ([1, 10**12, 1], 1),
     # All moments are multiples of 1e12 but the last: single precision would hold none of them.
     "a trillion each": ([10**12] * 4, 1),
 }  # fmt: skip

@@ -14,7 +14,7 @@ UNITS = (NONE, SECOND, HERTZ, METRE, RADIAN, LUX, NIT)
 POWERS = {"n": -9, "u": -6, "µ": -6, "\u03bc": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
 
 exact_integers = st.integers(-(2**53), 2**53)
-magnitudes = st.floats(1e-290, 1e290)
+magnitudes = st.floats(1e-290, 1.7e308)
 
 
 @given(unit=st.sampled_from(UNITS), size=magnitudes, sign=st.sampled_from((-1.0, 1.0)))
@@ -194,6 +194,7 @@ def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
         (METRE, 2000.0, "2 km"),
         (RADIAN, math.radians(30), "30°"),
         (RADIAN, 0.0, "0°"),
+        (RADIAN, 1.5e308, "1.5e+308 rad"),  # in degrees it would be infinite
         (NIT, 3600.0, "3600 cd/m²"),
         (LUX, 290.0, "290 lx"),
         (NONE, 2.48, "2.48"),

@@ -129,7 +129,8 @@ def odd(seed: int) -> tuple[str, bytes]:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")  # of what is to be odd
                 picture.save(buffer, str(name), exif=_odd_notes(rng))
-        except (OSError, ValueError, KeyError, TypeError):  # no such pixels, or notes, in this one
+        # No such pixels, or notes, in this one; what reads damaged notes for a TIFF is a parser.
+        except (OSError, ValueError, KeyError, TypeError, SyntaxError):
             buffer = io.BytesIO()
             continue
         return f"{mode} {name}", buffer.getvalue()

@@ -131,6 +131,8 @@ def test_a_comma_that_may_separate_thousands_has_two_readings(
     assert HERTZ.readings(f"{text} Hz") == (decimal, thousands)
     assert HERTZ.parse(f"{text} Hz") is None
     assert SECOND.readings(f"1/{text} s") == (1 / decimal, 1 / thousands)
+    # Beside a decimal comma that cannot separate thousands.
+    assert SECOND.readings(f"0,5/{text} s") == (0.5 / decimal, 0.5 / thousands)
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,17 @@ def test_few_ways_find_the_chips_of_the_whole_trellis_with_a_margin_each() -> No
     assert (margins[inside] >= whole.margins[inside] - 1e-9).all()
 
 
+@pytest.mark.parametrize("exposure", [1e-9, 0.7, 2.3])
+def test_the_last_chip_is_the_last_that_a_row_shows(exposure: float) -> None:
+    timing = Timing(exposure, 0.2, 0.13)
+    seen = gather(np.zeros(50), timing)
+    last = int(np.floor(0.13 + 49 * 0.2 + exposure))
+    assert seen.first + len(seen.features) - 1 == last
+    found = best_chips(trellis_of(FREE_CHIPS, timing.memory), seen)
+    assert found.first + len(found.values) - 1 == last
+    assert found.first == seen.first - timing.memory
+
+
 def test_the_steps_of_a_result_are_the_chips_that_columns_see(small_signal: Any) -> None:
     scene, signal = small_signal
     result = decoder.read_signal(signal, scene)

@@ -161,6 +161,7 @@ def test_no_bound_is_smaller_than_what_its_effect_changes(observable: Observable
             assert difference(number, without) <= limit, (number, decision)
 
 
+@pytest.mark.whole
 def test_bounds_are_not_lazy() -> None:
     ratios = []
     for name in occ.presets():

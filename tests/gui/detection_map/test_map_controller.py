@@ -192,6 +192,7 @@ def test_what_the_map_does_not_depend_on_measures_nothing_anew(
     assert bench.controller.is_full
 
 
+@pytest.mark.whole
 def test_a_change_of_the_scene_gives_the_map_of_the_new_one(
     bench_of: Callable[..., Bench],
 ) -> None:

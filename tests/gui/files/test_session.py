@@ -267,6 +267,7 @@ sys.exit(app.main([]))
 """
 
 
+@pytest.mark.whole
 def test_the_work_of_a_killed_window_is_there_at_the_next_start(
     tmp_path: Path, starts: Starts
 ) -> None:

@@ -185,6 +185,7 @@ def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
     assert axis_labels_cut_off(application.window) == []
 
 
+@pytest.mark.whole
 @pytest.mark.own_window
 @pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
 def test_explaining_and_comparing_panes_are_whole_at_any_size(
@@ -242,6 +243,7 @@ def test_no_mode_and_no_step_of_a_lesson_needs_a_larger_window_than_the_least_sc
     assert window.size() == least
 
 
+@pytest.mark.whole
 def test_a_lesson_has_the_height_of_the_window_beside_what_it_shows_below(
     application: Application, user: User, qtbot: QtBot
 ) -> None:

@@ -139,6 +139,7 @@ def controls(request: pytest.FixtureRequest, surveys: list[list[Control]]) -> li
     return surveys[0]
 
 
+@pytest.mark.whole
 @pytest.mark.own_window
 def test_each_control_has_a_name_for_those_who_do_not_see_it(controls: list[Control]) -> None:
     assert [str(control) for control in controls if not control.name] == []

@@ -242,6 +242,7 @@ def test_mode_and_layouts_are_there_at_the_next_start(start: Start) -> None:
         assert shown(application) == {"accuracy"}
 
 
+@pytest.mark.whole
 def test_a_maximized_window_opens_maximized(start: Start) -> None:
     for maximized in (True, False):
         with start() as application:

@@ -60,6 +60,7 @@ def show_mode(application: Application, qtbot: QtBot, mode: str) -> None:
     QApplication.processEvents()
 
 
+@pytest.mark.whole
 def test_the_tab_key_goes_through_every_mode_as_it_is_read(
     application: Application, qtbot: QtBot
 ) -> None:

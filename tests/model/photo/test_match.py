@@ -100,6 +100,7 @@ def test_an_estimated_gamma_is_one_that_a_scene_may_have() -> None:
     assert 1.0 <= match.gamma <= 4.0
 
 
+@pytest.mark.whole
 def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
     # Of more columns, which tell gamma more exactly.
     scene = random_scene(5).replace(averaging="light", gamma=1.8, illuminance=0.0)

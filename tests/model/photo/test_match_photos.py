@@ -79,6 +79,7 @@ def test_every_photo_has_a_row_in_the_order_given(table: PhotoTable, folder: Pat
     assert all(bool(one.note) == (one.verdict != "sure") for one in table.rows)
 
 
+@pytest.mark.whole
 def test_a_row_says_what_the_match_of_its_photo_says(table: PhotoTable, folder: Path) -> None:
     for one in table.rows[: amount(1, 3)]:
         match = occ.match_photo(occ.load_photo(one.path), SCENE)

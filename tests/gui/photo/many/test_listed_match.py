@@ -57,6 +57,7 @@ def listed(
     return paths
 
 
+@pytest.mark.whole
 @pytest.mark.own_window
 def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     application: Application, user: User, listed: tuple[Path, ...]

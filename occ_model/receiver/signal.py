@@ -56,17 +56,16 @@ def otsu_split(counts: IndexArray) -> int | None:
     filled = np.flatnonzero(counts)
     if filled.size < 2:
         return None
-    first, last = filled[0], filled[-1]
+    first = filled[0]
     # Summed from both ends, about the middle: the smallest class keeps its digits beside a large
     # one, and a histogram and its mirror image give the same numbers.
-    counts = counts[first : last + 1].astype(np.float64)
+    counts = counts[first : filled[-1] + 1].astype(np.float64)
     moments = counts * (np.arange(len(counts)) - 0.5 * (len(counts) - 1))
     below, above = np.cumsum(counts)[:-1], np.cumsum(counts[::-1])[-2::-1]
     means = np.cumsum(moments)[:-1] / below, np.cumsum(moments[::-1])[-2::-1] / above
     between = below * above * (means[1] - means[0]) ** 2
-    splits = np.arange(first, last)
-    best = splits[between >= between.max() * (1.0 - 1e-12)]
-    return int(best[len(best) // 2])
+    best = np.flatnonzero(between >= between.max() * (1.0 - 1e-12))
+    return int(first + best[len(best) // 2])
 
 
 def otsu_threshold(signal: FloatArray) -> float:

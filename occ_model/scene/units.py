@@ -119,7 +119,7 @@ class Unit:
     def display(self, value: float) -> tuple[str, float]:
         """Choose the unit to show ``value`` in: its symbol and its value in SI."""
         if self.shown is not None:
-            # What is too large for a number in that unit is shown without a prefix.
+            # What would be infinite in that unit is shown in the plain one.
             is_too_large = math.isfinite(value) and math.isinf(value / self.shown[1])
             return (self.symbol, 1.0) if is_too_large else self.shown
         size = abs(value)

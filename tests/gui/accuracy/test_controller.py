@@ -141,12 +141,13 @@ def test_a_change_cancels_the_study_and_the_next_is_of_it(bench: Bench, what: st
     assert bench.measured[-1] == SimulationRequest(bench.scenes.scene, bench.settings.settings)
 
 
-def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench) -> None:
+def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot: QtBot) -> None:
     bench.controller.set_seen(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
     bench.controller.set_seen(False)
-    assert not bench.controller.runner.is_running
+    qtbot.waitUntil(lambda: bench.controller.forecasts.is_idle)
+    assert bench.controller.is_idle
     assert bench.pane.received[-1] == "outdated"
     bench.controller.set_seen(True)
     bench.allow(1 + TOTAL)

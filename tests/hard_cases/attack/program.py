@@ -68,10 +68,7 @@ def attack(door: Door, seeds: range) -> Outcomes:
     for seed in seeds:
         print(door.name, seed, flush=True)  # noqa: T201
         try:
-            try:
-                sentences = _sentences(door, seed)
-            except OutOfTime:  # the modules that it was the first to import are there now
-                sentences = _sentences(door, seed)
+            sentences = _sentences(door, seed)
         except (Exception, OutOfTime, SystemExit) as fault:
             if len(seeds) == 1:
                 raise
@@ -85,6 +82,17 @@ def attack(door: Door, seeds: range) -> Outcomes:
 
 
 def _sentences(door: Door, seed: int) -> list[str]:
+    """Try a case; again, if its time went by while modules were imported, which are there then."""
+    known = len(sys.modules)
+    try:
+        return _bounded(door, seed)
+    except OutOfTime:
+        if len(sys.modules) == known:
+            raise
+    return _bounded(door, seed)
+
+
+def _bounded(door: Door, seed: int) -> list[str]:
     # Also the current folder, in which a name by chance would otherwise become a file.
     with (
         TemporaryDirectory(prefix="occ-attack-") as folder,

@@ -23,16 +23,16 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-OLDEST, NEWEST = (3, 11), (3, 13)
+OLDEST, NEWEST_TRIED = (3, 11), (3, 14)
 
 
 def version_problem(major: int, minor: int) -> str:
     """Say why this Python cannot run the project; return '' where it can."""
-    if OLDEST <= (major, minor) <= NEWEST:
+    if (major, minor) >= OLDEST:
         return ""
     return (
-        f"This project needs Python 3.11, 3.12 or 3.13, and this is Python {major}.{minor}. "
-        "Start it with one of those, for example: python3.12 resources/start.py"
+        f"This project needs Python 3.11 or newer, and this is Python {major}.{minor}. "
+        "Start it with a newer one, for example: python3.13 resources/start.py"
     )
 
 
@@ -48,6 +48,9 @@ PYTHON = PROGRAMS / ("python.exe" if os.name == "nt" else "python")
 STAMP = VENV / "start.json"
 UNFINISHED = VENV / "unfinished"
 RUNNING = "{}.{}".format(*sys.version_info)
+
+# The application's extra, which every start installs: the model alone does without a window.
+WINDOW = "gui"
 
 # What Qt links but its wheel leaves to the system, each with the Debian package that brings it.
 # What these link in turn is left out: where that is missing, they do not load either. Debian 13 and
@@ -261,6 +264,9 @@ def make_venv() -> None:
         shutil.rmtree(VENV)
     VENV.mkdir()
     UNFINISHED.touch()
+    if sys.version_info[:2] > NEWEST_TRIED:
+        newest = "{}.{}".format(*NEWEST_TRIED)
+        say(f"This Python {RUNNING} is newer than {newest}, the newest one tried; going on with it.")
     # Not sys.executable: that may lie in the very folder that was just removed.
     python = getattr(sys, "_base_executable", None) or sys.executable
     venv = [python, "-m", "venv", str(VENV)]
@@ -287,7 +293,7 @@ def install_project(python: str, extras: Iterable[str]) -> None:
     occasion = "something changed since the last time" if stamp else "first start only"
     say(f"Installing the project into .venv ({occasion}, a minute or two) ...")
     STAMP.unlink(missing_ok=True)  # a pip that is stopped half-way must run again
-    target = f".[{','.join(sorted(extras))}]" if extras else "."
+    target = f".[{','.join(sorted(extras))}]"
     pip = [str(PYTHON), "-m", "pip", "install", *uncompiled(extras), "-e", target]
     if not run_visibly(pip, PIP_DISABLE_PIP_VERSION_CHECK="1"):
         raise SetUpError(
@@ -395,7 +401,7 @@ def main(arguments: Sequence[str]) -> int:
     platform = qt_platform(arguments, os.environ)
     try:
         with one_at_a_time():
-            set_up(platform, extras=["test"] if testing else [])
+            set_up(platform, extras=[WINDOW, "test"] if testing else [WINDOW])
         if testing:
             return run_checks(arguments[1:])
         if not platform:

@@ -8,7 +8,6 @@ start after the first costs a fraction of a second. The set-up speaks on standar
 output belongs to the application.
 """
 
-import ctypes
 import hashlib
 import importlib.util
 import json
@@ -42,6 +41,13 @@ if version_problem(*sys.version_info[:2]):
     sys.exit(version_problem(*sys.version_info[:2]))
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+from occ_gui.app.system_libraries import (  # noqa: E402 - no older Python can import it
+    APT_INSTALL,
+    install_line,
+    missing_libraries,
+)
+
 VENV = ROOT / ".venv"
 PROGRAMS = VENV / ("Scripts" if os.name == "nt" else "bin")
 PYTHON = PROGRAMS / ("python.exe" if os.name == "nt" else "python")
@@ -52,36 +58,6 @@ RUNNING = "{}.{}".format(*sys.version_info)
 # The application's extra, which every start installs: the model alone does without a window.
 WINDOW = "gui"
 
-# What Qt links but its wheel leaves to the system, each with the Debian package that brings it.
-# What these link in turn is left out: where that is missing, they do not load either. Debian 13 and
-# Ubuntu 24.04 renamed libglib2.0-0; apt-get still finds it there by its old name.
-LIBRARIES = {
-    "libEGL.so.1": "libegl1",
-    "libGL.so.1": "libgl1",
-    "libdbus-1.so.3": "libdbus-1-3",
-    "libfontconfig.so.1": "libfontconfig1",
-    "libglib-2.0.so.0": "libglib2.0-0",
-    "libxkbcommon.so.0": "libxkbcommon0",
-}
-# What Qt links besides, to open windows on a display of either kind.
-DISPLAY_LIBRARIES = {
-    "xcb": {
-        "libX11-xcb.so.1": "libx11-xcb1",
-        "libxcb-cursor.so.0": "libxcb-cursor0",
-        "libxcb-icccm.so.4": "libxcb-icccm4",
-        "libxcb-keysyms.so.1": "libxcb-keysyms1",
-        "libxcb-randr.so.0": "libxcb-randr0",
-        "libxcb-shape.so.0": "libxcb-shape0",
-        "libxcb-sync.so.1": "libxcb-sync1",
-        "libxcb-xfixes.so.0": "libxcb-xfixes0",
-        "libxkbcommon-x11.so.0": "libxkbcommon-x11-0",
-    },
-    "wayland": {
-        "libwayland-client.so.0": "libwayland-client0",
-        "libwayland-cursor.so.0": "libwayland-cursor0",
-        "libwayland-egl.so.1": "libwayland-egl1",
-    },
-}
 # What compiles and runs the sketches of boards, for the tests in CI: programs and headers.
 TEST_TOOLS = {
     "avr-g++": "gcc-avr",
@@ -90,7 +66,6 @@ TEST_TOOLS = {
     "/usr/include/simavr/sim_avr.h": "libsimavr-dev",
     "/usr/include/libelf.h": "libelf-dev",
 }
-APT_INSTALL = ["apt-get", "install", "-y", "--no-install-recommends"]
 # While this variable is set, Python keeps no compiled modules.
 UNCOMPILED = "PYTHONDONTWRITEBYTECODE"
 # Arguments with which the application opens no window.
@@ -127,15 +102,6 @@ def qt_platform(arguments: Iterable[str], environment: Mapping[str, str]) -> str
     return "xcb" if environment.get("DISPLAY") else ""
 
 
-def loads(library: str) -> bool:
-    """Tell whether the dynamic linker finds a shared library, and all that it links."""
-    try:
-        ctypes.CDLL(library)
-    except OSError:
-        return False
-    return True
-
-
 def has_font() -> bool:
     """Tell whether there is a font in one of the folders where Qt looks for them."""
     home = os.environ.get("HOME", "")
@@ -150,8 +116,7 @@ def has_font() -> bool:
 
 def missing_parts(platform: str, making_venv: bool) -> dict[str, str]:
     """Map each part that the system lacks to the Debian package that brings it."""
-    libraries = {**LIBRARIES, **DISPLAY_LIBRARIES.get(platform, {})}
-    missing = {name: package for name, package in libraries.items() if not loads(name)}
+    missing = missing_libraries(platform)
     # Systems without apt-get may keep their fonts anywhere.
     if shutil.which("apt-get") and not has_font():
         missing["a font"] = "fonts-dejavu-core"
@@ -180,10 +145,8 @@ def provide_system_parts(platform: str, making_venv: bool) -> None:
     lacks = "This system lacks " + ", ".join(missing)
     if shutil.which("apt-get") is None:
         raise SetUpError(f"{lacks}. Install what brings it, then start again.")
-    install = [*APT_INSTALL, *missing.values()]
-    sudo = "sudo " if shutil.which("sudo") else ""
-    by_hand = f"{sudo}apt-get update && {sudo}{shlex.join(install)}"
-    remedy = f"Run this line as root, then start again:\n    {by_hand}"
+    line = install_line(missing.values())
+    remedy = f"Run this line as root, then start again:\n    {line}"
     prefix = root_prefix()
     if prefix is None:
         raise SetUpError(f"{lacks}. {remedy}")
@@ -191,7 +154,7 @@ def provide_system_parts(platform: str, making_venv: bool) -> None:
     as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
     # An update that fails is no reason to stop: an old list often knows the packages too.
     run_visibly([*as_root, "apt-get", "update"])
-    if not run_visibly([*as_root, *install]):
+    if not run_visibly([*as_root, *APT_INSTALL, *missing.values()]):
         raise SetUpError(f"apt-get could not install what is missing; see above. {remedy}")
     still = missing_parts(platform, making_venv)
     if still:
@@ -265,8 +228,8 @@ def make_venv() -> None:
     VENV.mkdir()
     UNFINISHED.touch()
     if sys.version_info[:2] > NEWEST_TRIED:
-        newest = "{}.{}".format(*NEWEST_TRIED)
-        say(f"This Python {RUNNING} is newer than {newest}, the newest one tried; going on with it.")
+        tried = "{}.{}".format(*NEWEST_TRIED)
+        say(f"This Python {RUNNING} is newer than {tried}, the newest that was tried; going on.")
     # Not sys.executable: that may lie in the very folder that was just removed.
     python = getattr(sys, "_base_executable", None) or sys.executable
     venv = [python, "-m", "venv", str(VENV)]

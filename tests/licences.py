@@ -6,7 +6,7 @@
 import re
 import sys
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from pathlib import Path
 from typing import Any
@@ -49,14 +49,26 @@ def project() -> dict[str, Any]:
 
 
 def direct() -> dict[str, list[str]]:
-    """Give the requirements that the project itself names, by the name of their group."""
+    """Return the requirements that the project itself names, by the name of their group."""
     described = project()
     found = described["project"]
+    extras = found["optional-dependencies"]
     return {
         "run": found["dependencies"],
-        **found["optional-dependencies"],
+        **{name: list(_expanded(extra, extras)) for name, extra in extras.items()},
         "build": described["build-system"]["requires"],
     }
+
+
+def _expanded(requirements: Iterable[str], extras: Mapping[str, list[str]]) -> Iterator[str]:
+    """Replace the project's own extras by what these require."""
+    for each in requirements:
+        asked = Requirement(each)
+        if key(asked.name) == "occ-explorer":
+            for extra in asked.extras:
+                yield from _expanded(extras[extra], extras)
+        else:
+            yield each
 
 
 def groups() -> dict[str, set[str]]:

@@ -8,11 +8,13 @@ import signal
 import sys
 from collections.abc import Callable, Sequence
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
 import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
+from occ_gui.app.system_libraries import missing_libraries, sentence_about
 from occ_model.commands.options import (
     Parser,
     add_scene_options,
@@ -82,9 +84,26 @@ def read_command_line(arguments: Sequence[str] | None) -> Callable[[], int]:
 
 
 def _start_and_run(options: argparse.Namespace) -> int:
+    _check_qt()
     settings = simulation_settings_of(options)
     own = settings == simulation_settings_of(_parser().parse_args([]))
     return _run(options, start_of(options, scene_of(options), settings, own))
+
+
+def _check_qt() -> None:
+    """Refuse to go on where Qt is not installed, or cannot be loaded."""
+    absent = [name for name in ("PySide6", "pyqtgraph") if find_spec(name) is None]
+    if absent:
+        raise occ.OccError(
+            f"The window needs {' and '.join(absent)}, which this Python lacks; this line installs "
+            "what is needed: \"pip install 'occ-explorer[gui]'\"."
+        )
+    try:
+        import PySide6.QtWidgets  # noqa: F401 - it links what Qt needs of the system
+    except ImportError as error:
+        missing = missing_libraries()
+        reason = sentence_about(missing) if missing else f"Qt cannot be loaded: {error}."
+        raise occ.OccError(reason) from error
 
 
 def _parser() -> argparse.ArgumentParser:

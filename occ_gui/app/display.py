@@ -1,4 +1,4 @@
-"""Display: why no window can be opened, and the first size of one that can."""
+"""Display: why no window can be opened, and where the first one opens."""
 
 import ctypes
 import os
@@ -7,6 +7,8 @@ from pathlib import Path
 
 from PySide6.QtCore import QLibraryInfo, QRect, QSize, Qt
 from PySide6.QtWidgets import QWidget
+
+from occ_gui.app.system_libraries import missing_libraries, sentence_about
 
 NO_DISPLAY = "There is no display that a window can be opened on; use --screenshot FILE."
 
@@ -22,14 +24,12 @@ Where that is less than the sliders and the story need, the window takes the who
 
 
 def reason_for_no_window() -> str:
-    """Say why Qt cannot open a window: a library is missing, or there is no display."""
-    library = missing_library(platforms())
-    if library is None:
-        return NO_DISPLAY
-    return (
-        f"No window can be opened, because the shared library {library} is missing on this "
-        "system; install it, or use --screenshot FILE."
-    )
+    """Say why Qt cannot open a window: libraries are missing, or there is no display."""
+    missing = missing_libraries(*platforms())
+    if missing:
+        return sentence_about(missing)
+    library = unlisted_library(platforms())
+    return NO_DISPLAY if library is None else sentence_about({library: ""})
 
 
 def platforms() -> tuple[str, ...]:
@@ -41,14 +41,8 @@ def platforms() -> tuple[str, ...]:
     return tuple(platform for platform, name in named if os.environ.get(name))
 
 
-def missing_library(names: tuple[str, ...]) -> str | None:
-    """Return the first library that Qt's plug-in for a display lacks, None if it lacks none.
-
-    Parameters
-    ----------
-    names
-        The plug-ins, such as ``"xcb"``.
-    """
+def unlisted_library(names: tuple[str, ...]) -> str | None:
+    """Return the first library that Qt's plug-ins of these names lack, None if they lack none."""
     folder = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.PluginsPath), "platforms")
     for name in names:
         plugin = folder / f"libq{name}.so"

@@ -29,9 +29,11 @@ INCLUDED = "python3,python3-venv,ca-certificates"
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 HOME, INSIDE, WINDOW = "/root", "/root/project", "window.png"
 COMMANDS = (("--screenshot", WINDOW), ("test",))
-"""The README's two commands; the first draws its window into a picture, as a root has no display."""
+"""The README's two commands; a root has no display, so the first draws its window as a picture."""
 
-TITLES = ("release", "Python", "numpy", "Qt", "window, s", "tests, s", "passed", "failed", "skipped")
+TITLES = (
+    "release", "Python", "numpy", "Qt", "window, s", "tests, s", "passed", "failed", "skipped",
+)  # fmt: skip
 COUNT = re.compile(r"(\d+) (passed|failed|skipped|errors?)")
 
 
@@ -88,7 +90,7 @@ def make_root(release: str, root: Path) -> None:
     with tarfile.open(fileobj=io.BytesIO(archive)) as files:
         files.extractall(root / INSIDE[1:], filter="data")
     lines = ["[global]"]
-    for name, value in pip_settings():
+    for name, value in pip_settings().items():
         lines.append(f"{name} = {value}")
         if Path(value).is_file():  # certificates
             copy = root / value.lstrip("/")
@@ -97,15 +99,17 @@ def make_root(release: str, root: Path) -> None:
     (root / "etc/pip.conf").write_text("\n".join(lines) + "\n")
 
 
-def pip_settings() -> Iterator[tuple[str, str]]:
-    """List pip's settings on this machine, but for folders, which a root has none of."""
+def pip_settings() -> dict[str, str]:
+    """Return pip's settings on this machine, but for folders, of which a root has none."""
     command = [sys.executable, "-m", "pip", "config", "list"]
     listed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    for line in listed.splitlines():
-        name, _, value = line.partition("=")
-        text = value.strip("'\"")
-        if not (Path(text).is_dir() or text.startswith("file:")):
-            yield name.rpartition(".")[2], text
+    pairs = (line.partition("=") for line in listed.splitlines())
+    settings = {name.rpartition(".")[2]: value.strip("'\"") for name, _, value in pairs}
+    return {
+        name: value
+        for name, value in settings.items()
+        if not (value.startswith("file:") or Path(value).is_dir())
+    }
 
 
 @contextmanager

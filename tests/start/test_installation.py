@@ -20,20 +20,20 @@ def ready_venv(start: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("ready_venv")
 def test_pip_runs_only_for_extras_not_yet_there(start: ModuleType, visible: list[str]) -> None:
-    for extras in ([], [], ["test"], ["test"], []):
+    for extras in (["gui"], ["gui"], ["gui", "test"], ["gui", "test"], ["gui"]):
         start.set_up("offscreen", extras)
-    assert [line.split()[-1] for line in visible] == [".", ".[test]"]
+    assert [line.split()[-1] for line in visible] == [".[gui]", ".[gui,test]"]
 
 
 @pytest.mark.usefixtures("ready_venv")
 @pytest.mark.parametrize(
     ("extras", "kept", "option"),
     [
-        ([], True, "--no-compile "),
-        (["test"], True, "--no-compile "),
+        (["gui"], True, "--no-compile "),
+        (["gui", "test"], True, "--no-compile "),
         # An application that keeps none would compile the same modules at each of its starts.
-        ([], False, ""),
-        (["test"], False, "--no-compile "),
+        (["gui"], False, ""),
+        (["gui", "test"], False, "--no-compile "),
     ],
 )
 def test_pip_compiles_only_what_nobody_else_would_keep(
@@ -50,17 +50,17 @@ def test_pip_compiles_only_what_nobody_else_would_keep(
     start.set_up("offscreen", extras)
     (line,) = visible
     pip = f"PIP_DISABLE_PIP_VERSION_CHECK=1 {start.PYTHON} -m pip install"
-    assert line == f"{pip} {option}-e .{'[test]' if extras else ''}"
+    assert line == f"{pip} {option}-e .[{','.join(extras)}]"
 
 
 @pytest.mark.usefixtures("ready_venv")
 def test_a_changed_project_is_installed_with_the_same_extras(
     start: ModuleType, visible: list[str]
 ) -> None:
-    start.set_up("offscreen", ["test"])
+    start.set_up("offscreen", ["gui", "test"])
     (start.ROOT / "pyproject.toml").write_text("[project]\nname = 'other'\n")
-    start.set_up("offscreen", [])
-    assert [line.split()[-1] for line in visible] == [".[test]", ".[test]"]
+    start.set_up("offscreen", ["gui"])
+    assert [line.split()[-1] for line in visible] == [".[gui,test]", ".[gui,test]"]
 
 
 def test_a_stamp_of_another_installation_does_not_serve(
@@ -89,9 +89,9 @@ def test_a_damaged_stamp_counts_as_none(start: ModuleType, text: str) -> None:
 
 @pytest.mark.usefixtures("ready_venv", "visible")
 def test_a_failed_pip_leaves_no_stamp(start: ModuleType, monkeypatch: pytest.MonkeyPatch) -> None:
-    start.set_up("offscreen", [])
+    start.set_up("offscreen", ["gui"])
     assert start.STAMP.exists()
     monkeypatch.setattr(start, "run_visibly", lambda command, **settings: False)
     with pytest.raises(start.SetUpError, match="pip could not install"):
-        start.set_up("offscreen", ["test"])
+        start.set_up("offscreen", ["gui", "test"])
     assert not start.STAMP.exists()

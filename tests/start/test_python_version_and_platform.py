@@ -1,12 +1,13 @@
 """The laws of `resources/start.py` on the Python that runs it and on where the window goes."""
 
 import ast
+import re
 import subprocess
 import sys
 import tomllib
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 
 import pytest
 
@@ -16,7 +17,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-
 # The Python that runs the script
 
 
-@pytest.mark.parametrize("version", [(2, 7), (3, 6), (3, 10), (3, 14), (4, 0)])
+@pytest.mark.parametrize("version", [(2, 7), (3, 6), (3, 10)])
 def test_an_unsupported_python_is_named_in_the_sentence(
     start: ModuleType, version: tuple[int, int]
 ) -> None:
@@ -27,21 +28,37 @@ def test_the_supported_pythons_are_those_of_the_project(
     start: ModuleType, project_folder: Path
 ) -> None:
     project = tomllib.loads((project_folder / "pyproject.toml").read_text())["project"]
-    (major, oldest), (_, newest) = start.OLDEST, start.NEWEST
-    assert project["requires-python"] == f">={major}.{oldest},<{major}.{newest + 1}"
-    for minor in range(oldest, newest + 1):
-        assert start.version_problem(major, minor) == ""
-        assert f"{major}.{minor}" in start.version_problem(2, 7)
+    (major, oldest), (_, newest) = start.OLDEST, start.NEWEST_TRIED
+    assert project["requires-python"] == f">={major}.{oldest}"
+    tried = [f"{major}.{minor}" for minor in range(oldest, newest + 1)]
+    named = re.findall(r"Python :: (\d+\.\d+)", " ".join(project["classifiers"]))
+    assert named == tried
+    assert {start.version_problem(major, minor) for minor in range(oldest, newest + 9)} == {""}
+    assert f"{major}.{oldest}" in start.version_problem(2, 7)
 
 
-@pytest.mark.parametrize("version", ["(3, 8, 18)", "(3, 14, 0)"])
-def test_an_unsupported_python_stops_with_one_sentence(
-    script: Path, run_captured: Callable[..., subprocess.CompletedProcess[str]], version: str
+@pytest.mark.parametrize(("newer", "sentences"), [(0, 0), (1, 1)])
+def test_a_python_newer_than_was_tried_is_named_once_and_used(
+    start: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+    newer: int,
+    sentences: int,
 ) -> None:
-    pretend = f"import runpy, sys; sys.version_info = {version}; runpy.run_path({str(script)!r})"
+    monkeypatch.setattr(start, "NEWEST_TRIED", (3, sys.version_info[1] - newer))
+    monkeypatch.setattr(subprocess, "run", lambda command, **options: SimpleNamespace(returncode=0))
+    start.make_venv()
+    said = capsys.readouterr().err
+    assert said.count("the newest that was tried; going on.") == sentences == said.count("\n")
+
+
+def test_an_unsupported_python_stops_with_one_sentence(
+    script: Path, run_captured: Callable[..., subprocess.CompletedProcess[str]]
+) -> None:
+    pretend = f"import runpy, sys; sys.version_info = (3, 8, 18); runpy.run_path({str(script)!r})"
     run = run_captured([sys.executable, "-c", pretend])
     assert run.returncode == 1
-    assert run.stderr.startswith("This project needs Python 3.11")
+    assert run.stderr.startswith("This project needs Python 3.11 or newer")
     assert run.stderr.count("\n") == 1
 
 

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-
 def echoing_venv(start: ModuleType, put_program: Callable[[Path, str], None]) -> None:
     """Make a finished .venv whose Python echoes what it is asked to run."""
     put_program(start.PYTHON, 'if [ "$1" = -I ]; then echo 3 12; else echo "$@"; fi')
-    start.STAMP.write_text(json.dumps(start.wanted_stamp("3.12", ["test"])))
+    start.STAMP.write_text(json.dumps(start.wanted_stamp("3.12", ["gui", "test"])))
 
 
 def script_of(start: ModuleType) -> Path:
@@ -159,7 +159,7 @@ def test_the_checks_run_without_a_display_by_default(
     )
     monkeypatch.setattr(start, "run_checks", lambda arguments: 7 if arguments == ["-x"] else 0)
     assert start.main(["test", "-x"]) == 7
-    assert set_ups == [(used, ["test"])]
+    assert set_ups == [(used, ["gui", "test"])]
     assert os.environ["QT_QPA_PLATFORM"] == used
 
 

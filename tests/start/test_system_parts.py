@@ -11,6 +11,8 @@ from types import ModuleType, SimpleNamespace
 
 import pytest
 
+from occ_gui.app import system_libraries
+
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
 
 
@@ -38,14 +40,14 @@ def test_only_libraries_of_the_platform_in_use_are_asked_for(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, platform: str, found_missing: list[str]
 ) -> None:
     absent = {"libEGL.so.1", "libxcb-icccm.so.4", "libwayland-cursor.so.0"}
-    monkeypatch.setattr(start, "loads", lambda library: library not in absent)
+    monkeypatch.setattr(system_libraries, "loads", lambda library: library not in absent)
     monkeypatch.setattr(start, "has_font", lambda: True)
     assert list(start.missing_parts(platform, False).values()) == found_missing
 
 
-def test_a_library_counts_as_there_when_the_linker_loads_it(start: ModuleType) -> None:
-    assert start.loads("libc.so.6")
-    assert not start.loads("libnothing-of-this-name.so.1")
+def test_a_library_counts_as_there_when_the_linker_loads_it() -> None:
+    assert system_libraries.loads("libc.so.6")
+    assert not system_libraries.loads("libnothing-of-this-name.so.1")
 
 
 @pytest.mark.parametrize(("programs", "asked_for"), [(["apt-get"], True), ([], False)])
@@ -53,7 +55,7 @@ def test_a_font_is_asked_for_only_where_its_package_is_known(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, programs: list[str], asked_for: bool
 ) -> None:
     on_path(monkeypatch, *programs)
-    monkeypatch.setattr(start, "loads", lambda library: True)
+    monkeypatch.setattr(system_libraries, "loads", lambda library: True)
     monkeypatch.setattr(start, "has_font", lambda: False)
     assert ("fonts-dejavu-core" in start.missing_parts("", False).values()) == asked_for
 
@@ -77,7 +79,7 @@ def test_a_font_in_the_home_folder_counts(
 def test_only_making_a_venv_needs_pythons_venv_package(
     start: ModuleType, monkeypatch: pytest.MonkeyPatch, making_venv: bool
 ) -> None:
-    monkeypatch.setattr(start, "loads", lambda library: True)
+    monkeypatch.setattr(system_libraries, "loads", lambda library: True)
     monkeypatch.setattr(start, "has_font", lambda: True)
     monkeypatch.setattr(importlib.util, "find_spec", lambda name: None)
     packages = list(start.missing_parts("", making_venv).values())

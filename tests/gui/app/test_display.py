@@ -1,14 +1,17 @@
 """The display: a missing library is named, and the first window is whole on any screen."""
 
 import ctypes
+import shlex
+import shutil
 
 import pytest
 from PySide6.QtCore import QRect
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app import display
-from occ_gui.app.display import first_place, missing_library, open_first, reason_for_no_window
+from occ_gui.app import display, system_libraries
+from occ_gui.app.display import first_place, open_first, reason_for_no_window, unlisted_library
+from occ_gui.app.system_libraries import APT_INSTALL, DISPLAY_LIBRARIES
 
 SCREENS = [(0, 0, 800, 600), (0, 28, 1024, 740), (0, 0, 1280, 800), (60, 0, 1920, 1080),
            (0, 0, 2560, 1600), (-1920, 0, 1920, 1040)]  # fmt: skip
@@ -21,13 +24,30 @@ def refuse(monkeypatch: pytest.MonkeyPatch, reason: str) -> None:
         raise OSError(reason)
 
     monkeypatch.setattr(ctypes, "CDLL", load)
+    monkeypatch.setattr(system_libraries, "loads", lambda library: True)
     monkeypatch.setenv("QT_QPA_PLATFORM", "xcb")
 
 
-def test_a_library_that_is_missing_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    refuse(monkeypatch, "libxcb-cursor.so.0: cannot open shared object file: No such file")
-    assert missing_library(("xcb",)) == "libxcb-cursor.so.0"
-    assert "libxcb-cursor.so.0" in reason_for_no_window()
+def test_all_missing_libraries_are_named_with_the_line_that_installs_them(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    absent = DISPLAY_LIBRARIES["xcb"]
+    monkeypatch.setattr(system_libraries, "loads", lambda library: library not in absent)
+    monkeypatch.setattr(shutil, "which", lambda name: name if name == "apt-get" else None)
+    monkeypatch.setenv("QT_QPA_PLATFORM", "xcb")
+    reason = reason_for_no_window()
+    assert all(library in reason for library in absent)
+    assert f"'apt-get update && {shlex.join([*APT_INSTALL, *absent.values()])}'" in reason
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    assert "apt-get" not in reason_for_no_window()
+    monkeypatch.setenv("QT_QPA_PLATFORM", "wayland")
+    assert "libxcb" not in reason_for_no_window()
+
+
+def test_a_library_that_no_table_lists_is_named_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    refuse(monkeypatch, "libnew.so.0: cannot open shared object file: No such file")
+    assert unlisted_library(("xcb",)) == "libnew.so.0"
+    assert "libnew.so.0" in reason_for_no_window()
 
 
 def test_where_no_library_is_missing_there_is_no_display(monkeypatch: pytest.MonkeyPatch) -> None:

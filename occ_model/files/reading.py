@@ -68,7 +68,7 @@ def read_start(path: Path, count: int) -> bytes:
     except OSError as error:
         raise _failed(path, error) from None
     except ValueError as error:  # a name that no file can have
-        raise _unreadable(path, str(error)) from None
+        raise _unreadable(path, reason_of(error)) from None
     try:
         _check_kind(path, os.fstat(descriptor).st_mode)
         chunks, left = [], count
@@ -113,7 +113,14 @@ def _check_kind(path: Path, mode: int) -> None:
 def _failed(path: Path, error: OSError) -> SceneFileError:
     if error.errno == errno.ENXIO:  # a socket, or a device that is not there
         return _unreadable(path, _NO_FILE)
-    return _unreadable(path, error.strerror or str(error))
+    return _unreadable(path, reason_of(error))
+
+
+def reason_of(error: OSError | ValueError) -> str:
+    """Say why a path cannot be opened; Python refuses names that no system knows by ValueError."""
+    if isinstance(error, OSError):
+        return error.strerror or str(error)
+    return "no file can have this name"
 
 
 def _unreadable(path: Path, reason: str) -> SceneFileError:

@@ -12,6 +12,7 @@ from typing import Any
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
+from occ_model.files.reading import reason_of
 
 _FORMATS = {
     ".png": "PNG",
@@ -116,8 +117,7 @@ _ANY_WRITE = stat.S_IWUSR | stat.S_IWGRP | stat.S_IWOTH
 
 
 def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
-    reason = getattr(error, "strerror", None) or error
-    return OutputError(f"{one_line(str(path))} cannot be written: {reason}.")
+    return OutputError(f"{one_line(str(path))} cannot be written: {reason_of(error)}.")
 
 
 def _replace(path: Path, content: bytes, permissions: int | None) -> None:
@@ -224,5 +224,4 @@ def make_folder(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or error
-        raise OutputError(f"{one_line(str(folder))} cannot be made: {reason}.") from None
+        raise OutputError(f"{one_line(str(folder))} cannot be made: {reason_of(error)}.") from None

@@ -64,12 +64,13 @@ def try_release(release: str, folder: Path) -> tuple[str, ...]:
         for arguments in COMMANDS:
             print(f"{release}: start.py {' '.join(arguments)}", file=sys.stderr, flush=True)
             begin = time.monotonic()
-            code, output = run_inside(root, ["python3", "resources/start.py", *arguments])
+            log = folder / f"{release}-{arguments[0].lstrip('-')}.log"
+            code = run_inside(root, ["python3", "resources/start.py", *arguments], log)
+            output = log.read_text(errors="replace")
             times.append(f"{time.monotonic() - begin:.0f}")
-            (folder / f"{release}-{arguments[0].lstrip('-')}.log").write_text(output)
             if code != 0:
                 times[-1] += f" (exit code {code})"
-        parts = versions(root)
+        parts = versions(root, folder / f"{release}-versions.log")
     counts = {name.rstrip("s"): number for number, name in COUNT.findall(output)}
     failed = int(counts.get("failed", 0)) + int(counts.get("error", 0))
     is_whole = "Every check passed." in output and (root / INSIDE[1:] / WINDOW).is_file()
@@ -125,24 +126,23 @@ def mounted(root: Path) -> Iterator[None]:
         yield
 
 
-def run_inside(root: Path, command: Sequence[str]) -> tuple[int, str]:
-    """Run a command in the project's folder of a root; return its exit code and output."""
+def run_inside(root: Path, command: Sequence[str], log: Path) -> int:
+    """Run a command in the project's folder of a root; return its exit code."""
     empty = ["env", "-i", f"HOME={HOME}", f"PATH={PATH}", "LANG=C.UTF-8"]
     enter = ["chroot", str(root), *empty, "sh", "-c", f'cd {INSIDE} && exec "$@"', "sh"]
-    done = subprocess.run(
-        [*enter, *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
-    )
-    return done.returncode, done.stdout
+    with log.open("wb") as file:
+        done = subprocess.run([*enter, *command], stdout=file, stderr=file, check=False)
+    return done.returncode
 
 
-def versions(root: Path) -> tuple[str, str, str]:
+def versions(root: Path, log: Path) -> tuple[str, str, str]:
     """Return the versions of Python, numpy and Qt that a root's set-up chose."""
     ask = (
         "import sys; from importlib.metadata import version; "
         "print(sys.version.split()[0], version('numpy'), version('PySide6-Essentials'))"
     )
-    code, output = run_inside(root, [".venv/bin/python", "-c", ask])
-    python, numpy, qt = output.split() if code == 0 else ("?", "?", "?")
+    code = run_inside(root, [".venv/bin/python", "-c", ask], log)
+    python, numpy, qt = log.read_text().split() if code == 0 else ("?", "?", "?")
     return python, numpy, qt
 
 

@@ -21,6 +21,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 NAME = "occ-explorer"
+WINDOW_EXTRA = re.compile(r"""extra == ['"]gui['"]""")
 LICENCE_FILE = re.compile(r"(licen[cs]e|copying|notice|authors)", re.IGNORECASE)
 
 
@@ -123,7 +124,8 @@ def contained(name: str) -> Iterator[Distribution]:
             yield package
         for requirement in package.requires or ():
             needed = re.split(r"[\s;<>=!~\[(]", requirement, maxsplit=1)[0].lower()
-            if "extra ==" in requirement or needed in seen:
+            is_window = package.name == NAME and WINDOW_EXTRA.search(requirement)
+            if needed in seen or ("extra ==" in requirement and not is_window):
                 continue
             seen.add(needed)
             try:

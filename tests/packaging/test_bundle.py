@@ -108,3 +108,4 @@ def test_the_bundle_runs_without_python(bundle: Path, tmp_path: Path) -> None:
     assert table.read_text(encoding="utf-8").count(",equalizer,") == 2
     assert (bundle / "licences" / "occ-explorer.txt").is_file()
     assert len(list((bundle / "licences").iterdir())) > 15
+    assert len(list((bundle / "licences").glob("pyqtgraph-*"))) == 1  # an extra, yet in the bundle

@@ -48,7 +48,7 @@ class LimitCards(QWidget):
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
         self._sentences = AdviceSentences(self)
-        self._is_known = self._is_running = False
+        self._is_complete = self._is_running = self._is_outdated = False
         self._waiting = QTimer(self, singleShot=True)
         self._waiting.setInterval(_REST_MS)
         self._waiting.timeout.connect(self._ask)
@@ -71,18 +71,22 @@ class LimitCards(QWidget):
         super().hideEvent(event)
         self._waiting.stop()
 
+    @property
+    def _is_wanted(self) -> bool:
+        return not self._is_running and (self._is_outdated or not self._is_complete)
+
     def _plan(self) -> None:
-        if self.isVisible() and not self._is_known and not self._is_running:
+        if self.isVisible() and self._is_wanted:
             self._waiting.start()
 
     def _ask(self) -> None:
-        if not self._is_known and not self._is_running:
+        if self._is_wanted:
             self.asked.emit()
 
     def show_begun(self) -> None:
         """Show that the limits are searched."""
         self._waiting.stop()
-        self._is_running, self._is_known = True, False
+        self._is_running, self._is_outdated = True, False
         for card in self.cards.values():
             card.show_searching()
 
@@ -95,14 +99,14 @@ class LimitCards(QWidget):
 
     def show_ended(self, why_not: str = "") -> None:
         """Show that the search has ended, and why where it has not found all limits."""
-        self._is_running, self._is_known = False, not why_not
+        self._is_running, self._is_complete = False, not why_not
         if why_not:
             for card in self.cards.values():
                 card.show_unknown(why_not)
 
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the limits are of an earlier scene; if so they are asked for again."""
-        self._is_known = not outdated and not self._is_running
+        self._is_outdated = outdated
         for card in self.cards.values():
             card.set_outdated(outdated)
         self._waiting.stop()
@@ -128,6 +132,7 @@ class LimitCard(QFrame):
         self.setObjectName("card")
         self._decoder = decoder
         self._destination: float | None = None
+        self._is_outdated = False
         self.name = ElidedLabel(decoder)
         self.value = QLabel()
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
@@ -161,14 +166,22 @@ class LimitCard(QFrame):
         self._destination = destination
         self.value.setText(text)
         self.value.setToolTip(tip)
-        self.go.setEnabled(destination is not None)
         # Not the limit itself, but a frequency inside of it: the button says which.
         self.go.setText(
             self.tr("Go")
             if destination is None
             else self.tr("Go to {value}").format(value=formatted_frequency(destination))
         )
-        self.go.setToolTip(tip)
+        self._show_way()
+
+    def _show_way(self) -> None:
+        """Enable the button where it leads to a limit of this scene, and say so or why not."""
+        self.go.setEnabled(self._destination is not None and not self._is_outdated)
+        self.go.setToolTip(
+            self.tr("Of an earlier scene: the limit is searched for again while this is seen.")
+            if self._is_outdated
+            else self.value.toolTip()
+        )
 
     def show_unknown(self, why: str = "") -> None:
         """Show that the limit is not known, and why if it was searched."""
@@ -207,11 +220,11 @@ class LimitCard(QFrame):
 
     def set_outdated(self, outdated: bool) -> None:
         """Show whether the limit is of an earlier scene."""
+        self._is_outdated = outdated
         self.value.setEnabled(not outdated)
         self.name.set_full_text(
             self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
             if outdated
             else self.tr("{name} reads up to").format(name=self._decoder.capitalize())
         )
-        if outdated:
-            self.go.setEnabled(False)
+        self._show_way()

@@ -330,3 +330,20 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
     assert state() == ({True}, [True, True, True])
     advised.detection.image_effects.click()
     assert state() == ({False}, [False, False, False])
+
+
+def test_the_buttons_of_the_cards_live_again_when_their_scene_comes_back(
+    advised: Application,
+) -> None:
+    cards = advised.detection.advice.cards.cards.values()
+    first = advised.store.scene
+    advised.store.change(iso=200.0)
+    for card in cards:
+        assert not card.go.isEnabled()
+        assert "earlier scene" in card.go.toolTip()
+    advised.store.put(first, "preset")
+    for card in cards:
+        assert card.go.isEnabled()
+        assert "14.55 kHz" in card.go.toolTip()
+    card.go.click()
+    assert advised.store.scene == first.replace(switching_frequency=INSIDE.value)

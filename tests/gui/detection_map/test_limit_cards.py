@@ -128,6 +128,17 @@ def test_limits_are_asked_for_once_and_not_for_a_scene_that_came_back(
     assert not cards.is_waiting
 
 
+def test_limits_whose_search_was_broken_off_are_asked_for_when_their_scene_comes_back(
+    cards: LimitCards,
+) -> None:
+    cards.show()
+    cards.show_begun()
+    cards.show_ended("The scene has changed; ask again.")
+    cards.show_outdated(True)
+    cards.show_outdated(False)
+    assert cards.is_waiting
+
+
 def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:
     why = "A raw pattern holds no code; a success rate needs packets."
     cards.show_begun()

@@ -116,14 +116,19 @@ class SessionFile:
             make_folder(folder)
             self._open()
 
+    def _paths(self) -> list[Path]:
+        numbers = range(1, _MOST_WINDOWS + 1)
+        return [self._folder / f"session-{number}.json" for number in numbers]
+
     def _open(self) -> None:
         """Lock a file that no other window uses, preferably that of a window that crashed."""
-        numbers = range(1, _MOST_WINDOWS + 1)
-        paths = [self._folder / f"session-{number}.json" for number in numbers]
+        paths = self._paths()
         records = {path: _record_in(path) for path in paths}
         readable = [path for path in paths if records[path] is not None]
         if readable:
-            self.last = self._session(records[max(readable, key=_time_of)])
+            self.last = self._session(
+                records[max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))]
+            )
         for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
             if is_something_else(path.with_suffix(".lock")):  # QLockFile would block on a pipe
                 continue
@@ -178,6 +183,8 @@ class SessionFile:
         scene, settings = session.scene, session.settings
         record = {
             "format": _FORMAT,
+            # Which session was written last is counted: clocks can be put back.
+            "count": 1 + max(_count_in(_record_in(path)) for path in self._paths()),
             "in_use": in_use,
             "scene": "" if scene is None else scene.to_toml(),
             "settings": None if settings is None else asdict(settings),
@@ -206,6 +213,11 @@ def _record_in(path: Path) -> dict[str, Any] | None:
 
 def _is_in_use(record: dict[str, Any] | None) -> bool:
     return record is not None and record.get("in_use") is True
+
+
+def _count_in(record: dict[str, Any] | None) -> int:
+    count = None if record is None else record.get("count")
+    return count if type(count) is int and count > 0 else 0
 
 
 def _time_of(path: Path) -> int:

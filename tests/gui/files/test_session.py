@@ -229,6 +229,24 @@ def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Start, tmp_path: Pa
     assert (tmp_path / "state" / "session-1.unreadable").read_text() == left
 
 
+def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
+    start: Start, tmp_path: Path, small_scene: Scene
+) -> None:
+    folder = tmp_path / "state"
+    first, second = SessionFile(folder, NAMES), SessionFile(folder, NAMES)
+    first.write(Session(small_scene.replace(iso=99.0)), in_use=False)
+    second.write(Session(small_scene.replace(iso=101.0)), in_use=False)
+    first.write(Session(small_scene.replace(iso=103.0)), in_use=False)
+    for file in (first, second):
+        file.close()
+    in_a_year = time.time() + 365 * 86400
+    os.utime(folder / "session-2.json", (in_a_year, in_a_year))
+    for iso in (103.0, 104.0):
+        with start() as application:
+            assert application.store.scene.camera.iso == iso
+            application.store.change(iso=iso + 1.0)
+
+
 def kept_scene(path: Path) -> Scene:
     """Read the scene in a session file."""
     return Scene.from_toml(json.loads(path.read_text(encoding="utf-8"))["scene"])

@@ -20,7 +20,9 @@ from occ_gui.files.autosave import Autosave
 from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files.preset_controller import PresetController
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session, UserState
 from occ_gui.help.help_menu import HelpMenu
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
@@ -64,6 +66,7 @@ class Parts(Protocol):
     editor: SceneEditor
     settings: SettingsStore
     preferences: Preferences
+    presets: PresetController
     files: FileController
     photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
@@ -128,13 +131,13 @@ class Desktop(QObject):
         self.text_size = TextSize()
         window.dress()
         self.layout = DockLayout(window, window.modes, preferences)
-        lamps = parts.photo_wiring.lamps
-        self.autosave = Autosave(
-            parts.store, parts.settings, self.document, lambda: self._photo,
-            parts.learning.users_own, lambda: lamps.rectangle, lambda: parts.video.path,
-        )  # fmt: skip
-        lamps.region_changed.connect(self.autosave.note_change)
-        parts.video.film_changed.connect(self.autosave.note_change)
+        self.autosave = Autosave(parts.store, parts.settings, self.document, self.session)
+        for changed in (
+            parts.photo_wiring.lamps.region_changed,
+            parts.video.film_changed,
+            parts.learning.pins.changed,
+        ):
+            changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
         self.pointer = CursorReadout(parts.profile, parts.image)
         self.transmitter: TransmitterController | None = None
@@ -215,13 +218,30 @@ class Desktop(QObject):
             and (self.transmitter is None or self.transmitter.is_idle)
         )
 
+    def session(self) -> Session:
+        """Return what the user is working on; what a lesson shows in its place is not kept."""
+        parts = self._parts
+        aside = parts.learning.users_own()
+        own = aside or UserState(parts.store.scene, parts.settings.settings, self._photo)
+        return Session(
+            scene=own.scene,
+            settings=own.settings,
+            scene_file=self.document.path,
+            photo=own.photo,
+            region=None if aside else parts.photo_wiring.lamps.rectangle,
+            film=parts.video.path,
+            preset=parts.presets.base_of(own.scene),
+            pins=parts.learning.pins.kept,
+            history=parts.store.history((own.scene, own.settings.force)),
+        )
+
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
         """Restore the last session before the window is shown, and store this one.
 
         Parameters
         ----------
         file
-            The file of this window's session, which also contains the scene of a crash.
+            The file of this window's session, which also contains that of a crash.
         session
             The last session; its scene and settings are in the stores already.
         scene_wins
@@ -240,7 +260,12 @@ class Desktop(QObject):
             if (whose := preferences.recall(_PICTURE)) in PICTURES:
                 self._parts.image.choose_picture(whose)
             self.brightness.switch(preferences.recall(_HOLD) == _YES)
+            left = file.crashed or session
+            self._parts.learning.pins.restore(left.pins)
+            if left.scene is not None:
+                self._parts.presets.resume(left.scene, left.preset)
         self.autosave.resume(file, session, scene_wins)
+        self.autosave.written.connect(self._keep_view)
 
     def _on_photo(self, photo: Photo | None) -> None:
         self._photo = None if photo is None else photo.path
@@ -284,12 +309,15 @@ class Desktop(QObject):
         if chosen is not None:
             chosen.run()
 
-    def end(self) -> None:
-        """Store layout, options and session for the next start."""
-        if self.autosave.is_kept:
+    def _keep_view(self) -> None:
+        """Store how the window looks, unless a lesson has its own panes in it."""
+        if self._parts.learning.users_own() is None:
             self.layout.keep()
             self._parts.preferences.keep(_OVERLAY, self._parts.image.mode.key())
             self._parts.preferences.keep(_PICTURE, self._parts.image.whose)
+
+    def end(self) -> None:
+        """Store layout, options and session for the next start."""
         self.autosave.end()
 
     def stop(self) -> None:

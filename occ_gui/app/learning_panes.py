@@ -9,7 +9,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QDockWidget, QWidget
 
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session import UserState
+from occ_gui.files.session_record import UserState
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.image_view import ImageView
@@ -216,11 +216,12 @@ class LearningPanes(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all answers are checked and all reports written."""
-        return "lessons" not in vars(self) or self.lessons.is_idle
+        """Whether all answers are checked, all reports written, and all pins restored."""
+        return self.pins.is_idle and ("lessons" not in vars(self) or self.lessons.is_idle)
 
     def stop(self) -> None:
         """Stop all work in the background."""
+        self.pins.stop()
         if "lessons" in vars(self):
             self.lessons.stop()
 

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from PySide6.QtCore import QSettings
 
     from occ_gui.app.application import Application
-    from occ_gui.files.session import Session, SessionFile
+    from occ_gui.files.session import SessionFile
+    from occ_gui.files.session_record import Session
 
 
 _NAMES = ("occ-explorer", "occ-gui")
@@ -87,7 +88,8 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     own
         Whether the settings are the defaults, as the command line names none.
     """
-    from occ_gui.files.session import Session, SessionFile, state_folder
+    from occ_gui.files.session import SessionFile, state_folder
+    from occ_gui.files.session_record import Session
 
     asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
     if options.screenshot:  # it does not depend on the last session

@@ -1,17 +1,18 @@
 """Autosave: writes the session at most a second after every change, and restores it at a start."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.files.document import Document
 from occ_gui.files.kept_file import is_readable
-from occ_gui.files.session import Session, SessionFile, UserState
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
-from occ_model.results import Region
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.scene import Scene
 
@@ -28,34 +29,26 @@ class Autosave(QObject):
         The stores of the scene and of the settings of its simulation.
     document
         Knows the file of the scene.
-    photo
-        Returns the path of the open photo, if any.
-    region
-        Returns the rectangle of the photo that was drawn by hand, if any.
-    film
-        Returns the path of the open film, if any.
-    set_aside
-        Returns what the user was working on, while a lesson shows something else.
+    present
+        Returns what the user is working on.
     """
 
     status_message = Signal(str)
     """What has been restored, or why the session cannot be written; the latter is not repeated."""
 
-    def __init__(  # noqa: PLR0917 - one a part of the session
+    written = Signal()
+    """The session is on the disk."""
+
+    def __init__(
         self,
         store: SceneStore,
         settings: SettingsStore,
         document: Document,
-        photo: Callable[[], Path | None],
-        set_aside: Callable[[], UserState | None],
-        region: Callable[[], Region | None] = lambda: None,
-        film: Callable[[], Path | None] = lambda: None,
+        present: Callable[[], Session],
     ) -> None:
         super().__init__()
         self._store, self._settings = store, settings
-        self._document = document
-        self._photo, self._region, self._film = photo, region, film
-        self._set_aside = set_aside
+        self._document, self._present = document, present
         self._file: SessionFile | None = None
         self._has_failed = False
         # Started by the first change only: if each change restarted it, it would never run out
@@ -75,7 +68,7 @@ class Autosave(QObject):
         Parameters
         ----------
         file
-            The window's file, which also contains the scene of a window that crashed.
+            The window's file, which also contains the session of a window that crashed.
         session
             The session; its scene and settings are in the stores already, if they are wanted.
         scene_wins
@@ -91,10 +84,17 @@ class Autosave(QObject):
             store.changed.connect(self.note_change)
         self.note_change()
 
-    def _restore(self, crashed: Scene, asked: Scene, scene_wins: bool) -> None:
-        self._store.put(crashed, self.tr("restoring of the last session"))
+    def _restore(self, left: Session, asked: Scene, scene_wins: bool) -> None:
+        """Restore the scene of a crash with the steps that led to it, or as a step if it is old."""
+        crashed, force = left.scene, self._settings.settings.force
+        if crashed is None:
+            return
+        left_force = force if left.settings is None else left.settings.force
+        self._store.put(crashed, self.tr("restoring of the last session"), force=left_force)
+        if left.history is not None and (scene_wins or crashed == asked):
+            self._store.resume(left.history)
         if scene_wins and crashed != asked:
-            self._store.put(asked, self.tr("opening of what was asked for"))
+            self._store.put(asked, self.tr("opening of what was asked for"), force=force)
             message = self.tr(
                 "The last session did not come to its end; Undo brings its scene back."
             )
@@ -102,9 +102,14 @@ class Autosave(QObject):
             message = self.tr("The last session did not come to its end: its scene is restored.")
         self.status_message.emit(message)
 
+    @property
+    def is_due(self) -> bool:
+        """Whether something has changed that is not written yet."""
+        return self._timer.isActive()
+
     def note_change(self) -> None:
         """Write the session within :data:`LONGEST_WAIT_MS`: a part of it has changed."""
-        if self._file is not None and not self._timer.isActive():
+        if self._file is not None and not self.is_due:
             self._timer.start()
 
     def write(self) -> None:
@@ -115,14 +120,9 @@ class Autosave(QObject):
         self._timer.stop()
         if self._file is None:
             return
-        aside = self._set_aside()
-        own = aside or UserState(self._store.scene, self._settings.settings, self._photo())
-        region = None if aside else self._region()
-        session = Session(
-            own.scene, own.settings, self._document.path, own.photo, region, self._film()
-        )
+        session = self._present()
         try:
-            self._file.write(session, in_use)
+            self._file.write(session if in_use else replace(session, history=None), in_use)
         except OccError as error:
             if not self._has_failed:
                 self._has_failed = True
@@ -133,6 +133,7 @@ class Autosave(QObject):
                 )
             return
         self._has_failed = False
+        self.written.emit()
 
     def end(self) -> None:
         """Write the session for the last time, and release its file."""

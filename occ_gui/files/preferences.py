@@ -125,7 +125,7 @@ class Preferences(QObject):
     def _write(self, key: str, value: str | list[str]) -> None:
         if self._settings is None:
             self._unstored[key] = value
-        else:
+        elif value != self._value(key):  # each writing of one writes the whole file
             self._settings.setValue(key, value)
 
 

@@ -119,6 +119,19 @@ class PresetController(QObject):
         if len(self._bases) > MOST_STEPS:
             del self._bases[next(iter(self._bases))]
 
+    def base_of(self, scene: Scene) -> str:
+        """Return the preset that the present or an earlier scene was; empty where none is known."""
+        base = self._base if scene == self._followed else self._bases.get(scene)
+        return base or ""
+
+    def resume(self, scene: Scene, base: str) -> None:
+        """Have a scene of an earlier window be what a preset was changed to."""
+        if base:
+            self._followed, self._base = scene, base
+            self.keep_base()
+            self._followed = None  # so that the present scene is looked for among the kept ones
+            self.changed.emit()
+
     def load(self, name: str) -> None:
         """Load the scene of a preset, as one step that can be undone."""
         try:

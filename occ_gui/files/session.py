@@ -1,29 +1,19 @@
-"""Session: what a window is working on, stored in one file that the window keeps locked."""
+"""Session file: what a window is working on, in one file that the window keeps locked."""
 
 import json
 import os
 from collections.abc import Collection
 from contextlib import suppress
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QLockFile
 
 from occ_gui.files.kept_file import LARGEST, is_something_else
-from occ_gui.files.preferences import text_of
+from occ_gui.files.session_record import Session, record_of, session_in
 from occ_model.errors import OccError, OutputError
 from occ_model.files.reading import read_text
 from occ_model.files.writing import make_folder, write_whole
-from occ_model.results import Region
-from occ_model.scene.argument_checks import check_seed
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import (
-    NOISE_SOURCES,
-    OBSERVABLES,
-    TOLERANCE,
-    SimulationSettings,
-)
 
 STATE_FOLDER = "OCC_STATE"
 """The environment variable that names another folder for the files that the program keeps."""
@@ -45,51 +35,6 @@ def state_folder() -> Path:
     return user_state_path("occ-explorer", appauthor=False)
 
 
-@dataclass(frozen=True, slots=True)
-class UserState:
-    """What the user is working on, or was before a lesson began.
-
-    Parameters
-    ----------
-    scene, settings
-        The scene, and the settings of its simulation with the forced effects.
-    photo
-        The photo that is open, if any.
-    """
-
-    scene: Scene
-    settings: SimulationSettings
-    photo: Path | None
-
-
-@dataclass(frozen=True, slots=True)
-class Session:
-    """What a window is working on, as far as it is known.
-
-    Parameters
-    ----------
-    scene
-        The scene.
-    settings
-        The settings of its simulation.
-    scene_file
-        The file that the scene is saved to.
-    photo
-        The photo that is open.
-    region
-        The rectangle of the photo that was drawn by hand.
-    film
-        The film that is open.
-    """
-
-    scene: Scene | None = None
-    settings: SimulationSettings | None = None
-    scene_file: Path | None = None
-    photo: Path | None = None
-    region: Region | None = None
-    film: Path | None = None
-
-
 class SessionFile:
     """The session file of one window, locked while the window is open.
 
@@ -107,8 +52,8 @@ class SessionFile:
         self._folder, self._effects = folder, effects
         self._lock: QLockFile | None = None
         self._path: Path | None = None
-        self.crashed: Scene | None = None
-        """The scene of a window that crashed."""
+        self.crashed: Session | None = None
+        """The session of a window that crashed; it has a scene."""
         self.last = Session()
         """The session that was written last, whichever window wrote it."""
         # If the folder cannot be made, the first writing reports it.
@@ -126,9 +71,8 @@ class SessionFile:
         records = {path: _record_in(path) for path in paths}
         readable = [path for path in paths if records[path] is not None]
         if readable:
-            self.last = self._session(
-                records[max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))]
-            )
+            newest = max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))
+            self.last = session_in(records[newest], self._effects)
         for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
             if is_something_else(path.with_suffix(".lock")):  # QLockFile would block on a pipe
                 continue
@@ -141,27 +85,14 @@ class SessionFile:
             return
 
     def _recover(self, path: Path) -> None:
-        """Take over a file: restore the scene of a crash, and put damaged content aside."""
+        """Take over a file: restore the session of a crash, and put damaged content aside."""
         record = _record_in(path)  # now that no other window can write it
-        scene = self._session(record).scene
-        if _is_in_use(record):
-            self.crashed = scene
-        if os.path.lexists(path) and scene is None:
+        session = session_in(record, self._effects)
+        if _is_in_use(record) and session.scene is not None:
+            self.crashed = session
+        if os.path.lexists(path) and session.scene is None:
             with suppress(OSError):
                 path.replace(path.with_suffix(".unreadable"))
-
-    def _session(self, record: dict[str, Any] | None) -> Session:
-        """Read a session; invalid parts are left out."""
-        if record is None:
-            return Session()
-        return Session(
-            scene=_scene(record.get("scene")),
-            settings=_settings(record.get("settings"), self._effects),
-            scene_file=_file(record.get("scene_file")),
-            photo=_file(record.get("photo")),
-            region=_region(record.get("region")),
-            film=_file(record.get("film")),
-        )
 
     def write(self, session: Session, in_use: bool) -> None:
         """Write the session.
@@ -180,18 +111,12 @@ class SessionFile:
         """
         if self._path is None:
             raise OutputError(f"there is no free session file in {self._folder}.")
-        scene, settings = session.scene, session.settings
         record = {
             "format": _FORMAT,
             # Which session was written last is counted: clocks can be put back.
             "count": 1 + max(_count_in(_record_in(path)) for path in self._paths()),
             "in_use": in_use,
-            "scene": "" if scene is None else scene.to_toml(),
-            "settings": None if settings is None else asdict(settings),
-            "scene_file": _text(session.scene_file),
-            "photo": _text(session.photo),
-            "film": _text(session.film),
-            "region": None if session.region is None else asdict(session.region),
+            **record_of(session),
         }
         write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))
 
@@ -225,50 +150,3 @@ def _time_of(path: Path) -> int:
         return path.stat().st_mtime_ns
     except OSError:  # another window has just replaced it
         return 0
-
-
-def _scene(text: object) -> Scene | None:
-    try:
-        return Scene.from_toml(text) if isinstance(text, str) and text else None
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return None
-
-
-def _settings(values: Any, effects: Collection[str]) -> SimulationSettings | None:
-    try:
-        force = values["force"]
-        settings = SimulationSettings(
-            tolerance=TOLERANCE.check(values["tolerance"]),
-            observable=values["observable"],
-            force={name: bool(force[name]) for name in force if name in effects},
-            noise=values["noise"],
-            seed=values["seed"],
-        )
-        check_seed(settings.seed)
-        is_known = settings.observable in OBSERVABLES and settings.noise in NOISE_SOURCES
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return None
-    return settings if is_known else None
-
-
-def _region(values: Any) -> Region | None:
-    """Return a rectangle of whole numbers; whether it lies in the photo shows when that is read."""
-    try:
-        region = Region(**values)
-    except TypeError:
-        return None
-    sides = asdict(region).values()
-    return region if all(type(side) is int and side >= 0 for side in sides) else None
-
-
-def _file(text: object) -> Path | None:
-    """Return the path of a file that still exists."""
-    try:
-        path = Path(text) if isinstance(text, str) and text else None
-        return path if path is not None and path.is_absolute() and path.is_file() else None
-    except (OSError, ValueError):
-        return None
-
-
-def _text(path: Path | None) -> str:
-    return "" if path is None else text_of(path.absolute())

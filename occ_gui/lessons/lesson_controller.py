@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.files.file_controller import sample_photos
-from occ_gui.files.session import UserState
+from occ_gui.files.session_record import UserState
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_view import LessonView

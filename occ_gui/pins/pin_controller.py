@@ -1,27 +1,34 @@
 """Controller of the pins: keep two states, compare them, and return to either."""
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
+from occ_gui.background.cancellable import Cancellable, Report
 from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
 from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.wording import distinguished
-from occ_gui.simulation.snapshot import Snapshot
-from occ_model.errors import one_line
+from occ_gui.simulation.jobs import snapshot_of
+from occ_gui.simulation.snapshot import Pins, SimulationRequest, Snapshot
+from occ_model.errors import OccError, one_line
 from occ_model.results import DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.simulation.render import render_with
 
 _LONGEST_PAYLOAD = 24
 """Characters of a payload that the table shows."""
+
+
+_NAMES = ("A", "B")
 
 
 class ComparePane(Protocol):
@@ -49,6 +56,9 @@ class PinController(QObject):
     status_message = Signal(str)
     """What was done, or why it could not be done."""
 
+    changed = Signal()
+    """Something else is pinned."""
+
     both_pinned = Signal()
     """There are two states to compare, as the user has just asked for."""
 
@@ -65,15 +75,60 @@ class PinController(QObject):
         self._pane = pane
         self._snapshot: Snapshot | None = None
         self.pinned = Pinned()
+        self._restored: dict[str, SimulationRequest] = {}
+        self._runner: Cancellable[dict[str, SimulationRequest], None] | None = None
+
+    @property
+    def kept(self) -> Pins:
+        """What is pinned as A and as B, also while its picture is still being simulated."""
+        a, b = (
+            self._restored.get(name) if pin is None else pin.request
+            for name, pin in zip(_NAMES, (self.pinned.a, self.pinned.b), strict=True)
+        )
+        return a, b
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether all that is pinned can be compared."""
+        return not self._restored
+
+    def restore(self, pins: Pins) -> None:
+        """Pin what an earlier window had pinned, once the first picture is there."""
+        kept = zip(_NAMES, pins, strict=True)
+        self._restored = {name: pin for name, pin in kept if pin is not None}
+
+    def _begin_restoring(self) -> None:
+        if not self._restored or self._runner is not None:
+            return
+        self._runner = runner = Cancellable(_simulate_all, "comparison")
+        runner.reported.connect(self._take_restored)
+        runner.finished.connect(self._end_restoring)
+        runner.failed.connect(self._end_restoring)
+        runner.start(dict(self._restored))
+
+    def _take_restored(self, result: tuple[str, Snapshot]) -> None:
+        name, snapshot = result
+        if self._restored.pop(name, None) is not None:
+            self._put_one(name, self._pin_of(snapshot))
+
+    def _end_restoring(self, _result: object) -> None:
+        self._restored.clear()
+
+    def stop(self) -> None:
+        """Stop what restores the pins of an earlier window."""
+        if self._runner is not None:
+            self._runner.stop()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Keep these results for the next pin, or for the one that waits for them."""
         self._snapshot = snapshot
+        self._begin_restoring()
         if self._waiting and self._is_present(snapshot):
             self.pin(self._waiting)
 
     def give_up(self) -> None:
         """Pin nothing any more: the present scene has no picture."""
+        self._begin_restoring()
         if self._waiting:
             name, self._waiting = self._waiting, ""
             self.status_message.emit(
@@ -92,9 +147,8 @@ class PinController(QObject):
             )
             return
         self._waiting = ""
-        new = self._pin_of(self._snapshot)
-        a, b = (new, self.pinned.b) if name == "A" else (self.pinned.a, new)
-        self._put(a, b)
+        self._restored.pop(name, None)
+        self._put_one(name, self._pin_of(self._snapshot))
         told = self.tr("Pinned the current state as {name}.")
         if self.pinned.a is None or self.pinned.b is None:
             told = self.tr("Pinned the current state as {name}: change it, and pin {other}, too.")
@@ -105,17 +159,22 @@ class PinController(QObject):
 
     def clear(self) -> None:
         """Forget both."""
+        self._restored.clear()
         self._put(None, None)
         self.status_message.emit(self.tr("Nothing is pinned any more."))
 
     def go_to(self, name: str) -> None:
         """Replace the scene by that of A or of B, as one step."""
-        pin = self.pinned.a if name == "A" else self.pinned.b
+        pin = self.kept[_NAMES.index(name)]
         if pin is None:
             self.status_message.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
             return
         title = self.tr("return to {name}").format(name=name)
-        self._scenes.put(pin.scene, title, new_gesture(), force=pin.force)
+        self._scenes.put(pin.scene, title, new_gesture(), force=pin.settings.force)
+
+    def _put_one(self, name: str, pin: Pin) -> None:
+        a, b = self.pinned.a, self.pinned.b
+        self._put(*((pin, b) if name == "A" else (a, pin)))
 
     def _put(self, a: Pin | None, b: Pin | None) -> None:
         inputs: tuple[ComparedRow, ...] = ()
@@ -125,22 +184,24 @@ class PinController(QObject):
             outputs = tuple(self._differing_outputs(a, b))
         self.pinned = Pinned(a, b, inputs, outputs)
         self._pane.show_pinned(self.pinned)
+        self.changed.emit()
 
     def _differing_inputs(self, a: Pin, b: Pin) -> list[ComparedRow]:
         names = (name for names in GROUPS.values() for name in names)
         inputs: list[tuple[Parameter, ParameterValue, ParameterValue]] = [
             (PARAMETERS[name], a.scene.value(name), b.scene.value(name)) for name in names
         ]
-        inputs.append((TOLERANCE, a.tolerance, b.tolerance))
+        inputs.append((TOLERANCE, a.settings.tolerance, b.settings.tolerance))
         rows = []
         for declared, one, other in inputs:
             if one != other:
                 texts = distinguished(declared, one, other)
                 first, second = (text or self.tr("none") for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
-        if a.force != b.force:
+        if a.settings.force != b.settings.force:
             labels = self._scenes.settings.effect_labels
-            first, second = (forced_text(p.force, labels) or self.tr("none") for p in (a, b))
+            forced = (forced_text(pin.settings.force, labels) for pin in (a, b))
+            first, second = (text or self.tr("none") for text in forced)
             meaning = self.tr("Effects that you have switched on or off; the plan decides others.")
             rows.append(ComparedRow(self.tr("Effects by hand"), first, second, meaning))
         return rows
@@ -157,9 +218,7 @@ class PinController(QObject):
     def _pin_of(self, snapshot: Snapshot) -> Pin:
         frame = snapshot.frame
         return Pin(
-            scene=frame.scene,
-            tolerance=frame.plan.tolerance,
-            force=snapshot.request.settings.force,
+            request=snapshot.request,
             profile=frame.profile,
             first_column=snapshot.panel_origin[0],
             packet_columns=snapshot.packet_columns,
@@ -222,3 +281,10 @@ class PinController(QObject):
             payload = one_line(result.payload, _LONGEST_PAYLOAD)
             return self.tr("“{payload}”, {verdict}").format(payload=payload, verdict=verdict)
         return self.tr("code {code}, {verdict}").format(code=result.code, verdict=verdict)
+
+
+def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:
+    """Simulate the pictures of pins; one that has none, or no longer, is left out."""
+    for name, pin in pins.items():
+        with suppress(OccError):
+            report((name, snapshot_of(pin, render_with(pin.scene, pin.settings))))

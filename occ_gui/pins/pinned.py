@@ -1,10 +1,11 @@
 """Two states that the user has pinned, and their differences."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
+from occ_gui.simulation.snapshot import SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -13,12 +14,8 @@ class Pin:
 
     Parameters
     ----------
-    scene
-        The scene.
-    tolerance
-        The tolerance of its simulation.
-    force
-        The effects forced on (True) or off (False) by hand.
+    request
+        The scene, the settings of its simulation, and the decoders that read it.
     profile : ndarray of float64, shape (columns,)
         Its profile in grey levels.
     first_column, packet_columns
@@ -27,13 +24,21 @@ class Pin:
         The outputs, each as its name, its text and its meaning.
     """
 
-    scene: Scene
-    tolerance: float
-    force: Mapping[str, bool]
+    request: SimulationRequest
     profile: FloatArray
     first_column: float
     packet_columns: float
     outputs: tuple[tuple[str, str, str], ...]
+
+    @property
+    def scene(self) -> Scene:
+        """The scene."""
+        return self.request.scene
+
+    @property
+    def settings(self) -> SimulationSettings:
+        """The settings of its simulation."""
+        return self.request.settings
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,6 @@
 """Scene store: the current scene and the effects forced by hand, with the steps to undo."""
 
 from collections.abc import Mapping
-from typing import TypeAlias
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
@@ -9,6 +8,7 @@ from PySide6.QtGui import QUndoCommand, QUndoStack
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.scene.step_history import History, State, StepChange
 from occ_model.errors import OccError, one_line
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
@@ -16,10 +16,6 @@ from occ_model.scene.scene import Scene
 
 MOST_STEPS = 500
 """Steps that can be undone; each of them keeps two scenes in memory."""
-
-
-State: TypeAlias = tuple[Scene, Mapping[str, bool]]
-"""What a step changes: the scene, and the effects forced on (True) or off (False) by hand."""
 
 
 class SceneStore(QObject):
@@ -51,6 +47,7 @@ class SceneStore(QObject):
         self.settings = SettingsStore() if settings is None else settings
         self.undo_stack = QUndoStack(self)
         self.undo_stack.setUndoLimit(MOST_STEPS)
+        self._is_resuming = False
 
     @property
     def scene(self) -> Scene:
@@ -129,6 +126,34 @@ class SceneStore(QObject):
         if new is not None:
             self.undo_stack.push(new)
 
+    def history(self, state: State) -> History:
+        """Return the steps; where a state is not the present one, those alone that led to it."""
+        stack, present = self.undo_stack, self.undo_stack.index()
+        commands = (stack.command(place) for place in range(stack.count()))
+        steps = [command for command in commands if isinstance(command, _Step)]
+        first = steps[0].before if steps else (self._scene, self._force)
+        states = [first, *(step.after for step in steps)]
+        done = next((place for place in range(present, -1, -1) if states[place] == state), None)
+        if done is None:
+            return History(*state)
+        kept = steps if done == present else steps[:done]
+        return History(*first, tuple(step.change for step in kept), done)
+
+    def resume(self, history: History) -> None:
+        """Have the steps of an earlier window, if they lead to the present state; else none."""
+        try:
+            states = [*history.states()]
+        except OccError:
+            return
+        if states[history.done] != (self._scene, self._force):
+            return
+        self._is_resuming = True
+        self.undo_stack.clear()
+        for step, before, after in zip(history.steps, states, states[1:], strict=False):
+            self.undo_stack.push(_Step(self, before, after, step.title, NO_GESTURE))
+        self.undo_stack.setIndex(history.done)
+        self._is_resuming = False
+
     def _last_step(self) -> "_Step | None":
         """Return the step that led to the current scene, None at a saved state or if none did."""
         index = self.undo_stack.index()
@@ -138,6 +163,8 @@ class SceneStore(QObject):
         return step if isinstance(step, _Step) else None
 
     def _restore(self, state: State) -> None:
+        if self._is_resuming:
+            return
         # Both are equal where a step that was made already is pushed.
         scene, force = state
         is_new = scene != self._scene
@@ -154,9 +181,17 @@ class _Step(QUndoCommand):
         self, store: SceneStore, before: State, after: State, title: str, gesture: int
     ) -> None:
         super().__init__(one_line(title).replace("&", "&&"))  # in a menu, & marks a shortcut
-        self._store = store
+        self._store, self._title = store, title
         self.before, self.after = before, after
         self.gesture = gesture
+        self._noted: tuple[State, StepChange] | None = None
+
+    @property
+    def change(self) -> StepChange:
+        """What the step changes; noted once, as a session is written each second of a drag."""
+        if self._noted is None or self._noted[0] is not self.after:
+            self._noted = self.after, StepChange.between(self._title, self.before, self.after)
+        return self._noted[1]
 
     def redo(self) -> None:
         self._store._restore(self.after)

@@ -45,6 +45,10 @@ class SimulationRequest:
     more: tuple[str, ...] = field(default=(), compare=False)
 
 
+Pins: TypeAlias = tuple[SimulationRequest | None, SimulationRequest | None]
+"""What is pinned as A and as B; None for nothing."""
+
+
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Reading:
     """What is read of one scene: its profile, the band model beside it, and each decoder's result.

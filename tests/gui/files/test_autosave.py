@@ -13,7 +13,8 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.files import autosave as autosave_module
 from occ_gui.files.autosave import Autosave
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
@@ -30,8 +31,7 @@ def begin(application: Application) -> Begin:
             application.store,
             application.settings,
             application.desktop.document,
-            lambda: None,
-            application.learning.users_own,
+            application.desktop.session,
         )
         autosave.resume(SessionFile(folder, NAMES), Session(), scene_wins=True)
         return autosave

@@ -20,7 +20,8 @@ from occ_gui.app.application import Application
 from occ_gui.app.start import kept_settings
 from occ_gui.files.kept_file import LARGEST, MOST_NAMES, usable_settings_path
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
 from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView

@@ -13,12 +13,15 @@ from typing import Any
 
 import pytest
 from gui.starts import PROJECT, Starts
+from gui.user import User
 from PySide6.QtCore import QEvent, QSettings, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files import autosave
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
 from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -245,6 +248,78 @@ def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
         with start() as application:
             assert application.store.scene.camera.iso == iso
             application.store.change(iso=iso + 1.0)
+
+
+def kill(
+    qtbot: QtBot, application: Application, folder: Path, kept: QSettings
+) -> Callable[[], None]:
+    """Note what a window has stored; what is returned puts it back, as if it had not ended."""
+    qtbot.waitUntil(lambda: application.is_idle and not application.desktop.autosave.is_due)
+    files = {path: path.read_bytes() for path in folder.glob("*.json")}
+    values = {key: kept.value(key) for key in kept.allKeys()}
+
+    def put_back() -> None:
+        for path, content in files.items():
+            path.write_bytes(content)
+        kept.clear()
+        for key, value in values.items():
+            kept.setValue(key, value)
+
+    return put_back
+
+
+def comparison(application: Application) -> list[list[str]]:
+    """Read the table of what differs between A and B, without how long they took."""
+    table = application.learning.compare.table
+    cells = [
+        [item.text() if (item := table.item(row, column)) else "" for column in range(3)]
+        for row in range(table.rowCount())
+    ]
+    return [row for row in cells if row[0] != "Simulation time"]
+
+
+def undo_texts(application: Application) -> list[str]:
+    """Read the menu's list of steps."""
+    stack = application.store.undo_stack
+    return [stack.text(place) for place in range(stack.count())]
+
+
+def test_nothing_of_a_killed_window_is_lost(
+    start: Start, tmp_path: Path, kept: QSettings, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(autosave, "LONGEST_WAIT_MS", 20)
+    with start() as application:
+        user, stack = User(qtbot, application), application.store.undo_stack
+        application.presets.load("tablet-61us")
+        application.store.change(rows=120, columns=600)
+        user.wait_until_idle()
+        user.choose("Pin as &A")
+        user.enter("iso", "321")
+        application.store.force("jpeg", True)
+        user.enter("distance", "0.9")
+        stack.undo()
+        kill(qtbot, application, tmp_path / "state", kept)
+        user.choose("Pin as &B")
+        qtbot.waitUntil(lambda: len(comparison(application)) > 4)
+        scene, differences = application.store.scene, comparison(application)
+        steps = undo_texts(application), stack.index()
+        put_back = kill(qtbot, application, tmp_path / "state", kept)
+    put_back()
+    with start() as application:
+        assert "is restored" in application.window.statusBar().currentMessage()
+        assert application.controls.preset.placeholderText() == "Tablet, 61 µs, changed"
+        assert application.window.docks["compare"].isVisible()
+        qtbot.waitUntil(lambda: comparison(application) == differences)
+        stack = application.store.undo_stack
+        assert (undo_texts(application), stack.index()) == steps
+        stack.redo()
+        assert application.store.scene == scene.replace(distance=0.9)
+        for _ in range(3):
+            stack.undo()
+        assert application.store.scene == scene.replace(iso=100.0)
+        assert application.settings.settings.force == {}
+        stack.undo()
+        assert application.controls.preset.currentData() == "tablet-61us"
 
 
 def kept_scene(path: Path) -> Scene:

@@ -11,7 +11,8 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
 from occ_gui.photo.lamp_controller import LampController
 from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.lamp_outlines import LampOutlines

@@ -12,7 +12,8 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.session import Session, SessionFile
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.marks import MarkState
 from occ_gui.video.wiring import VideoWiring

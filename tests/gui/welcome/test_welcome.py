@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.start import Start
-from occ_gui.files.session import Session
+from occ_gui.files.session_record import Session
 from occ_gui.welcome.door import Door
 from occ_gui.welcome.welcome_dialog import WelcomeDialog
 from occ_model.scene.scene import Scene

@@ -20,7 +20,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:  # Qt is slow to import, and only the doors of the window need it
-    from occ_gui.files.session import Session
+    from occ_gui.files.session_record import Session
 
 SESSION, SETTINGS = "session-1.json", "settings.ini"
 _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
@@ -29,13 +29,26 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 @cache
 def session_text() -> str:
     """A whole session file."""
-    from occ_gui.files.session import Session, SessionFile
+    from occ_gui.files.session import SessionFile
+    from occ_gui.files.session_record import Session
+    from occ_gui.scene.step_history import History, StepChange
+    from occ_gui.simulation.snapshot import SimulationRequest
 
     settings = SimulationSettings(tolerance=0.5, force={"vignetting": False}, seed=3)
     with TemporaryDirectory() as folder:
         file = SessionFile(Path(folder), NAMES)
         paths = dict.fromkeys(("scene_file", "photo", "film"), Path(__file__))
-        file.write(Session(Scene(), settings, **paths, region=Region(0, 9, 0, 9)), in_use=True)
+        steps = (StepChange("change", {"iso": 200.0}, {}), StepChange("switch", {}, {"jpeg": True}))
+        session = Session(
+            Scene(),
+            settings,
+            **paths,
+            region=Region(0, 9, 0, 9),
+            preset="phone-68us",
+            pins=(SimulationRequest(Scene(), settings, more=("sequence",)), None),
+            history=History(Scene(), {}, steps, done=1),
+        )
+        file.write(session, in_use=True)
         file.close()
         return Path(folder, SESSION).read_text("ascii")
 
@@ -63,7 +76,7 @@ def _session(chance: Random, folder: Path) -> list[str]:
     file = SessionFile(folder, NAMES)
     _check_session(file.last)
     if file.crashed is not None:
-        check_scene(file.crashed)
+        _check_session(file.crashed)
     file.write(file.last, in_use=True)
     file.close()
     return []

@@ -1,0 +1,222 @@
+"""Record of a session: what a window is working on, as a table of plain values and back.
+
+Parts that cannot be read are left out: a window starts whatever its file contains.
+"""
+
+import json
+from collections.abc import Collection, Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from occ_gui.files.preferences import text_of
+from occ_gui.scene.step_history import History, StepChange
+from occ_gui.simulation.snapshot import Pins, SimulationRequest
+from occ_model.results import Region
+from occ_model.scene.argument_checks import check_seed
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import (
+    NOISE_SOURCES,
+    OBSERVABLES,
+    TOLERANCE,
+    SimulationSettings,
+)
+
+_MOST_OF_HISTORY = 1_000_000
+"""Characters of the steps in a record; the oldest ones are left out of longer ones."""
+
+
+@dataclass(frozen=True, slots=True)
+class UserState:
+    """What the user is working on, or was before a lesson began.
+
+    Parameters
+    ----------
+    scene, settings
+        The scene, and the settings of its simulation with the forced effects.
+    photo
+        The photo that is open, if any.
+    """
+
+    scene: Scene
+    settings: SimulationSettings
+    photo: Path | None
+
+
+@dataclass(frozen=True, slots=True)
+class Session:
+    """What a window is working on, as far as it is known.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        The settings of its simulation.
+    scene_file
+        The file that the scene is saved to.
+    photo
+        The photo that is open.
+    region
+        The rectangle of the photo that was drawn by hand.
+    film
+        The film that is open.
+    preset
+        The preset that the scene is, or was before some of its values were changed.
+    pins
+        The states that are pinned.
+    history
+        The steps that can be undone, which a window that has come to its end does not leave.
+    """
+
+    scene: Scene | None = None
+    settings: SimulationSettings | None = None
+    scene_file: Path | None = None
+    photo: Path | None = None
+    region: Region | None = None
+    film: Path | None = None
+    preset: str = ""
+    pins: Pins = (None, None)
+    history: History | None = None
+
+
+def record_of(session: Session) -> dict[str, Any]:
+    """Write a session as plain values."""
+    scene, settings = session.scene, session.settings
+    return {
+        "scene": "" if scene is None else scene.to_toml(),
+        "settings": None if settings is None else asdict(settings),
+        "scene_file": _text(session.scene_file),
+        "photo": _text(session.photo),
+        "film": _text(session.film),
+        "region": None if session.region is None else asdict(session.region),
+        "preset": session.preset,
+        "pins": [None if pin is None else _pin_record(pin) for pin in session.pins],
+        "history": None if session.history is None else _history_record(session.history),
+    }
+
+
+def _pin_record(pin: SimulationRequest) -> dict[str, Any]:
+    return {
+        "scene": pin.scene.to_toml(),
+        "settings": asdict(pin.settings),
+        "decoders": list(pin.more),
+    }
+
+
+def _history_record(history: History) -> dict[str, Any] | None:
+    steps = [[step.title, step.values, step.force] for step in history.steps]
+    sizes, first = [len(json.dumps(step)) for step in steps], 0
+    while sum(sizes[first:]) > _MOST_OF_HISTORY:
+        first += 1
+    if first > history.done:
+        return None
+    scene, force = [*history.states()][first] if first else (history.scene, history.force)
+    return {
+        "scene": scene.to_toml(),
+        "force": dict(force),
+        "steps": steps[first:],
+        "done": history.done - first,
+    }
+
+
+def session_in(record: Mapping[str, Any] | None, effects: Collection[str]) -> Session:
+    """Read a session; effects of the settings that are not among these are left out."""
+    if record is None:
+        return Session()
+    preset = record.get("preset")
+    return Session(
+        scene=_scene(record.get("scene")),
+        settings=_settings(record.get("settings"), effects),
+        scene_file=_file(record.get("scene_file")),
+        photo=_file(record.get("photo")),
+        region=_region(record.get("region")),
+        film=_file(record.get("film")),
+        preset=preset if isinstance(preset, str) else "",
+        pins=_pins(record.get("pins"), effects),
+        history=_history(record.get("history")),
+    )
+
+
+def _pins(values: Any, effects: Collection[str]) -> Pins:
+    if not isinstance(values, list) or len(values) != 2:
+        return None, None
+    a, b = (_pin(value, effects) for value in values)
+    return a, b
+
+
+def _pin(values: Any, effects: Collection[str]) -> SimulationRequest | None:
+    if not isinstance(values, dict):
+        return None
+    scene = _scene(values.get("scene"))
+    settings = _settings(values.get("settings"), effects)
+    more = values.get("decoders")
+    if scene is None or settings is None or not isinstance(more, list):
+        return None
+    return SimulationRequest(scene, settings, more=tuple(map(str, more)))
+
+
+def _history(values: Any) -> History | None:
+    """Return the steps if each of them leads to a scene."""
+    try:
+        steps = tuple(
+            StepChange(str(title), dict(changed), _force(force))
+            for title, changed, force in values["steps"]
+        )
+        scene, force = Scene.from_toml(values["scene"]), _force(values["force"])
+        history = History(scene, force, steps, int(values["done"]))
+        states = [*history.states()]
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return None
+    return history if 0 <= history.done < len(states) else None
+
+
+def _force(values: Any) -> dict[str, bool]:
+    return {str(name): bool(on) for name, on in values.items()}
+
+
+def _scene(text: object) -> Scene | None:
+    try:
+        return Scene.from_toml(text) if isinstance(text, str) and text else None
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return None
+
+
+def _settings(values: Any, effects: Collection[str]) -> SimulationSettings | None:
+    try:
+        force = values["force"]
+        settings = SimulationSettings(
+            tolerance=TOLERANCE.check(values["tolerance"]),
+            observable=values["observable"],
+            force={name: bool(force[name]) for name in force if name in effects},
+            noise=values["noise"],
+            seed=values["seed"],
+        )
+        check_seed(settings.seed)
+        is_known = settings.observable in OBSERVABLES and settings.noise in NOISE_SOURCES
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return None
+    return settings if is_known else None
+
+
+def _region(values: Any) -> Region | None:
+    """Return a rectangle of whole numbers; whether it lies in the photo shows when that is read."""
+    try:
+        region = Region(**values)
+    except TypeError:
+        return None
+    sides = asdict(region).values()
+    return region if all(type(side) is int and side >= 0 for side in sides) else None
+
+
+def _file(text: object) -> Path | None:
+    """Return the path of a file that still exists."""
+    try:
+        path = Path(text) if isinstance(text, str) and text else None
+        return path if path is not None and path.is_absolute() and path.is_file() else None
+    except (OSError, ValueError):
+        return None
+
+
+def _text(path: Path | None) -> str:
+    return "" if path is None else text_of(path.absolute())

@@ -8,7 +8,8 @@ import numpy as np
 from occ_model.errors import shown
 from occ_model.results import DecodeResult
 from occ_model.results.decoding import RunHistogram, Runs
-from occ_model.transmitter.plugin_values import is_bits, is_reason
+from occ_model.scene.payload import MAX_PAYLOAD_BITS
+from occ_model.transmitter.plugin_values import MOST_CHIPS, excess, is_bits, is_reason
 
 _RANGES = {
     "threshold": (-math.inf, math.inf),
@@ -19,6 +20,17 @@ _RANGES = {
 """Lowest and highest value of the numbers of a result."""
 
 _ROUNDING = 1e-9
+
+_OWN_LENGTHS = {
+    "chips": "chips",
+    "headers": "headers",
+    "folded": "folded levels",
+    "model": "levels of the model",
+}
+"""Parts of a result that are not as long as another one, and what they consist of."""
+
+_LONGEST_PAYLOAD = 4 * MAX_PAYLOAD_BITS
+"""Letters: bits, as text, are the longest form."""
 
 
 def problem_of(result: object, columns: int) -> str | None:
@@ -33,6 +45,8 @@ def problem_of(result: object, columns: int) -> str | None:
     """
     if not isinstance(result, DecodeResult):
         return f"no DecodeResult but a {type(result).__name__}"
+    if problem := _problem_of_size(result, max(columns, MOST_CHIPS)):
+        return problem
     for name in ("bits", "chips"):
         if not is_bits(getattr(result, name)):
             return f"{name} that are not an array of zeros and ones"
@@ -42,6 +56,27 @@ def problem_of(result: object, columns: int) -> str | None:
         or _problem_of_arrays(result, columns)
         or _problem_of_runs(result)
     )
+
+
+def _problem_of_size(result: DecodeResult, most: int) -> str | None:
+    """Look at what has a length of its own; that of the rest follows from it."""
+    code: object = result.code
+    if _is_whole(code) and int(code).bit_length() > MAX_PAYLOAD_BITS:  # type: ignore[call-overload]
+        return f"a code of more than {MAX_PAYLOAD_BITS:,} bits"
+    found = [
+        excess("bits", result.bits, MAX_PAYLOAD_BITS),
+        excess("letters of a payload", result.payload, _LONGEST_PAYLOAD),
+        *(excess(what, getattr(result, name), most) for name, what in _OWN_LENGTHS.items()),
+    ]
+    if isinstance(result.runs, Runs):
+        found += [excess("runs", part, most) for part in (result.runs.values, result.runs.lengths)]
+    if isinstance(result.histograms, tuple):
+        found += [
+            excess("lengths of runs", each.counts, most + 1)
+            for each in result.histograms[:2]
+            if isinstance(each, RunHistogram)
+        ]
+    return next(filter(None, found), None)
 
 
 def _problem_of_code(result: DecodeResult) -> str | None:

@@ -1,9 +1,23 @@
 """Checks of the values that plug-ins give: bits, chips, places among them, and reasons."""
 
+from collections.abc import Sized
+
 import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import PluginError, one_line
+
+MOST_CHIPS = 65_536
+"""Most chips of a plug-in's period or result: more than any built-in packet has (57,116)."""
+
+
+def excess(what: str, values: object, most: int) -> str | None:
+    """Say that there are more values than anything shows or counts; None if there are not.
+
+    To be asked first: to look at each of millions of values takes as long as to show them.
+    """
+    count = len(values) if isinstance(values, Sized) else 0
+    return f"{count:,} {what}; allowed: up to {most:,}" if count > most else None
 
 
 def is_bits(values: object) -> bool:
@@ -23,8 +37,10 @@ def plain_bits(bits: ByteArray) -> ByteArray:
 
 def are_places(places: object, count: int) -> bool:
     """Whether places are a tuple of whole numbers from 0 to before a number."""
-    return isinstance(places, tuple) and all(
-        type(place) is int and 0 <= place < count for place in places
+    return (
+        isinstance(places, tuple)
+        and len(places) <= count
+        and all(type(place) is int and 0 <= place < count for place in places)
     )
 
 
@@ -44,8 +60,10 @@ def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArra
     Raises
     ------
     PluginError
-        They are no zeros and ones, or not as many as they should be.
+        They are no zeros and ones, too many, or not as many as they should be.
     """
+    if problem := excess("chips", chips, MOST_CHIPS):
+        raise PluginError(f"{who} gives {problem}.")
     if not isinstance(chips, np.ndarray) or not is_bits(chips) or not chips.size:
         raise PluginError(f"{who} gives no chips, which are zeros and ones.")
     if count is not None and len(chips) != count:

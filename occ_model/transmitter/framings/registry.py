@@ -11,12 +11,28 @@ from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
 from occ_model.transmitter.plugin_values import (
     are_places,
     checked_chips,
+    excess,
     is_bits,
     is_reason,
     plain_bits,
     plain_reason,
 )
 from occ_model.transmitter.registry import Registry
+
+
+def _problem_of(read: object, chips: int, bits: int) -> str | None:
+    """Say what is wrong with what a plug-in has read; None if nothing is."""
+    if not isinstance(read, Framed):
+        return f"no bits, but a {type(read).__name__}"
+    if problem := excess("bits", read.bits, bits):
+        return problem
+    if not is_bits(read.bits):
+        return f"no bits, but a {type(read.bits).__name__}"
+    if not is_reason(read.failure) or (read.failure is None and not read.bits.size):
+        return "neither bits nor a reason"
+    if not are_places(read.headers, chips):
+        return "headers that are no places among the chips"
+    return None
 
 
 def _guarded(offered: Framing) -> Framing:
@@ -41,12 +57,8 @@ def _guarded(offered: Framing) -> Framing:
             read = offered.decode(chips, form)
         except plugins.FAULTS as error:
             return Framed.nothing(f"{who} cannot decode: {plugins.reason(error)}")
-        if not isinstance(read, Framed) or not is_bits(read.bits):
-            return Framed.nothing(f"{who} gives no bits, but a {type(read).__name__}.")
-        if not is_reason(read.failure) or (read.failure is None and not read.bits.size):
-            return Framed.nothing(f"{who} gives neither bits nor a reason.")
-        if not are_places(read.headers, len(chips)):
-            return Framed.nothing(f"{who} gives headers that are no places among the chips.")
+        if problem := _problem_of(read, len(chips), form.bits):
+            return Framed.nothing(f"{who} gives {problem}.")
         return Framed(read.headers, plain_bits(read.bits), plain_reason(read.failure))
 
     title = plugins.title_of(offered, who)

@@ -12,6 +12,7 @@ from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
 from occ_model.transmitter.plugin_values import (
     are_places,
     checked_chips,
+    excess,
     is_bits,
     is_reason,
     plain_bits,
@@ -61,6 +62,9 @@ def _guarded(offered: LineCode) -> LineCode:
             read = offered.decode(chips, level)
         except plugins.FAULTS as error:
             return Decoded(failure=f"{who} cannot decode: {plugins.reason(error)}")
+        most = (len(chips) // offered.block_chips + 1) * offered.block_bits
+        if isinstance(read, Decoded) and (problem := excess("bits", read.bits, most)):
+            return Decoded(failure=f"{who} gives {problem}.")
         if not isinstance(read, Decoded) or not is_bits(read.bits):
             return Decoded(failure=f"{who} gives no bits, but a {type(read).__name__}.")
         if not are_places(read.violations, len(read.bits)) or not is_reason(read.failure):

@@ -18,8 +18,10 @@ from dataclasses import replace
 import numpy as np
 
 import occ_model as occ
+from occ_model.results.decoding import RunHistogram, Runs
 from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.preamble import FRAMING
+from occ_model.transmitter.line_codes.line_code import Decoded
 from occ_model.transmitter.line_codes.manchester import LINE_CODE
 
 
@@ -73,6 +75,16 @@ paired = spoiled("paired", chip_starts=np.array([1.0]))
 masked = spoiled("masked", model=np.ma.masked_array([1.0, 2.0]))
 run = spoiled("run", runs=([1], [2]))
 counted = spoiled("counted", histograms=(None, None))
+# As many values as nothing could look at one by one.
+endless = np.broadcast_to(np.uint8(0), 10**12)
+huge_bits = spoiled("huge_bits", bits=endless)
+huge_chips = spoiled("huge_chips", chips=endless)
+huge_model = spoiled("huge_model", model=endless)
+huge_headers = spoiled("huge_headers", headers=(0,) * 10**6)
+huge_code = spoiled("huge_code", code=1 << 10**7)
+huge_payload = spoiled("huge_payload", payload="x" * 10**7)
+huge_runs = spoiled("huge_runs", runs=Runs(endless, endless))
+huge_counts = spoiled("huge_counts", histograms=(RunHistogram(endless, None),) * 2)
 wordy = decoder("wordy", lambda *_: occ.DecodeResult("wordy", failure="Two\\nlines."))
 listed = replace(decoder("listed", fail), name=np.array(["listed", "listed"]))
 misnamed = decoder("another", fail)
@@ -86,6 +98,8 @@ code_run = replace(LINE_CODE, name="code_run", longest_run="two")
 code_preamble = replace(LINE_CODE, name="code_preamble", preamble="012")
 code_array = replace(LINE_CODE, name="code_array", disparity=np.array([[1], [2]]))
 code_maybe = replace(LINE_CODE, name="code_maybe", finds_wrong_chip=None)
+code_huge = replace(LINE_CODE, name="code_huge", encode=lambda *_: endless)
+code_flood = replace(LINE_CODE, name="code_flood", decode=lambda *_: Decoded(endless))
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
 frame_raises = replace(FRAMING, name="frame_raises", encode=fail)
@@ -95,6 +109,8 @@ frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
 frame_placed = replace(
     FRAMING, name="frame_placed", decode=lambda chips, form: Framed((0, len(chips)), np.array([1]))
 )
+frame_huge = replace(FRAMING, name="frame_huge", encode=lambda *_: endless)
+frame_flood = replace(FRAMING, name="frame_flood", decode=lambda *_: Framed((), endless))
 frame_checks = replace(FRAMING, name="frame_checks", checks=np.array([]))
 
 
@@ -108,11 +124,12 @@ frame_lines = replace(FRAMING, name="frame_lines", encode=two_lines)
 DECODERS = [
     "raises", "leaves", "mute", "nothing", "empty", "floats", "lists", "no_sentence", "overwrites",
     "misnamed", "threshold", "gone", "beyond", "worded", "coded", "placed", "paired", "masked",
-    "run", "counted", "wordy", "listed",
+    "run", "counted", "wordy", "listed", "huge_bits", "huge_chips", "huge_model", "huge_headers",
+    "huge_code", "huge_payload", "huge_runs", "huge_counts",
 ]  # fmt: skip
 CODES = [
     "code_raises", "code_short", "code_grey", "code_blocks", "code_run", "code_preamble",
-    "code_mute", "code_array", "code_maybe",
+    "code_mute", "code_array", "code_maybe", "code_huge", "code_flood",
 ]  # fmt: skip
 FRAMINGS = [
     "frame_raises",
@@ -122,6 +139,8 @@ FRAMINGS = [
     "frame_placed",
     "frame_checks",
     "frame_lines",
+    "frame_huge",
+    "frame_flood",
 ]
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
@@ -169,6 +188,14 @@ def decode(decoder: str) -> occ.DecodeResult:
         ("masked", "gives model that is no array of as many finite numbers as it should."),
         ("run", "gives runs that are no Runs of zeros and ones with their lengths."),
         ("counted", "gives histograms that are not two RunHistograms."),
+        ("huge_bits", "gives 1,000,000,000,000 bits; allowed: up to 4,096."),
+        ("huge_chips", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
+        ("huge_model", "gives 1,000,000,000,000 levels of the model; allowed: up to 65,536."),
+        ("huge_headers", "gives 1,000,000 headers; allowed: up to 65,536."),
+        ("huge_code", "gives a code of more than 4,096 bits."),
+        ("huge_payload", "gives 10,000,000 letters of a payload; allowed: up to 16,384."),
+        ("huge_runs", "gives 1,000,000,000,000 runs; allowed: up to 65,536."),
+        ("huge_counts", "gives 1,000,000,000,000 lengths of runs; allowed: up to 65,537."),
     ],
 )
 def test_a_decoder_that_fails_is_named_in_the_failure(decoder: str, said: str) -> None:
@@ -231,6 +258,7 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
         ("code_run", "declares longest_run = 'two'; allowed: 1 to 4096."),
         ("code_array", "declares disparity = array([[1], [2]]); allowed: 0 to 4096."),
         ("code_maybe", "declares finds_wrong_chip = None; allowed: True or False."),
+        ("code_huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
         ("code_preamble", "declares preamble = '012'; allowed: zeros and ones."),
     ],
 )
@@ -247,6 +275,7 @@ def test_a_line_code_that_cannot_be_sent_is_named(name: str, said: str) -> None:
         ("frame_raises", "cannot encode: ValueError: not today."),
         ("frame_empty", "gives no chips, which are zeros and ones."),
         ("frame_checks", "declares checks = array([], dtype=float64); allowed: True or False."),
+        ("frame_huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
         ("frame_lines", "cannot encode: ParameterError: Two\\nlines.."),
     ],
 )
@@ -261,6 +290,8 @@ def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
     [
         ({"line_code": "code_mute"}, "'code_mute' of the package 'hostile' gives no bits"),
         ({"framing": "frame_mute"}, "'frame_mute' of the package 'hostile' gives no bits"),
+        ({"line_code": "code_flood"}, "gives 1,000,000,000,000 bits; allowed: up to"),
+        ({"framing": "frame_flood"}, "gives 1,000,000,000,000 bits; allowed: up to 10."),
         ({"framing": "frame_fails"}, "'frame_fails' of the package 'hostile' cannot decode"),
         (
             {"framing": "frame_placed"},

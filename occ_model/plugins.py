@@ -1,7 +1,10 @@
 """Plug-ins: what installed packages offer under an entry point, read when first asked for."""
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import lru_cache
+from threading import get_ident
 from typing import TYPE_CHECKING, TypeVar
 
 from occ_model.errors import PluginError, one_line, shown
@@ -20,6 +23,30 @@ _Kind = TypeVar("_Kind")
 
 FAULTS = (Exception, SystemExit)
 """What a plug-in may raise that does not end the program."""
+
+
+_at_work: dict[int, str] = {}
+"""The plug-in that each thread is in."""
+
+
+@contextmanager
+def at_work(who: str) -> Iterator[None]:
+    """Note that this thread is in a plug-in, for whoever waits for it in vain."""
+    thread = get_ident()
+    before = _at_work.get(thread)
+    _at_work[thread] = who
+    try:
+        yield
+    finally:
+        if before is None:
+            del _at_work[thread]
+        else:
+            _at_work[thread] = before
+
+
+def all_at_work() -> tuple[str, ...]:
+    """Return the plug-ins that threads of this process are in, each as the start of a sentence."""
+    return tuple(dict.fromkeys(_at_work.copy().values()))
 
 
 @lru_cache(maxsize=8)
@@ -72,7 +99,8 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
     if entry is None:
         raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")
     try:
-        offered = entry.load()
+        with at_work(described(group, name)):
+            offered = entry.load()
     except FAULTS as error:
         raise PluginError(f"{described(group, name)} cannot be imported: {reason(error)}") from None
     if not isinstance(offered, kind):

@@ -41,6 +41,7 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
+from occ_model.plugins import all_at_work
 from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS, decoders
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
@@ -122,7 +123,7 @@ class Application(QObject):
         self.outdated.mark_results(*self.accuracy.of_scene)
         self.learning.exposure_made.connect(self.outdated.mark_results)
         # Before the session is written.
-        self.window.closing.connect(self._end_lesson)
+        self.window.closing.connect(self._begin_to_end)
         self.desktop = Desktop(self)
         self.welcome = Welcome(self)
         self._match_next, self._front_next = False, True
@@ -347,7 +348,12 @@ class Application(QObject):
             self._match_next = False
             self.photo_wiring.matching.apply()
 
-    def _end_lesson(self) -> None:
+    def _begin_to_end(self) -> None:
+        # What follows waits for work, and somebody may lose patience first.
+        self.desktop.autosave.write()
+        for who in all_at_work():
+            self.window.say(self.tr("{who} is waited for.").format(who=who))
+            self.window.repaint()
         self.simulation.stop()  # of the scene that is restored no picture is needed
         self.learning.end_lesson()
 

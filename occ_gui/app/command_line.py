@@ -24,6 +24,7 @@ from occ_model.commands.options import (
 )
 from occ_model.errors import one_line, shown
 from occ_model.files.writing import write_whole
+from occ_model.plugins import all_at_work
 from occ_model.program import EXIT_MISUSE, run_program, say
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.scene import Scene
@@ -179,7 +180,20 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     _draw_icon(application)
     if begin.is_new and not (options.files or options.photo or options.mode or options.dock):
         application.welcome.show_once()
-    return qt.exec()
+    code = qt.exec()
+    _leave_plugins(code, begin.preferences)
+    return code
+
+
+def _leave_plugins(code: int, preferences: "QSettings | None") -> None:
+    """End the process, if a plug-in does not come back: a usual end would wait for it."""
+    hung = all_at_work()
+    if hung:
+        for who in hung:
+            say("occ-gui", f"{who} does not come back: the window has ended without it.")
+        if preferences is not None:
+            preferences.sync()
+        os._exit(code)
 
 
 def _prepare(options: argparse.Namespace) -> None:

@@ -37,6 +37,6 @@ class WorkerThread:
         """Do nothing: a thread does not die."""
 
     def close(self) -> None:
-        """Abandon all jobs, and end with the next heartbeat."""
+        """Abandon all jobs; the thread ends with the next heartbeat, and is not waited for."""
         self._first_runs[:] = [sys.maxsize] * CHANNELS
-        self._executor.shutdown(cancel_futures=True)
+        self._executor.shutdown(wait=False, cancel_futures=True)

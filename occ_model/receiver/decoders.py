@@ -64,7 +64,8 @@ def _plugin(name: str) -> Decoder:
         # It cannot change the signal that other decoders read after it.
         own = np.array(signal)
         try:
-            result = offered.read(own, scene)
+            with plugins.at_work(who):
+                result = offered.read(own, scene)
             problem = problem_of(result, len(own))
         except plugins.FAULTS as error:
             return DecodeResult(

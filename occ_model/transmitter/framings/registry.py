@@ -45,7 +45,8 @@ def _guarded(offered: Framing) -> Framing:
 
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
         try:
-            chips = np.asarray(offered.encode(bits, form))
+            with plugins.at_work(who):
+                chips = np.asarray(offered.encode(bits, form))
         except plugins.FAULTS as error:
             if isinstance(error, PluginError | ParameterError) and str(error).isprintable():
                 raise  # the line code's own sentence
@@ -54,7 +55,8 @@ def _guarded(offered: Framing) -> Framing:
 
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
         try:
-            read = offered.decode(chips, form)
+            with plugins.at_work(who):
+                read = offered.decode(chips, form)
         except plugins.FAULTS as error:
             return Framed.nothing(f"{who} cannot decode: {plugins.reason(error)}")
         if problem := _problem_of(read, len(chips), form.bits):

@@ -52,14 +52,16 @@ def _guarded(offered: LineCode) -> LineCode:
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
         try:
-            chips = np.asarray(offered.encode(bits, level))
+            with plugins.at_work(who):
+                chips = np.asarray(offered.encode(bits, level))
         except plugins.FAULTS as error:
             raise PluginError(f"{who} cannot encode: {plugins.reason(error)}") from None
         return checked_chips(chips, who, offered.chips_for(len(bits)))
 
     def decode(chips: ByteArray, level: int) -> Decoded:
         try:
-            read = offered.decode(chips, level)
+            with plugins.at_work(who):
+                read = offered.decode(chips, level)
         except plugins.FAULTS as error:
             return Decoded(failure=f"{who} cannot decode: {plugins.reason(error)}")
         most = (len(chips) // offered.block_chips + 1) * offered.block_bits

@@ -83,6 +83,7 @@ class PhotoWiring(QObject):
 
     def _take_listed(self, photo: Photo | None) -> None:
         """Show what the table of several photos has found in this one, if it was read alike."""
+        self._pane.many.rows.show_open(None if photo is None else photo.path)
         row = None if photo is None else self._pane.many.rows.row_of(photo.path)
         alike = self.many.reading in (None, self.photos.reading)
         found = None if row is None else row.match

@@ -12,6 +12,12 @@ SURE, DOUBTFUL, REFUSED, UNREADABLE = "sure", "doubtful", "refused", "unreadable
 VERDICTS = (SURE, DOUBTFUL, REFUSED, UNREADABLE)
 
 
+def known_beside(estimate: str) -> str:
+    """Name the parameter that is known where the other of the two is estimated."""
+    both = ("readout_time", "switching_frequency")
+    return both[1 - both.index(estimate)]
+
+
 @dataclass(frozen=True, slots=True)
 class PhotoRow:
     """What was found in one photo.
@@ -46,6 +52,9 @@ class PhotoRow:
         The camera's maker and model, None where it is not known.
     match
         The match itself, None where there is none.
+    given
+        The value of the known parameter that was given for this photo alone, in SI units; None
+        where the scene's was taken.
     """
 
     path: Path
@@ -64,6 +73,7 @@ class PhotoRow:
     scanned_along: str = ""
     camera: str | None = None
     match: Match | None = field(default=None, compare=False, repr=False)
+    given: float | None = None
 
     @property
     def exposure_verdict(self) -> str:
@@ -152,8 +162,7 @@ class PhotoTable:
     @property
     def known(self) -> str:
         """The parameter that was taken as known: the other one of the two."""
-        both = ("readout_time", "switching_frequency")
-        return both[1 - both.index(self.estimate)]
+        return known_beside(self.estimate)
 
     def count(self, verdict: str) -> int:
         """Count the photos with a verdict."""
@@ -162,6 +171,11 @@ class PhotoTable:
     def is_outlier(self, place: int) -> bool:
         """Whether the photo at a place was left out of the mean as too far from the others."""
         return self.estimated is not None and place in self.estimated.outliers
+
+    @property
+    def rests_on_the_scene(self) -> bool:
+        """Whether the known value of the scene was taken for any of the photos."""
+        return any(row.given is None for row in self.rows)
 
     def is_counted(self, place: int) -> bool:
         """Whether the photo at a place is in the mean."""

@@ -6,6 +6,7 @@ from io import StringIO
 
 from occ_model.errors import one_line, printable
 from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoTable
+from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.version import __version__
 
@@ -53,14 +54,15 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
 def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
     texts = []
     known = quantity(table.known)
-    given = f"{known.symbol} = {known.format(float(table.scene.value(table.known)))}, given"
-    rests_on = condition.removesuffix(": ") or given
+    of_scene = _given(known, float(table.scene.value(table.known)))
+    rests_on = condition.removesuffix(": ") or of_scene
     for place, row in enumerate(table.rows):
         kept = "outlier" if table.is_outlier(place) else "yes" if table.is_counted(place) else "no"
         estimates: list[object] = []
         for name in ("readout_time", "switching_frequency", "exposure_time"):
             estimates += [getattr(row, name), _error(row.uncertainty(name))]
-        estimates += [row.exposure_verdict, None if row.exposure_time is None else rests_on]
+        own = rests_on if row.given is None else _given(known, row.given)
+        estimates += [row.exposure_verdict, None if row.exposure_time is None else own]
         texts.append(
             _row(
                 [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
@@ -69,6 +71,10 @@ def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
             )
         )  # fmt: skip
     return texts
+
+
+def _given(known: Quantity, value: float) -> str:
+    return f"{known.symbol} = {known.format(value)}, given"
 
 
 def _mean(name: str, found: CombinedEstimate | None, condition: str) -> list[str]:

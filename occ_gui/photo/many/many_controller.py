@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +16,7 @@ from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.results import PhotoRow, PhotoTable
+from occ_model.results.photo_table import known_beside
 
 if TYPE_CHECKING:  # imported with the first match, not with the window
     from occ_model.photo.many.row import MatchSettings
@@ -28,6 +29,11 @@ class ManyRequest:
     paths: tuple[Path, ...]
     settings: "MatchSettings"
     jobs: int | None
+    rows: tuple[PhotoRow, ...] = ()
+    """What was found before; empty where all photos are matched."""
+
+    only: int = 0
+    """The place of the photo that is matched again, where others were matched before."""
 
 
 def match_all(request: ManyRequest, report: Report) -> PhotoTable:
@@ -35,6 +41,15 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
     from occ_model.photo.many.match_photos import matched_rows, usual_jobs
     from occ_model.photo.many.table import table_of
 
+    if request.rows:
+        # The same photo, at the first place of a table of one.
+        settings = replace(request.settings.of(request.only), known=())
+        ((_, row),) = matched_rows([request.paths[request.only]], settings, 1, lambda: report(None))
+        given = dict(request.settings.known).get(request.only)
+        again = [*request.rows]
+        again[request.only] = replace(row, given=given)
+        report((request.only, again[request.only]))
+        return table_of(request.settings, again)
     rows: dict[int, PhotoRow] = {}
     jobs = request.jobs or usual_jobs()
     work = matched_rows(request.paths, request.settings, jobs, lambda: report(None))
@@ -69,6 +84,7 @@ class ManyPhotosController(QObject):
         self._jobs = jobs
         self._paths: tuple[Path, ...] = ()
         self._done = 0
+        self._settings: MatchSettings | None = None
         self.table: PhotoTable | None = None
         self.reading: PhotoReading | None = None
         """How the photos of the table were read; None before they are matched."""
@@ -80,6 +96,7 @@ class ManyPhotosController(QObject):
         self.runner.failed.connect(view.show_failed)
         view.cancelled.connect(self.cancel)
         view.closed.connect(self._close)
+        view.rows.known_given.connect(self._match_again)
 
     def _close(self) -> None:
         self.show_files(())
@@ -108,10 +125,23 @@ class ManyPhotosController(QObject):
             fit_gamma=choice.fit_gamma,
             scan_axis=reading.scan_axis,
             channel=reading.channel,
+            known=self._view.rows.given(known_beside(choice.estimate)),
         )
+        self._settings = settings
         self._done, self.table, self.reading = 0, None, reading
         self._view.show_begun(choice.estimate, scene)
         self.runner.start(ManyRequest(self._paths, settings, self._jobs))
+
+    def _match_again(self, place: int) -> None:
+        """Match the photo whose known value was given; before all are matched, only with them."""
+        table, settings = self.table, self._settings
+        if table is None or settings is None:
+            return
+        known = self._view.rows.given(known_beside(settings.estimate))
+        self._settings = settings = replace(settings, known=known)
+        self._done, self.table = len(table.rows) - 1, None
+        self._view.show_busy(settings.estimate, settings.scene)
+        self.runner.start(ManyRequest(self._paths, settings, self._jobs, table.rows, place))
 
     def cancel(self) -> None:
         """Cancel the work; the rows that are done stay."""

@@ -16,8 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.photo.assumption import condition, is_stale
-from occ_gui.photo.many.rows_model import NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_choice import KNOWN
+from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_values import label_of, what_errors_mean, with_uncertainty
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.widgets.copying import copy_text
@@ -28,7 +27,7 @@ from occ_model.photo.many.other_programs import (
     stated_lines,
 )
 from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
-from occ_model.results.photo_table import VERDICTS
+from occ_model.results.photo_table import VERDICTS, known_beside
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -69,6 +68,7 @@ class ManyPhotosView(QWidget):
         self.rows = PhotoRowsModel(self)
         self.rows.modelReset.connect(self.rows_changed)
         self.rows.dataChanged.connect(self.rows_changed)
+        self.rows.refused.connect(self._show_note)
         self.title = _text(self.tr("How many photos"))
         self._make_buttons()
         self._make_table()
@@ -137,8 +137,8 @@ class ManyPhotosView(QWidget):
         self.table.setWordWrap(False)
         self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often end in a number
         self.table.setTabKeyNavigation(False)
-        self.table.setSelectionBehavior(QTableView.SelectionBehavior.SelectRows)
-        self.table.setSelectionMode(QTableView.SelectionMode.SingleSelection)
+        # The row of the open photo is marked by the model, however it was opened.
+        self.table.setSelectionMode(QTableView.SelectionMode.NoSelection)
         self.table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 6)
@@ -156,7 +156,8 @@ class ManyPhotosView(QWidget):
         self.table.horizontalScrollBar().setValue(0)
 
     def _choose(self, index: QModelIndex) -> None:
-        self.photo_chosen.emit(self.rows.paths[index.row()])
+        if index.column() != KNOWN:  # which is edited
+            self.photo_chosen.emit(self.rows.paths[index.row()])
 
     def show_files(self, paths: Sequence[Path]) -> None:
         """Show these files in place of the previous ones, or put the table away."""
@@ -171,7 +172,12 @@ class ManyPhotosView(QWidget):
 
     def show_begun(self, estimate: str, scene: Scene) -> None:
         """Show that the photos are being matched with this scene, to find this parameter."""
-        self.rows.show_begun(estimate)
+        self.rows.show_begun(estimate, float(scene.value(known_beside(estimate))))
+        self.show_busy(estimate, scene)
+
+    def show_busy(self, estimate: str, scene: Scene) -> None:
+        """Show that some of the photos are being matched, and no mean before they are."""
+        self.rows.is_busy = True
         self._show_found(None)
         self._asked, self._counts = (estimate, scene), ""
         self._show_title()
@@ -208,12 +214,16 @@ class ManyPhotosView(QWidget):
     def show_ended(self) -> None:
         """Show that no more photos are matched."""
         self.work.end()
+        self.rows.is_busy = False
         self.start.setEnabled(True)
         self._fit_columns()
 
     def show_failed(self, sentence: str) -> None:
         """Show why the photos could not be matched."""
         self.show_ended()
+        self._show_note(sentence)
+
+    def _show_note(self, sentence: str) -> None:
         self.notes.setText(sentence)
         self.notes.show()
 
@@ -253,7 +263,9 @@ class ManyPhotosView(QWidget):
 
     def _rests_on(self, estimate: str, scene: Scene) -> str:
         """Name the value that an estimate rests on, unless the user is certain of it."""
-        known = next(name for name in KNOWN if name != estimate)
+        if self._found is not None and not self._found.rests_on_the_scene:
+            return ""  # each photo has a value that was entered for it
+        known = known_beside(estimate)
         chips = len(scene.transmitter.pattern)
         return condition(known, float(scene.value(known)), self._certain, chips)
 

@@ -4,26 +4,40 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QModelIndex,
+    QObject,
+    QPersistentModelIndex,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QGuiApplication, QPalette
 
 from occ_gui.photo.match_values import label_of, with_uncertainty
 from occ_gui.photo.verdict_view import SIGNS
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
-from occ_model.errors import one_line
+from occ_model.errors import ParameterError, one_line
 from occ_model.results import PhotoRow, PhotoTable
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
+from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE, known_beside
 from occ_model.scene.parameters import quantity
 
 _Index = QModelIndex | QPersistentModelIndex
 
-PHOTO, VERDICT, ESTIMATE, EXPOSURE, NOTED, CORRELATION, NOTE = range(7)
+PHOTO, VERDICT, KNOWN, ESTIMATE, EXPOSURE, NOTED, CORRELATION, NOTE = range(8)
 """The columns of the table."""
 
-_NUMBERS = (ESTIMATE, EXPOSURE, NOTED, CORRELATION)
+_NUMBERS = (KNOWN, ESTIMATE, EXPOSURE, NOTED, CORRELATION)
 
 
 class PhotoRowsModel(QAbstractTableModel):
-    """The photos, with what was found in each so far."""
+    """The photos, with what was found in each so far, and what is known of each by itself."""
+
+    known_given = Signal(int)
+    """The known value of the photo at this place was given, or taken back."""
+
+    refused = Signal(str)
+    """Why a known value is refused; the last one stays."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -33,19 +47,48 @@ class PhotoRowsModel(QAbstractTableModel):
         self._estimate = "readout_time"
         self._condition = ""
         self._earlier: Path | None = None
+        self._open: Path | None = None
+        self._given: dict[str, dict[int, float]] = {}
+        """What was given for single photos, by the parameter's name and their places."""
+        self._usual: float | None = None
+        """The known value of all others, in SI units, once they are matched with it."""
+        self.is_busy = False
+        """Whether the photos are being matched, so that nothing can be given for them."""
+
+    @property
+    def known(self) -> str:
+        """The parameter that is known, where the other of the two is measured."""
+        return known_beside(self._estimate)
+
+    def given(self, name: str) -> tuple[tuple[int, float], ...]:
+        """Return the values of a known parameter that were given for single photos, in SI units."""
+        return tuple(sorted(self._given.get(name, {}).items()))
+
+    def show_open(self, path: Path | None) -> None:
+        """Mark the photo that is open: its row alone has the colours of a selection."""
+        self._open = path
+        self._redraw()
+
+    def _redraw(self) -> None:
+        if self.paths:
+            self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
 
     def show_files(self, paths: Sequence[Path]) -> None:
         """Show these files, none of which is matched yet."""
         self.beginResetModel()
         self.paths = tuple(paths)
         self._rows, self._table, self._earlier = {}, None, None
+        self._given, self._usual = {}, None
         self.endResetModel()
 
-    def show_begun(self, estimate: str) -> None:
-        """Forget what was found: all photos are matched anew, for this parameter."""
+    def show_begun(self, estimate: str, usual: float) -> None:
+        """Forget what was found: all photos are matched anew, for this parameter.
+
+        The value of the other one is known, and is the usual one but where another was given.
+        """
         self.beginResetModel()
         self._rows, self._table, self._estimate = {}, None, estimate
-        self._earlier = None
+        self._earlier, self._usual = None, usual
         self.endResetModel()
 
     def show_row(self, place: int, row: PhotoRow) -> None:
@@ -56,7 +99,8 @@ class PhotoRowsModel(QAbstractTableModel):
     def show_table(self, table: PhotoTable) -> None:
         """Show the complete table, with its outliers."""
         self._rows, self._table = dict(enumerate(table.rows)), table
-        self.dataChanged.emit(self.index(0, PHOTO), self.index(len(table.rows) - 1, NOTE))
+        self._usual = float(table.scene.value(table.known))
+        self._redraw()
 
     def show_condition(self, condition: str) -> None:
         """Show the value that the times rest on where it is assumed; empty where it is certain."""
@@ -67,7 +111,7 @@ class PhotoRowsModel(QAbstractTableModel):
         if path == self._earlier:
             return
         self._earlier = path
-        self.dataChanged.emit(self.index(0, PHOTO), self.index(len(self.paths) - 1, NOTE))
+        self._redraw()
 
     def row_of(self, path: Path) -> PhotoRow | None:
         """Return what was found in the photo of a file, None where nothing was found so far."""
@@ -95,6 +139,7 @@ class PhotoRowsModel(QAbstractTableModel):
         return (
             self.tr("Photo"),
             self.tr("Verdict"),
+            label_of(self.known),
             label_of(self._estimate),
             label_of("exposure_time"),
             self.tr("As noted"),
@@ -110,16 +155,60 @@ class PhotoRowsModel(QAbstractTableModel):
                 return self.text(place, column)
             case Qt.ItemDataRole.ToolTipRole:
                 return in_tool_tip(self._tip(place, column))
+            case Qt.ItemDataRole.EditRole if column == KNOWN:
+                return self.text(place, column)
             case Qt.ItemDataRole.TextAlignmentRole:
                 return _alignment(column)
+            case Qt.ItemDataRole.BackgroundRole if self.paths[place] == self._open:
+                return QGuiApplication.palette().brush(QPalette.ColorRole.Highlight)
+            case Qt.ItemDataRole.ForegroundRole if self.paths[place] == self._open:
+                return QGuiApplication.palette().brush(QPalette.ColorRole.HighlightedText)
         return None
+
+    def flags(self, index: _Index) -> Qt.ItemFlag:
+        """Let the known value of each photo be edited."""
+        flags = super().flags(index)
+        if index.column() == KNOWN and not self.is_busy:
+            flags |= Qt.ItemFlag.ItemIsEditable
+        return flags
+
+    def setData(  # noqa: N802 - Qt's name
+        self, index: _Index, value: Any, role: int = Qt.ItemDataRole.EditRole
+    ) -> bool:
+        """Take the known value of a photo as it was typed; an empty text is the usual one again."""
+        place, text = index.row(), str(value).strip()
+        if index.column() != KNOWN or role != Qt.ItemDataRole.EditRole:
+            return False
+        if text == self.text(place, KNOWN):
+            return True
+        declared, given = quantity(self.known), self._given.setdefault(self.known, {})
+        try:
+            entered = declared.parse(text, declared.unit.display(declared.default)[1])
+        except ParameterError as error:
+            if text:
+                self.refused.emit(str(error))
+                return False
+            given.pop(place, None)
+        else:
+            given[place] = entered
+        self._rows.pop(place, None)  # what was found belongs to another value
+        self._redraw()
+        self.known_given.emit(place)
+        return True
 
     def _tip(self, place: int, column: int) -> str:
         """Return what a cell rests on, or why the photo is not sure."""
         row = self._rows.get(place)
         text = self.text(place, column)
         if column in (ESTIMATE, EXPOSURE) and text:
-            return f"{self._condition}{text}"
+            is_own = row is not None and row.given is not None
+            return text if is_own else f"{self._condition}{text}"
+        if column == KNOWN:
+            return self.tr(
+                "Known of this photo: double-click to enter another value than that of all "
+                "others, as of another lamp; enter nothing to take that one again.\n"
+                "A lamp that only blinks has two chips a cycle."
+            )
         if column == NOTE and row is not None and row.note:
             return one_line(row.note, LONGEST)
         return str(self.paths[place])
@@ -128,23 +217,26 @@ class PhotoRowsModel(QAbstractTableModel):
         """Return the text of a cell."""
         if column == PHOTO:
             return one_line(self.paths[place].name)
+        if column == KNOWN:
+            known = self._given.get(self.known, {}).get(place, self._usual)
+            return "" if known is None else quantity(self.known).format(known)
         row = self._rows.get(place)
         if row is None:
             return ""
         match column:
             case 1:
                 return self._verdict(place, row)
-            case 2:
-                return _estimate(row, self._estimate)
             case 3:
+                return _estimate(row, self._estimate)
+            case 4:
                 text = _estimate(row, "exposure_time")
                 # Of a doubtful photo all is.
                 is_apart = row.verdict == SURE and row.exposure_verdict == DOUBTFUL
                 return self.tr("{time} (doubtful)").format(time=text) if is_apart else text
-            case 4:
+            case 5:
                 noted = row.noted_exposure
                 return "" if noted is None else quantity("exposure_time").format(noted, 4)
-            case 5:
+            case 6:
                 return "" if row.correlation is None else f"{row.correlation:.3f}"
         return one_line(row.note, 1000)
 

@@ -1,14 +1,14 @@
 """Match many photos of one camera and one scene: one readout time from all of them."""
 
 import os
-from collections.abc import Callable, Generator, Iterable, Sequence
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from contextlib import closing
 from pathlib import Path
 from typing import TypeAlias
 
 from occ_model.errors import ParameterError, PhotoError, shown
 from occ_model.parallel.job import Heartbeat
-from occ_model.photo.many.row import MatchSettings, row_of_file, row_of_photo
+from occ_model.photo.many.row import MatchSettings, row_of
 from occ_model.photo.many.table import table_of
 from occ_model.photo.many.workers import rows_by_workers
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
@@ -36,6 +36,7 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
     fit_gamma: bool = False,
     scan_axis: str = SCAN_AXES[0],
     channel: str = CHANNELS[0],
+    known: Mapping[int, float] | None = None,
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> PhotoTable:
@@ -55,6 +56,10 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
         As for :func:`occ_model.match_photo`.
     scan_axis, channel
         As for :func:`occ_model.load_photo`; for files only.
+    known
+        Values of the known parameter in SI units for single photos, by their places from 0: the
+        frequency of another lamp, or the readout time of another camera. The scene's holds for all
+        others.
     jobs
         Number of processes that read and match files; 1: this one. The module that calls this with
         more must not do so when it is imported (``if __name__ == "__main__":``).
@@ -71,12 +76,17 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
     Raises
     ------
     ParameterError
-        A setting or ``jobs`` is not allowed, or there are no photos.
+        A setting, a known value or ``jobs`` is not allowed, or there are no photos.
     PhotoError
         One of the photos is neither a path nor a photo.
     """
-    settings = MatchSettings(scene, estimate, sent, averaging, fit_gamma, scan_axis, channel)
+    settings = MatchSettings(
+        scene, estimate, sent, averaging, fit_gamma, scan_axis, channel,
+        tuple((known or {}).items()),
+    )  # fmt: skip
     sources = checked_photos(photos)
+    for place in known or ():
+        check_count("place of a known value", place, 0, len(sources) - 1)
     settings.check()
     check_count("jobs", jobs, 1, MOST_JOBS)
     report = progress or (lambda _done, _total: None)
@@ -136,12 +146,12 @@ def matched_rows(
     files = [(place, one) for place, one in enumerate(sources) if isinstance(one, Path)]
     for place, one in enumerate(sources):
         if isinstance(one, Photo):
-            yield place, row_of_photo(one, settings, heartbeat)
+            yield row_of(place, one, settings, heartbeat)
     if jobs > 1 and len(files) > 1:
         yield from rows_by_workers(files, settings, min(jobs, len(files)), heartbeat)
         return
     for place, path in files:
-        yield place, row_of_file(path, settings, heartbeat)
+        yield row_of(place, path, settings, heartbeat)
 
 
 def usual_jobs() -> int:

@@ -9,7 +9,7 @@ from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results import Match
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, UNREADABLE, PhotoRow
+from occ_model.results.photo_table import DOUBTFUL, REFUSED, UNREADABLE, PhotoRow, known_beside
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
 
@@ -26,6 +26,9 @@ class MatchSettings:
         As for :func:`occ_model.match_photo`.
     scan_axis, channel
         As for :func:`occ_model.load_photo`.
+    known
+        Values of the known parameter for single photos, as of another lamp: pairs of the photo's
+        place and the value in SI units. The scene's holds for all others.
     """
 
     scene: Scene
@@ -35,6 +38,20 @@ class MatchSettings:
     fit_gamma: bool = False
     scan_axis: str = SCAN_AXES[0]
     channel: str = CHANNELS[0]
+    known: tuple[tuple[int, float], ...] = ()
+
+    def of(self, place: int) -> "MatchSettings":
+        """Give the settings of the photo at a place.
+
+        Raises
+        ------
+        ParameterError
+            Its known value is out of range.
+        """
+        own = dict(self.known).get(place)
+        if own is None:
+            return self
+        return replace(self, scene=self.scene.replace(**{known_beside(self.estimate): own}))
 
     def check(self) -> None:
         """Refuse settings that are not allowed, before any photo is read.
@@ -42,13 +59,24 @@ class MatchSettings:
         Raises
         ------
         ParameterError
-            A setting is not one of its words, or the scene is none.
+            A setting is not one of its words, the scene is none, or a known value is out of range.
         """
         check_scene(self.scene)
         check_choice("estimate", self.estimate, ESTIMATES)
         check_choice("sent", self.sent, PATTERN_SOURCES)
         check_choice("scan_axis", self.scan_axis, SCAN_AXES)
         check_choice("channel", self.channel, CHANNELS)
+        for place, _ in self.known:
+            self.of(place)
+
+
+def row_of(
+    place: int, source: Path | Photo, settings: MatchSettings, heartbeat: Heartbeat
+) -> tuple[int, PhotoRow]:
+    """Match the file or photo at a place of the table, and give its row with its place."""
+    make = row_of_photo if isinstance(source, Photo) else row_of_file
+    row = make(source, settings.of(place), heartbeat)  # type: ignore[operator]
+    return place, replace(row, given=dict(settings.known).get(place))
 
 
 def row_of_file(path: Path, settings: MatchSettings, heartbeat: Heartbeat) -> PhotoRow:

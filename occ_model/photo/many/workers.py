@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 from occ_model.parallel.job import Heartbeat, Job, Stage, Workers, WorkersLostError
 from occ_model.parallel.request import Run
 from occ_model.parallel.scheduler import Scheduler
-from occ_model.photo.many.row import MatchSettings, row_of_file
+from occ_model.photo.many.row import MatchSettings, row_of
 from occ_model.results.photo_table import UNREADABLE, PhotoRow
 
 PRELOAD = "occ_model.photo.many.row"
@@ -58,7 +58,7 @@ def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat:
                 stacklevel=2,
             )
             for place, path in chain(progress.sent.items(), waiting):
-                yield place, row_of_file(path, settings, heartbeat)
+                yield row_of(place, path, settings, heartbeat)
             return
         for place, path in progress.sent.items():
             alone = _Progress(iter([(place, path)]), settings)
@@ -113,7 +113,7 @@ class _Progress:
         """Make a job of each file, only when it is needed."""
         for place, path in self._files:
             self.sent[place] = path
-            yield Job(_placed_row, (place, path, self._settings))
+            yield Job(row_of, (place, path, self._settings))
 
     def newly_matched(self) -> list[tuple[int, PhotoRow]]:
         """Give the rows since the last call."""
@@ -143,9 +143,3 @@ class _Progress:
 
     def workers_missing(self, _channel: int, _run: int, _error: Exception) -> None:
         """Do nothing: the thread does the work."""
-
-
-def _placed_row(
-    place: int, path: Path, settings: MatchSettings, heartbeat: Heartbeat
-) -> tuple[int, PhotoRow]:
-    return place, row_of_file(path, settings, heartbeat)

@@ -235,6 +235,32 @@ def test_the_mean_of_one_photo_is_tested_against_nothing() -> None:
     assert "chi-square" in csv_text(made(row(7e-6), row(7e-6)))
 
 
+def test_a_photo_of_another_lamp_is_matched_with_its_own_frequency() -> None:
+    other = SCENE.replace(switching_frequency=7e3)
+    photos = [photo_of(picture_of(scene, 4)) for scene in (SCENE, other)]
+    table = occ.match_photos(photos, SCENE, known={1: 7e3})
+    assert [row.given for row in table.rows] == [None, 7e3]
+    for row in table.rows:
+        assert row.readout_time == pytest.approx(9e-6, rel=2e-3), "one camera"
+        assert row.exposure_time == pytest.approx(80e-6, rel=0.03)
+    rests_on = [line["rests on"] for line in csv.DictReader(csv_text(table).splitlines()[-3:])]
+    assert rests_on == ["f = 5 kHz, given", "f = 7 kHz, given"]
+    assert table.rests_on_the_scene
+    (alone,) = occ.match_photos([photos[1]], SCENE).rows
+    assert alone.readout_time == pytest.approx(9e-6 * 7 / 5, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("known", "said"),
+    [({0: -1.0}, "switching_frequency"), ({1: 5e3}, "place"), ({0.5: 1.0}, "place")],
+)
+def test_a_known_value_that_cannot_be_is_refused_before_any_work(
+    known: dict[int, float], said: str
+) -> None:
+    with pytest.raises(occ.ParameterError, match=said):
+        occ.match_photos([Path("nowhere.png")], SCENE, known=known)
+
+
 @pytest.mark.parametrize("photos", [[], ()])
 def test_no_photos_are_refused(photos: list[Path]) -> None:
     with pytest.raises(occ.ParameterError, match="There are no photos to match"):
@@ -254,15 +280,15 @@ def test_what_progress_raises_ends_the_work(monkeypatch: pytest.MonkeyPatch) -> 
     matched: list[object] = []
     photo = photo_of(picture_of(SCENE, 1))
 
-    def matching(*arguments: object) -> PhotoRow:
-        matched.append(arguments)
-        return row(1e-5)
+    def matching(place: int, *_: object) -> tuple[int, PhotoRow]:
+        matched.append(place)
+        return place, row(1e-5)
 
     def stop_after_two(done: int, _total: int) -> None:
         if done == 2:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(module, "row_of_photo", matching)
+    monkeypatch.setattr(module, "row_of", matching)
     with pytest.raises(KeyboardInterrupt):
         occ.match_photos([photo] * 5, SCENE, progress=stop_after_two)
     assert len(matched) == 2

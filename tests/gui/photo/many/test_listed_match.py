@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from gui.user import User
+from PySide6.QtCore import Qt
 
 from occ_gui.app.application import Application
 from occ_gui.files.file_controller import sample_photos
@@ -84,6 +85,9 @@ def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
     application.open_photo(listed[0])
     user.wait_until_idle()
     assert application.photo_wiring.matching.match is not None
+    rows = application.photo.many.rows
+    marks = [rows.data(rows.index(n, 0), Qt.ItemDataRole.BackgroundRole) for n in range(2)]
+    assert [mark is not None for mark in marks] == [True, False]
     application.photos.scan_along("lines")
     user.wait_until_idle()
     assert application.photo_wiring.matching.match is None

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.many.many_view import ManyPhotosView
-from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, NOTE, PHOTO, VERDICT
+from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, KNOWN, NOTE, PHOTO, VERDICT
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
@@ -227,6 +227,34 @@ def test_a_click_on_a_row_opens_its_photo(view: ManyPhotosView, qtbot: QtBot) ->
     assert chosen.args == [PATHS[2]]
 
 
+def marked(view: ManyPhotosView) -> list[str]:
+    """Name the photos whose rows have the colours of a selection."""
+    role = Qt.ItemDataRole.BackgroundRole
+    chosen = view.table.selectionModel().selectedRows()
+    rows = [n for n in range(len(PATHS)) if view.rows.data(view.rows.index(n, 0), role) is not None]
+    return [view.rows.paths[n].name for n in {*rows, *(index.row() for index in chosen)}]
+
+
+def test_the_row_of_the_open_photo_is_marked_however_it_was_opened(
+    view: ManyPhotosView, qtbot: QtBot
+) -> None:
+    view.show()
+    place = view.table.visualRect(view.rows.index(2, PHOTO)).center()
+    qtbot.mouseClick(view.table.viewport(), Qt.MouseButton.LeftButton, pos=place)
+    assert marked(view) == [], "it may be no photo"
+    view.rows.show_open(PATHS[2])
+    assert marked(view) == [PATHS[2].name]
+    view.rows.show_open(PATHS[4])
+    qtbot.keyClick(view.table, Qt.Key.Key_Up)
+    assert marked(view) == [PATHS[4].name]
+    view.rows.show_open(Path("another.jpg"))
+    assert marked(view) == []
+
+
+def enter_known(view: ManyPhotosView, place: int, text: str) -> bool:
+    return view.rows.setData(view.rows.index(place, KNOWN), text)
+
+
 class Bench:
     """A controller, and a model that gives the rows above when it is let."""
 
@@ -245,6 +273,10 @@ class Bench:
     ) -> Generator[tuple[int, PhotoRow], None, None]:
         self.settings.append(settings)
         try:
+            if len(paths) == 1:
+                frequency = settings.scene.transmitter.switching_frequency
+                yield 0, replace(row(paths[0]), switching_frequency=frequency)
+                return
             yield 0, ROWS[0]
             while not self.go_on.wait(0.01):
                 beat()
@@ -280,6 +312,44 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
     assert bench.controller.table.rows == ROWS
     assert view.mean.text()
     assert view.start.isEnabled()
+
+
+def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
+    bench: Bench, view: ManyPhotosView, qtbot: QtBot
+) -> None:
+    assert enter_known(view, 5, "3 kHz")
+    bench.go_on.set()
+    with qtbot.waitSignal(bench.controller.matched):
+        bench.start()
+    assert bench.settings[0].known == ((5, 3e3),)
+    assert column(view, KNOWN) == ["10 kHz"] * 5 + ["3 kHz"]
+    with qtbot.waitSignal(bench.controller.matched) as found:
+        assert enter_known(view, 2, "7")
+        assert not view.start.isEnabled()
+    (made,) = found.args
+    assert [one.given for one in made.rows] == [None, None, 7e3, None, None, None]
+    assert made.rows[2].switching_frequency == 7e3
+    assert made.rows[:2] + made.rows[3:] == ROWS[:2] + ROWS[3:], "the others stay"
+    assert column(view, KNOWN)[2] == "7 kHz"
+    assert "if f" not in tip(view, 2, ESTIMATE)
+    assert "if f = 10 kHz" in tip(view, 1, ESTIMATE)
+    with qtbot.waitSignal(bench.controller.matched):
+        assert enter_known(view, 2, "")
+    assert column(view, KNOWN)[2] == "10 kHz"
+    assert bench.controller.table is not None
+    assert bench.controller.table.rows[2].given is None
+
+
+def test_a_frequency_that_cannot_be_stays_out_and_says_why(
+    bench: Bench, view: ManyPhotosView
+) -> None:
+    view.show_table(table())
+    for wrong in ("-3 kHz", "fast"):
+        assert not enter_known(view, 1, wrong)
+        assert wrong.split()[0] in view.notes.text()
+    assert column(view, KNOWN)[1] == "10 kHz"
+    assert column(view, VERDICT)[1] == "● sure", "what was found stays"
+    assert bench.settings == []
 
 
 def test_cancelling_ends_the_work_and_keeps_the_rows(

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from occ_model import colours
 from occ_model.errors import OutputError, one_line
+from occ_model.figures.page import fit_texts
 from occ_model.figures.table import write_table
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
@@ -85,6 +86,7 @@ def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> by
         "svg": {"Title": title, "Description": text, "Date": None},
         "png": {"Title": title, "Description": text},
     }
+    fit_texts(figure)
     buffer = BytesIO()
     figure.savefig(buffer, format=format_name, metadata=metadata[format_name])
     return buffer.getvalue()

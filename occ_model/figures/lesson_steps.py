@@ -1,14 +1,15 @@
 """Steps of a lesson on a page: question, answer, explanation, and what was seen."""
 
-import textwrap
 from collections.abc import Iterator, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 
 from occ_model.camera.photometry import column_profile
 from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import PHOTO, SIMULATION
+from occ_model.figures.page import lines_within, with_letters
 from occ_model.figures.window_panes import caption
 from occ_model.results.lessons import AnsweredStep
 from occ_model.results.match import Match
@@ -19,8 +20,8 @@ from occ_model.teaching.explanations import explanation
 _PAGE = (8.27, 11.69)
 """Inches of a page of A4."""
 
-_LINE = 92
-"""Letters of a line."""
+_LEFT, _RIGHT = 0.08, 0.92
+"""Where lines begin and end, as shares of the page's width."""
 
 _MOST_ROOM = 5
 """Steps of a page that can still be read."""
@@ -68,9 +69,9 @@ def draw_page(
     """
     figure = Figure(figsize=_PAGE)
     figure.set_layout_engine("none")
-    figure.text(0.08, 0.955, printable(title), fontsize=16, fontweight="bold", parse_math=False)
-    figure.text(0.08, 0.935, printable(about), fontsize=9, color="0.3", parse_math=False)
-    figure.text(0.92, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
+    _write(figure, 0.97, title, FontProperties(size=16, weight="bold"), "0.0", most=1)
+    _write(figure, 0.945, about, FontProperties(size=9), "0.3", most=1)
+    figure.text(_RIGHT, 0.015, foot, fontsize=7, color="0.3", horizontalalignment="right")
     unit = (_TOP - _BOTTOM) / sum(map(_room, steps))
     top = _TOP
     for place, each in enumerate(steps, first):
@@ -94,15 +95,22 @@ def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bott
     )
     line = 0.0145
     for text, size, weight, colour in texts:
-        wrapped = textwrap.wrap(printable(text), int(_LINE * 10 / max(size, 9)), max_lines=5)
-        if not wrapped:
-            continue
-        figure.text(
-            0.08, top, "\n".join(wrapped), fontsize=size, fontweight=weight, color=colour,
-            verticalalignment="top", linespacing=1.25, parse_math=False,
-        )  # fmt: skip
-        top -= line * len(wrapped) + 0.004
+        lines = _write(figure, top, text, FontProperties(size=size, weight=weight), colour)
+        top -= line * lines + 0.004 * (lines > 0)
     _draw_seen(figure, each, top - line * 0.5, bottom + 0.045)
+
+
+def _write(
+    figure: Figure, top: float, text: str, font: FontProperties, colour: str, most: int = 5
+) -> int:
+    """Write a text below a height of the page, in at most so many lines; give their number."""
+    text, font = with_letters(printable(text), font)
+    lines = lines_within(text, (_RIGHT - _LEFT) * _PAGE[0], font, most) if text else []
+    figure.text(
+        _LEFT, top, "\n".join(lines), fontproperties=font, color=colour,
+        verticalalignment="top", linespacing=1.25, parse_math=False,
+    )  # fmt: skip
+    return len(lines)
 
 
 def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:

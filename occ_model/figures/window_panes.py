@@ -1,7 +1,6 @@
 """Draw the window's picture and column profiles for print."""
 
 from collections.abc import Callable, Iterable, Mapping
-from textwrap import fill
 from typing import Any
 
 import cv2
@@ -29,8 +28,8 @@ _PHOTO = "photo, fitted levels"
 _CAPTION_SIZE = 7
 """Points of a caption's letters."""
 
-_WIDTH_OF_A_LETTER = 0.055
-"""Inches of a caption's letter, numbers and spaces included, with a little to spare."""
+_LEAST_HEIGHT = 1.3
+"""Inches of a figure of a flat picture, with the texts above and below it."""
 
 _NAMED = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
@@ -50,7 +49,7 @@ def _named_values(scene: Scene) -> list[str]:
 
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
-    """Write the scene under a figure, in as many lines as its width needs, and what is told of it.
+    """Write the scene under a figure, and what is told of a photo in it.
 
     Parameters
     ----------
@@ -59,14 +58,11 @@ def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
     scene
         The scene.
     about
-        A sentence on the photo in it; empty without one.
+        A sentence on the photo; empty without one.
     """
-    most = int(figure.get_figwidth() / _WIDTH_OF_A_LETTER)
-    # Spaces that may not break, so that lines end after a comma only.
+    # Spaces that may not break: lines end after a comma only.
     values = [value.replace(" ", "\xa0") for value in _named_values(scene)]
-    text = fill(", ".join(values), most).replace("\xa0", " ")
-    if about:
-        text += f"\n{fill(about, most)}"
+    text = "\n".join(filter(None, (", ".join(values), about)))
     # A file's name may hold what would be read as a formula.
     figure.supxlabel(text, fontsize=_CAPTION_SIZE, parse_math=False)
 
@@ -111,7 +107,8 @@ def picture_drawing(
     def draw() -> Figure:
         pictures = [image] if photo is None or layer is not None else [image, photo]
         rows, columns = image.shape if difference is None else difference.levels.shape
-        figure = Figure(figsize=(3.6 * len(pictures), 0.9 + 3.1 * min(rows / columns, 1.6)))
+        height = max(0.9 + 3.1 * min(rows / columns, 1.6), _LEAST_HEIGHT)
+        figure = Figure(figsize=(3.6 * len(pictures), height))
         axes = figure.subplots(1, len(pictures), squeeze=False)[0]
         for ax, picture in zip(axes, pictures, strict=True):
             if difference is None:

@@ -1,12 +1,14 @@
 """Describe a figure in lines of text: what is drawn, where, how large and in which colours."""
 
 from collections.abc import Iterator
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import Collection
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
@@ -15,8 +17,40 @@ from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.text import Text
+from matplotlib.transforms import BboxBase
 
 from occ_model.arrays import FloatArray
+from occ_model.figures.page import fit_texts
+
+
+def cut_off(figure: Figure) -> list[str]:
+    """Name what of a figure, fitted as for a file, is not inside its page or over another title."""
+    fit_texts(figure)
+    FigureCanvasAgg(figure).draw()
+    page, ticks = figure.bbox.padded(1.0), _tick_labels(figure)
+    boxes = {
+        text: text.get_window_extent()
+        for text in figure.findobj(Text)
+        if isinstance(text, Text) and text.get_text() and text.get_visible() and text not in ticks
+    }
+    inside = {text: _holds(page, box) for text, box in boxes.items()}
+    said = [text.get_text() for text, is_inside in inside.items() if not is_inside]
+    # Tick labels of values that are not in view are not drawn, and count for nothing here.
+    drawn = figure.get_tightbbox().transformed(figure.dpi_scale_trans)
+    said += [] if _holds(page, drawn) else [f"drawn to {drawn}"]
+    titles = [ax.title for ax in figure.axes if ax.title.get_text()]
+    for one, other in combinations(titles, 2):
+        said += [one.get_text()] if boxes[one].overlaps(boxes[other]) else []
+    return said
+
+
+def _tick_labels(figure: Figure) -> set[Text]:
+    axes = [axis for ax in figure.axes for axis in (ax.xaxis, ax.yaxis)]
+    return {label for axis in axes for label in axis.get_ticklabels(which="both")}
+
+
+def _holds(page: BboxBase, box: BboxBase) -> bool:
+    return page.x0 <= box.x0 and page.y0 <= box.y0 and box.x1 <= page.x1 and box.y1 <= page.y1
 
 
 def described(figure: Figure) -> list[str]:

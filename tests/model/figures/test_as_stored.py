@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from accuracy_points import EACH_WAY
 from matplotlib.figure import Figure
-from model.figures.artists import described, is_alike
+from model.figures.artists import cut_off, described, is_alike
 
 import occ_model as occ
 from occ_model.boards.arduino import UNO
@@ -52,6 +52,7 @@ def is_as_stored(request: pytest.FixtureRequest) -> Callable[..., None]:
 
     def compare(name: str, figure: Figure, *more: object) -> None:
         lines = [*described(figure), *map(str, more)]
+        assert not cut_off(figure)
         path = STORED / f"{name}.txt"
         if request.config.getoption("--renew-snapshots"):
             path.write_text("\n".join(lines) + "\n", encoding="utf-8")

@@ -5,7 +5,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 import occ_model as occ
@@ -55,20 +54,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_every_drawing_comes_in_every_format(folder: Path) -> None:
     names = {"picture", "profile", "decoding-threshold", "decoding-matched"}
     assert {p.name for p in folder.iterdir()} == {f"{n}{end}" for n in names for end in ENDINGS}
-
-
-def test_no_text_of_a_figure_is_cut_off() -> None:
-    tall = occ.render(SCENE.replace(rows=1600))
-    for drawing in (*drawings(), picture_drawing(tall)):
-        with house_style():
-            figure = drawing.draw()
-            FigureCanvasAgg(figure).draw()
-            page = figure.bbox.padded(1.0)
-            assert figure.texts
-            for text in (*figure.texts, *(ax.title for ax in figure.axes)):
-                box = text.get_window_extent()
-                assert page.contains(box.x0, box.y0), text
-                assert page.contains(box.x1, box.y1), text
 
 
 def test_every_file_gives_the_scene_back(folder: Path) -> None:

@@ -1,0 +1,171 @@
+"""Keep every text of a figure inside its page, whatever its length and its language."""
+
+import textwrap
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from typing import TypeVar
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties, fontManager, get_font
+from matplotlib.legend import Legend
+from matplotlib.text import Text
+from matplotlib.textpath import text_to_path
+
+_Kind = TypeVar("_Kind", Text, Legend)
+
+_MARGIN = 0.05
+"""Inches between a text and the edge of the page."""
+
+_HINTED = 1.08
+"""By how much a line of small letters, placed on whole pixels, is wider than its outlines."""
+
+_MOST_LINES = 12
+_MOST_ROUNDS = 3
+"""Of making a page higher, after which its axes are placed anew."""
+
+_UNKNOWN_LETTER = "□"
+_POINTS = 72.0
+"""Points of an inch."""
+
+
+def lines_within(text: str, inches: float, font: FontProperties, most: int) -> list[str]:
+    """Break a text into at most so many lines of a width; what does not fit ends in an ellipsis."""
+    letters = max(len(text), 1)
+    lines = [text]
+    while letters > 1 and max((_inches(line, font) for line in lines), default=0.0) > inches:
+        widest = max(lines, key=lambda line: _inches(line, font))
+        longer = _inches(widest, font) / inches
+        letters = max(min(int(len(widest) / longer), letters - 1), 1)
+        lines = textwrap.wrap(text, letters, max_lines=most, placeholder="…")
+    return lines
+
+
+def _inches(line: str, font: FontProperties) -> float:
+    width, _, _ = text_to_path.get_text_width_height_descent(line, font, ismath=False)
+    return _HINTED * float(width) / _POINTS
+
+
+def fit_texts(figure: Figure) -> None:
+    """Break the lines of texts that are wider than their room; the page grows by what is added.
+
+    Legends get fewer columns where their entries have no room side by side.
+    """
+    for text in _all(figure, Text):
+        drawn, font = with_letters(text.get_text(), text.get_fontproperties())
+        text.set_text(drawn)
+        text.set_fontfamily(font.get_family())
+    if figure.get_layout_engine() is None:
+        return
+    for room in _rooms(figure):
+        figure.set_figheight(figure.get_figheight() + room.fit())
+    for legend in _all(figure, Legend):
+        _narrow(legend, figure)
+    for _ in range(_MOST_ROUNDS):
+        above, below = _over_the_edge(figure)
+        if not above + below:
+            break
+        figure.set_figheight(figure.get_figheight() + above + below)
+
+
+def _over_the_edge(figure: Figure) -> tuple[float, float]:
+    """Give the inches by which what is drawn reaches over the upper and the lower edge."""
+    figure.draw_without_rendering()
+    drawn = figure.get_tightbbox()
+    return max(drawn.y1 - figure.get_figheight(), 0.0), max(-drawn.y0, 0.0)
+
+
+def _all(figure: Figure, kind: type[_Kind]) -> list[_Kind]:
+    return [artist for artist in figure.findobj(kind) if isinstance(artist, kind)]
+
+
+@dataclass(frozen=True, slots=True)
+class _Room:
+    """A text and the width that it may have, in inches."""
+
+    text: Text
+    inches: float
+
+    def fit(self) -> float:
+        """Break the text's lines, and give the height of those that this adds."""
+        before = self.text.get_text().split("\n")
+        font = self.text.get_fontproperties()
+        lines = [
+            line for each in before for line in lines_within(each, self.inches, font, _MOST_LINES)
+        ]
+        self.text.set_text("\n".join(lines))
+        spacing = 1.2 * float(self.text.get_fontsize()) / _POINTS
+        return max(len(lines) - len(before), 0) * spacing
+
+
+def _rooms(figure: Figure) -> Iterator[_Room]:
+    page = figure.get_figwidth() - 2 * _MARGIN
+    for line in (figure._supxlabel, figure._suptitle):  # type: ignore[attr-defined]
+        if line is not None:
+            yield _Room(line, page)
+    headings = [(text, _across(ax)) for ax in figure.axes for text in _headings(ax)]
+    # One that is far too wide would leave the axes no width.
+    for is_shown in (False, True):
+        for text, _ in headings:
+            text.set_visible(is_shown)
+        if not is_shown:
+            figure.draw_without_rendering()
+    for text, across in headings:
+        yield _Room(text, min(_to_the_edge(text, figure), page / across))
+
+
+def _headings(ax: Axes) -> Iterator[Text]:
+    """Give the titles of axes, and the label below them."""
+    titles = [child for child in ax.get_children() if isinstance(child, Text)]
+    for text in (*titles, ax.xaxis.label):
+        # Others stand at places of the data.
+        if text.get_text() and text not in ax.texts:
+            yield text
+
+
+def _across(ax: Axes) -> int:
+    """Give the number of axes that stand side by side."""
+    place = ax.get_subplotspec()
+    return 1 if place is None else place.get_gridspec().ncols // len(place.colspan)
+
+
+def _to_the_edge(text: Text, figure: Figure) -> float:
+    """Give the width that a text may have where it stands."""
+    box, width = text.get_window_extent(), figure.get_figwidth()
+    left, right = box.x0 / figure.dpi, box.x1 / figure.dpi
+    match text.get_horizontalalignment():
+        case "left":
+            return width - _MARGIN - left
+        case "right":
+            return right - _MARGIN
+        case _:
+            centre = (left + right) / 2
+            return 2 * (min(centre, width - centre) - _MARGIN)
+
+
+def _narrow(legend: Legend, figure: Figure) -> None:
+    columns = int(legend._ncols)  # type: ignore[attr-defined]
+    while columns > 1 and legend.get_window_extent().width > figure.bbox.width:
+        columns -= 1
+        legend.set_ncols(columns)
+
+
+def with_letters(text: str, font: FontProperties) -> tuple[str, FontProperties]:
+    """Take letters that a font has not from the computer's others, or a square for them."""
+    missing = set(text) - {"\n"} - _letters_of(fontManager.findfont(font))
+    families = list(font.get_family())
+    for entry in fontManager.ttflist if missing else ():
+        # A file of several fonts, or of another kind, cannot be part of a PDF.
+        if entry.fname.endswith(".ttf") and not entry.name.startswith("Last Resort"):
+            found = missing & _letters_of(entry.fname)
+            families += [entry.name] if found else []
+            missing -= found
+    font = font.copy()
+    font.set_family(families)
+    return "".join(_UNKNOWN_LETTER if letter in missing else letter for letter in text), font
+
+
+@cache
+def _letters_of(path: str) -> frozenset[str]:
+    return frozenset(map(chr, get_font(path).get_charmap()))

@@ -23,8 +23,8 @@ from occ_gui.app.garbage_collection import GarbageCollector
 from occ_gui.lessons import lesson_controller as lessons_room
 
 ACTIONS = int(os.environ.get("OCC_SOAK", 120))
-_LONG = 5_000
-"""Actions after whose first fifth all that is kept on purpose has been filled."""
+_WINDOW = 5_000
+"""Actions between two looks at the memory; after the first of them all that is kept is full."""
 
 _MOST_GROWTH = 3e6
 """Bytes."""
@@ -49,13 +49,38 @@ def keep_nothing_free() -> None:
         libc.mallopt(_MMAP_THRESHOLD, _AT_ONCE)
 
 
-def resident_bytes() -> float:
+def memory(line: str) -> float:
+    """Give a number of bytes that the system reports of this process."""
+    text = Path("/proc/self/status").read_text(encoding="ascii")
+    return 1024.0 * int(text.split(f"{line}:")[1].split()[0])
+
+
+def used_memory() -> float:
     """Give the memory that the process uses now, without what it keeps free for later."""
     gc.collect()
     with suppress(OSError, AttributeError):
         ctypes.CDLL("libc.so.6").malloc_trim(0)
-    pages = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
-    return float(pages * os.sysconf("SC_PAGE_SIZE"))
+    return memory("VmRSS")
+
+
+class Growth:
+    """What is used at the end of each window of actions, and what was at most within it."""
+
+    def __init__(self) -> None:
+        self.used: list[float] = []
+        self._forget_the_peak()
+
+    def look(self, number: int) -> None:
+        """Look now, after so many actions, and print it."""
+        peak, left = memory("VmHWM"), memory("VmRSS")
+        self.used.append(used_memory())
+        each = [f"{value / 1e6:.1f}" for value in (peak, left, self.used[-1])]
+        print(number, "actions, MB at most, at rest and in use:", *each, flush=True)  # noqa: T201
+        self._forget_the_peak()
+
+    @staticmethod
+    def _forget_the_peak() -> None:
+        Path("/proc/self/clear_refs").write_text("5", encoding="ascii")
 
 
 @pytest.fixture
@@ -86,24 +111,22 @@ def monkey(
 def test_random_actions_cause_no_exception_warning_or_leak(
     monkey: Monkey, application: Application, caplog: pytest.LogCaptureFixture
 ) -> None:
-    if ACTIONS >= _LONG:
+    if ACTIONS >= _WINDOW:
         keep_nothing_free()
         monkey.export_many()
     home = smaller(application.store.scene)
     application.store.put(home, "smaller")
-    before = 0.0
-    for number in range(ACTIONS):
+    growth = Growth()
+    for number in range(1, ACTIONS + 1):
         monkey.act()
-        if number % 5 == 4:
+        if number % 5 == 0:
             monkey.wait()
-        if number == ACTIONS // 5:
+        if number % _WINDOW == 0:
             monkey.come_home(home)
-            before = resident_bytes()
+            growth.look(number)
     monkey.come_home(home)
-    growth = resident_bytes() - before
-    print(f"{ACTIONS} actions, memory grew by {growth / 1e6:.1f} MB after the first fifth")  # noqa: T201
     assert application.simulation.runner.is_idle
     # A mistake of ours on another thread becomes a sentence on the screen, and a line here.
     assert [each.message for each in caplog.records if each.levelno >= logging.WARNING] == []
-    if ACTIONS >= _LONG:
-        assert growth < _MOST_GROWTH
+    if growth.used:
+        assert growth.used[-1] - growth.used[0] < _MOST_GROWTH

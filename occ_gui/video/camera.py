@@ -2,7 +2,7 @@
 
 import platform
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
@@ -12,6 +12,7 @@ import numpy as np
 
 from occ_gui.video.frame_source import LivePicture
 from occ_model.errors import VideoError, one_line
+from occ_model.video.file.quiet import quiet_opencv
 
 _DEVICES = Path("/sys/class/video4linux")
 """Where Linux lists video devices."""
@@ -83,21 +84,6 @@ def _probed() -> Iterator[CameraDevice]:
             if capture.isOpened():
                 yield CameraDevice(number, f"Camera {number + 1}")
             capture.release()
-
-
-@contextmanager
-def quiet_opencv() -> Iterator[None]:
-    """Let OpenCV print nothing about devices that are not there."""
-    log = getattr(getattr(cv2, "utils", None), "logging", None)
-    if log is None:
-        yield
-        return
-    before = log.getLogLevel()
-    log.setLogLevel(log.LOG_LEVEL_SILENT)
-    try:
-        yield
-    finally:
-        log.setLogLevel(before)
 
 
 class CameraSource:

@@ -74,7 +74,7 @@ def _run(options: argparse.Namespace) -> int:
     film = render_video(
         scene_of(options), options.frames, recording, settings=simulation_settings_of(options)
     )
-    check_film_path(options.out, recording.frame_rate)
+    check_film_path(options.out, recording.frame_rate, film.shape)
     with progress_bar(total=options.frames, unit="frame", leave=False, disable=None) as bar:
         count = write_video(film, options.out, lambda _done: bar.update())
     rows, columns = film.shape

@@ -28,7 +28,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
-from occ_model.video.file.write import write_frames
+from occ_model.video.file.write import check_film_path, write_frames
 
 ENDINGS = (".gif", ".mp4", ".png")
 """The endings of an animation's file: GIF, MP4 (MPEG-4), and animated PNG."""
@@ -90,7 +90,8 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
         The parameter is unknown or no quantity, a value is out of range, there are no values or
         more than :data:`MOST_FRAMES`, or the rate is not from above 0 to 50 a second.
     OutputError
-        The ending is none of :data:`ENDINGS`, or the file cannot be written.
+        The ending is none of :data:`ENDINGS`, its kind has no such rate, or the file cannot be
+        written.
     """
     check_scene(scene)
     ending = path.suffix.lower()
@@ -105,6 +106,7 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
         raise ParameterError(f"frames is {len(values)}; allowed: 1 to {MOST_FRAMES}.")
     if isinstance(rate, bool) or not 0.0 < rate <= _FASTEST:
         raise ParameterError(f"rate is {shown(rate)} a second; allowed: above 0 to {_FASTEST:g}.")
+    check_film_path(path, rate)
     check_replaceable(path)
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
     frames = _frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)

@@ -42,12 +42,12 @@ def write_video(
     ParameterError
         The film has no end.
     OutputError
-        The file's ending is of no film, its frame rate is too high for that kind of file, or it
-        cannot be written; an older file is unchanged.
+        The file's ending is of no film, that kind of file has no such frame rate or size, or it
+        cannot be written, as on a full disk; an older file is unchanged.
     """
     path = Path(path)
     rate = video.frame_rate or _USUAL_RATE
-    check_film_path(path, rate)
+    check_film_path(path, rate, video.shape)
     if video.simulated and video.frame_count is None:
         raise ParameterError("frames is None, a film without end; allowed to be written: a number.")
 

@@ -10,13 +10,13 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.errors import ParameterError, SceneFileError, VideoError, one_line, shown
+from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
 from occ_model.photo.reading.scan_axis import SCAN_AXES, roughness_along
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.provenance import first_scene_in
 from occ_model.scene.recording import Recording
-from occ_model.video.file.containers import FIRST_BYTES, container_of
 from occ_model.video.file.decoder_main import NO_MEMORY
 from occ_model.video.file.decoder_process import (
     DecoderProcess,
@@ -50,7 +50,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
     Parameters
     ----------
     path
-        A file of one of the kinds in :mod:`occ_model.video.file.containers`, told by its content.
+        A file of one of the kinds in :mod:`occ_model.files.film_kinds`, told by its content.
         Frames are turned upright, and their levels are 0 to 255 whatever range the file keeps.
     scan_axis
         ``"columns"`` or ``"lines"`` of the film, or ``"auto"``: found on the first frames, and used

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, TypeAlias
 
 from occ_model.errors import PhotoError, one_line
+from occ_model.files.film_kinds import kind_of_film
 
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
@@ -55,7 +56,10 @@ def format_and_factory(path: Path, file: IO[bytes]) -> "tuple[str, Factory]":
         if factory is not None and accepts is not None and accepts(start[:16]) is True:
             # Pillow's own function for JPEG fails where the list of further pictures is damaged.
             return name, partial(_open, JpegImageFile if name == "JPEG" else factory)
-    raise PhotoError(f"{one_line(str(path))} is not an image that can be read.")
+    name = one_line(str(path))
+    if kind_of_film(start) is not None:
+        raise PhotoError(f"{name} is a film, not a photo; decode it as a film.")
+    raise PhotoError(f"{name} is not an image that can be read.")
 
 
 def _open(factory: "Callable[[IO[bytes], str], ImageFile]", file: IO[bytes]) -> "ImageFile":

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from occ_model.errors import SceneFileError, VideoError
+from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
-from occ_model.video.file.containers import FIRST_BYTES, container_of
 
 _PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")
 """Brands of pictures that begin as MP4 films do: HEIC, AVIF and Canon's raw files."""

@@ -13,7 +13,6 @@ from pathlib import Path
 import cv2
 
 from occ_model.arrays import ByteArray
-from occ_model.errors import OutputError
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _MOST = 65_535
@@ -23,8 +22,6 @@ _MOST = 65_535
 def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
     """Write grey or coloured pictures with a note as the text ``Description``; count them."""
     delay = (1 / Fraction(rate)).limit_denominator(_MOST)
-    if not 0 < delay.numerator <= _MOST:
-        raise OutputError(f"A PNG film cannot have {rate:g} frames a second.")
     count = sequence = place = 0
     with path.open("wb") as file:
         for picture in pictures:

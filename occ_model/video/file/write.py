@@ -4,6 +4,9 @@ The note of a GIF file is its comment, that of a PNG file the text ``Description
 files have it in a block at their end that players pass over.
 """
 
+import errno
+import os
+import shutil
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
@@ -15,6 +18,7 @@ from occ_model.files.writing import written_whole
 from occ_model.video.file.gif import write_gif
 from occ_model.video.file.note import mkv_note, mp4_note
 from occ_model.video.file.png import write_png
+from occ_model.video.file.quiet import quiet_opencv
 
 _CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}
 """MPEG-4, which is lossy, and FFV1, which is not."""
@@ -25,12 +29,19 @@ LOSSLESS = (".mkv", ".gif", ".png")
 FILM_ENDINGS = (".mp4", *LOSSLESS)
 """Endings of the files that films are written to."""
 
-_MOST_RATE = {".gif": 50.0}
-"""Frames a second; players of GIF files show none faster."""
+_RATES = {
+    ".mp4": (0.01, 65_535.0),
+    ".mkv": (0.01, 1e5),
+    ".gif": (0.002, 50.0),
+    ".png": (1e-4, 65_535.0),
+}
+"""Frames a second that a file can state; players of GIF files show none faster."""
 
 
 def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: str) -> int:
     """Write a film, of which one frame is kept in memory.
+
+    OpenCV tells of no error: its file's frames are counted before it takes the place of another.
 
     Parameters
     ----------
@@ -53,37 +64,75 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
     Raises
     ------
     OutputError
-        The ending is of no film, the rate too high for its kind, there are no pictures, or the
-        file cannot be written.
+        The ending is of no film, its kind has no such rate or no frames of that size, there are no
+        pictures, or the file cannot be written.
     """
     check_film_path(path, rate)
-    ending = path.suffix.lower()
+    name, ending = one_line(path.name), path.suffix.lower()
+    shape: tuple[int, ...] = ()
+
+    def checked() -> Iterator[ByteArray]:
+        nonlocal shape
+        for picture in pictures:
+            if not shape:
+                shape = picture.shape
+                check_film_path(path, rate, (shape[0], shape[1]))
+            elif picture.shape != shape:
+                raise OutputError(
+                    f"{name} is not written: a frame has another size than the first."
+                )
+            yield picture
+
     with written_whole(path) as temporary:
-        count = _WRITERS[ending](temporary, iter(pictures), rate, note)
+        count = _WRITERS[ending](temporary, checked(), rate, note)
         if count == 0:
-            raise OutputError(f"{one_line(path.name)} is not written: the film has no frames.")
+            raise OutputError(f"{name} is not written: the film has no frames.")
+        if ending in _CODECS:
+            found = _frames_in(temporary)
+            if found != count:
+                raise OutputError(
+                    f"{one_line(str(path))} cannot be written: only {found} of {count} frames can "
+                    "be read back; the disk was full, or failed."
+                )
     return count
 
 
-def check_film_path(path: Path, rate: float) -> None:
-    """Refuse a path that no film of a frame rate is written to.
+def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None) -> None:
+    """Refuse a path that no film of a frame rate, and of a size (lines, columns), is written to.
 
     Raises
     ------
     OutputError
-        The ending is of no film, or the rate too high for its kind.
+        The ending is of no film, or its kind has no such rate or no frames of that size.
     """
     ending = path.suffix.lower()
     if ending not in FILM_ENDINGS:
         raise OutputError(
             f"{one_line(path.name)} has no ending of a film; use {', '.join(FILM_ENDINGS)}."
         )
-    most = _MOST_RATE.get(ending)
-    if most is not None and rate > most:
+    least, most = _RATES[ending]
+    allowed = f"allowed in {'an' if ending.startswith('.m') else 'a'} {ending[1:].upper()} file"
+    if not least <= rate <= most:
         raise OutputError(
-            f"{one_line(path.name)} cannot have {rate:g} frames a second; allowed in a "
-            f"{ending[1:].upper()} file: up to {most:g}."
+            f"{one_line(path.name)} cannot have {rate:g} frames a second; {allowed}: {least:g} to "
+            f"{most:,g}."
         )
+    if size is not None and ending in _CODECS and min(size) < 2:
+        raise OutputError(
+            f"{one_line(path.name)} cannot have {size[1]:,} x {size[0]:,} pixels; {allowed}: from "
+            "2 a side; .gif and .png take any."
+        )
+
+
+def _frames_in(path: Path) -> int:
+    """Count the frames of a film that was written here; they are not decoded."""
+    with quiet_opencv():
+        capture = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG, (cv2.CAP_PROP_FORMAT, -1))
+        count = 0
+        while capture.grab():
+            count += 1
+        capture.release()
+    return count
 
 
 def _by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
@@ -95,24 +144,40 @@ def _by_opencv(path: Path, pictures: Iterator[ByteArray], rate: float, note: str
             if writer is None:
                 writer = _opened(path, rate, (lines, columns), picture.ndim == 3)
             cut = picture[:lines, :columns]
-            writer.write(cv2.cvtColor(cut, cv2.COLOR_RGB2BGR) if cut.ndim == 3 else cut.copy())
+            pixels = cv2.cvtColor(cut, cv2.COLOR_RGB2BGR) if cut.ndim == 3 else cut.copy()
+            with quiet_opencv():
+                writer.write(pixels)
+            _check_space(path)
             count += 1
     finally:
         if writer is not None:
-            writer.release()
+            with quiet_opencv():
+                writer.release()
     with path.open("ab") as file:
         file.write(mp4_note(note) if ending == ".mp4" else mkv_note(note))
+        file.flush()
+        os.fsync(file.fileno())  # some disks say only now that they are full
     return count
+
+
+def _check_space(path: Path) -> None:
+    """Refuse to go on where the disk is full: OpenCV says nothing of it."""
+    if shutil.disk_usage(path.parent).free == 0:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 def _opened(path: Path, rate: float, size: tuple[int, int], has_colours: bool) -> cv2.VideoWriter:
     ending, (lines, columns) = path.suffix.lower(), size
     code = cv2.VideoWriter.fourcc(*_CODECS[ending])
-    writer = cv2.VideoWriter(str(path), cv2.CAP_FFMPEG, code, rate, (columns, lines), has_colours)
+    with quiet_opencv():
+        writer = cv2.VideoWriter(
+            str(path), cv2.CAP_FFMPEG, code, rate, (columns, lines), has_colours
+        )
     if not writer.isOpened():
+        _check_space(path)
         raise OutputError(
-            f"This version of OpenCV cannot write {ending[1:].upper()} films of {columns} x "
-            f"{lines} pixels; use .gif or .png."
+            f"No {ending[1:].upper()} film of {columns:,} x {lines:,} pixels can be begun: the "
+            "disk is full, or OpenCV cannot write one; use .gif or .png."
         )
     return writer
 

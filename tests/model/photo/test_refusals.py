@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from films import film_bytes
 from photo_files import saved
 from PIL import Image, PngImagePlugin
 
@@ -90,6 +91,13 @@ def test_devices_pipes_and_sockets_are_refused_at_once(tmp_path: Path) -> None:
 def test_formats_that_need_other_programs_are_no_photos(tmp_path: Path) -> None:
     PICTURE.convert("RGB").save(tmp_path / "x.eps")
     assert refusal(tmp_path / "x.eps").endswith("x.eps is not an image that can be read.")
+
+
+@pytest.mark.parametrize("ending", ["mp4", "mkv"])
+def test_a_film_is_no_photo(tmp_path: Path, ending: str) -> None:
+    path = tmp_path / f"film.{ending}"
+    path.write_bytes(film_bytes(ending, "mp4v"))
+    assert refusal(path) == f"{path} is a film, not a photo; decode it as a film."
 
 
 @pytest.mark.parametrize("width", [12_000, 100_000, 2**31 - 8])

@@ -1,7 +1,11 @@
 """A film written to a file is whole, opens again and elsewhere, and says how it was made."""
 
+import resource
+import shutil
 import struct
 import tracemalloc
+from collections.abc import Iterator
+from contextlib import suppress
 from itertools import islice
 from pathlib import Path
 
@@ -12,10 +16,11 @@ from films import stripes
 from PIL import Image
 
 import occ_model as occ
+from occ_model.arrays import ByteArray
 from occ_model.figures.animation import write_animation
 from occ_model.scene.scene import Scene
 from occ_model.video.file.note import note_in
-from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, write_frames
+from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path, write_frames
 
 SCENE = Scene().replace(rows=120, columns=160, readout_time=1e-4, distance=0.8, payload="text:été")
 RECORDING = occ.Recording(
@@ -141,7 +146,7 @@ def test_what_cannot_be_written_is_refused(tmp_path: Path, film: occ.Video) -> N
         occ.write_video(film, tmp_path / "none" / "a.mp4")
     fast = occ.render_video(SCENE, 2, occ.Recording(frame_rate=60.0))
     with pytest.raises(
-        occ.OutputError, match="60 frames a second; allowed in a GIF file: up to 50"
+        occ.OutputError, match=r"60 frames a second; allowed in a GIF file: 0\.002 to 50\."
     ):
         occ.write_video(fast, tmp_path / "a.gif")
     with pytest.raises(occ.ParameterError, match="a film without end"):
@@ -222,3 +227,99 @@ def test_an_animated_picture_is_played_again_and_again(tmp_path: Path, film: occ
         occ.write_video(film, tmp_path / f"film{ending}")
         with Image.open(tmp_path / f"film{ending}") as picture:
             assert picture.info["loop"] == 0
+
+
+_NO_LIMIT = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
+
+
+def full_disk(first: int, last: int) -> Iterator[ByteArray]:
+    """Frames during some of which no file may grow, as on a disk that is full for a moment."""
+    noise = np.random.default_rng(1).integers(0, 256, (40, 192, 256), dtype=np.uint8)
+    try:
+        for number, picture in enumerate(noise):
+            if number in (first, last):
+                end = 1 if number == first else resource.RLIM_INFINITY
+                resource.setrlimit(resource.RLIMIT_FSIZE, (end, resource.RLIM_INFINITY))
+            yield picture
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, _NO_LIMIT)
+
+
+def open_files() -> list[str]:
+    found = []
+    for each in Path("/proc/self/fd").iterdir():
+        with suppress(OSError):  # that of the folder itself
+            found.append(str(each.readlink()))
+    return found
+
+
+@pytest.mark.parametrize(("first", "last"), [(0, 39), (10, 30), (30, 40)])
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+def test_a_disk_that_is_full_for_a_moment_leaves_the_older_file_and_nothing_else(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], ending: str, first: int, last: int
+) -> None:
+    path = tmp_path / f"film{ending}"
+    path.write_text("older")
+    with pytest.raises(occ.OutputError, match=r"film\.... cannot be written: |can be begun: "):
+        write_frames(path, full_disk(first, last), 30.0, "")
+    assert path.read_text() == "older"
+    assert list(tmp_path.iterdir()) == [path]
+    # A file that is removed but still open takes space.
+    assert not [each for each in open_files() if str(tmp_path) in each]
+    assert capfd.readouterr() == ("", "")
+
+
+def test_no_more_frames_are_asked_for_when_the_disk_is_full(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Simulating a film takes hours, and OpenCV goes on as if nothing were wrong."""
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(9, 9, 0))  # type: ignore[attr-defined]
+    pictures = iter([stripes(0)] * 5)
+    with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
+        write_frames(tmp_path / "a.mkv", pictures, 30.0, "")
+    assert len(list(pictures)) == 4
+
+
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+def test_a_frame_of_another_size_is_not_left_out(tmp_path: Path, ending: str) -> None:
+    with pytest.raises(occ.OutputError, match="a frame has another size than the first"):
+        write_frames(tmp_path / f"a{ending}", [stripes(0), stripes(1, 40)], 30.0, "")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("ending", FILM_ENDINGS)
+@pytest.mark.parametrize("rate", [1e-9, 0.009, 0.01, 30.0, 50.0, 65_535.0, 65_600.0, 1e5, 1e9])
+def test_a_rate_is_refused_before_any_work_or_the_film_is_written(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], ending: str, rate: float
+) -> None:
+    path = tmp_path / f"a{ending}"
+    try:
+        check_film_path(path, rate)
+    except occ.OutputError as refusal:
+        assert f"cannot have {rate:g} frames a second; allowed in a" in str(refusal)  # noqa: PT017
+    else:
+        assert write_frames(path, [stripes(n) for n in range(3)], rate, "") == 3
+        step = occ.load_video(path).time_step or 0.0
+        times = [frame.time for frame in occ.load_video(path)]
+        assert times == pytest.approx([0.0, 1 / rate, 2 / rate], rel=1e-3, abs=step / 2 + 1e-9)
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_film_of_one_row_is_refused_in_its_own_size(tmp_path: Path) -> None:
+    low = occ.render_video(SCENE.replace(rows=1), 2)
+    for ending in (".mkv", ".mp4"):
+        with pytest.raises(
+            occ.OutputError, match=r"cannot have 160 x 1 pixels; allowed in an M.. file: from 2 a"
+        ):
+            occ.write_video(low, tmp_path / f"a{ending}")
+    assert occ.write_video(low, tmp_path / "a.gif") == 2
+
+
+@pytest.mark.parametrize("ending", [".gif", ".mp4", ".png"])
+def test_an_animation_of_a_rate_that_its_file_cannot_have_is_refused(
+    tmp_path: Path, ending: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    small = occ.load_preset("phone-136us").replace(rows=20, columns=200)
+    with pytest.raises(occ.OutputError, match=r"cannot have 1e-09 frames a second; allowed"):
+        write_animation(tmp_path / f"a{ending}", small, "iso", [100.0], rate=1e-9)
+    assert capfd.readouterr() == ("", "")

@@ -55,6 +55,17 @@ def container_of(path: Path, start: bytes) -> Container:
     VideoError
         It is none of the kinds that are read.
     """
+    kind = kind_of_film(start)
+    if kind is not None:
+        return kind
+    raise VideoError(
+        f"{one_line(str(path))} is no film that can be read; allowed: MP4, MOV, AVI, MKV, WebM, "
+        "GIF and animated PNG."
+    )
+
+
+def kind_of_film(start: bytes) -> Container | None:
+    """Recognize a film by the first bytes of its file; None where it is none."""
     if start[4:8] in _BOXES:
         return _MP4
     if start[:4] == b"RIFF" and start[8:12] == b"AVI ":
@@ -65,7 +76,4 @@ def container_of(path: Path, start: bytes) -> Container:
         return _GIF
     if start[:8] == b"\x89PNG\r\n\x1a\n":
         return _PNG
-    raise VideoError(
-        f"{one_line(str(path))} is no film that can be read; allowed: MP4, MOV, AVI, MKV, WebM, "
-        "GIF and animated PNG."
-    )
+    return None

@@ -30,10 +30,13 @@ os.environ["OCC_LESSONS"] = str(Path(__file__).with_name("no-lessons"))
 # Nor the session that they have left; what a window stores ends with the tests.
 os.environ["OCC_STATE"] = mkdtemp(prefix="occ-tests-")
 
+import fonts
 import pytest
 from amount import VARIABLE, amount
 from hard_cases import laws
 from hypothesis import settings
+
+fonts.use_only_these(Path(os.environ["OCC_STATE"]))
 
 NEW_EXAMPLES = "OCC_NEW_EXAMPLES" in os.environ
 """Whether other examples are looked for, as many as Hypothesis does; else each run has the same."""

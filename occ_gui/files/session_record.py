@@ -172,7 +172,10 @@ def _history(values: Any) -> History | None:
 
 
 def _force(values: Any) -> dict[str, bool]:
-    return {str(name): bool(on) for name, on in values.items()}
+    forced = dict(values)
+    if not all(isinstance(on, bool) for on in forced.values()):
+        raise TypeError("an effect is forced by true or false")
+    return {str(name): bool(on) for name, on in forced.items()}
 
 
 def _scene(text: object) -> Scene | None:
@@ -184,11 +187,11 @@ def _scene(text: object) -> Scene | None:
 
 def _settings(values: Any, effects: Collection[str]) -> SimulationSettings | None:
     try:
-        force = values["force"]
+        force = _force(values["force"])
         settings = SimulationSettings(
             tolerance=TOLERANCE.check(values["tolerance"]),
             observable=values["observable"],
-            force={name: bool(force[name]) for name in force if name in effects},
+            force={name: on for name, on in force.items() if name in effects},
             noise=values["noise"],
             seed=values["seed"],
         )

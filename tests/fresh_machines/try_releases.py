@@ -34,6 +34,7 @@ COMMANDS = (("--screenshot", WINDOW), ("test",))
 TITLES = (
     "release", "Python", "numpy", "Qt", "window, s", "tests, s", "passed", "failed", "skipped",
 )  # fmt: skip
+SUMMARY = re.compile(r"^=+ (.* passed.*) in .*=+$", re.MULTILINE)
 COUNT = re.compile(r"(\d+) (passed|failed|skipped|errors?)")
 
 

@@ -37,7 +37,7 @@ class Timing:
 
     def lit_fraction(self, waveform: Waveform, columns: int) -> FloatArray:
         """Give the share of each column's exposure in which the LED is on, shape (columns,)."""
-        place = self.start(columns) + self.step * np.arange(columns)
+        place = self.start(columns) + self.step * np.arange(columns, dtype=np.float64)
         chip = np.floor(place)
         phases = Phases((chip % waveform.period).astype(np.int64), place - chip)
         exposure = Duration.of(Fraction(self.exposure), waveform.period)

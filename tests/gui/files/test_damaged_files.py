@@ -50,6 +50,7 @@ DAMAGED_SETTINGS = {
     "a longer number": '"seed": ' + LONG_NUMBER * 2,
     "a deep list": '"observable": ' + "[" * DEEP + "]" * DEEP,
     "a very deep list": '"observable": ' + "[" * 100_000,
+    "a switch that is no switch": '"force": {"vignetting": 1}',
     "a deep switch": '"force": ' + '{"vignetting": ' * DEEP + "1" + "}" * DEEP,
 }
 

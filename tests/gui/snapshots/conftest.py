@@ -1,7 +1,6 @@
 """One look on every machine - style, theme, font, size - and pictures to compare it with."""
 
 from collections.abc import Callable, Iterator
-from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +9,7 @@ from gui.shared_window import SharedWindow
 from gui.snapshots.difference import LEAST_SIMILARITY, MOST_COLOUR, difference
 from gui.snapshots.drawing import settled
 from PIL import Image
-from PySide6.QtGui import QFont, QFontDatabase
+from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication, QWidget
 
 from occ_gui.window.theme import palette_of
@@ -18,20 +17,9 @@ from occ_gui.window.theme import palette_of
 PICTURES = Path(__file__).with_name("pictures")
 
 
-def font_files() -> list[Path]:
-    """Find DejaVu Sans, which matplotlib brings along."""
-    spec = find_spec("matplotlib")
-    assert spec is not None
-    assert spec.origin is not None
-    folder = Path(spec.origin).parent / "mpl-data" / "fonts" / "ttf"
-    return [folder / "DejaVuSans.ttf", folder / "DejaVuSans-Bold.ttf"]
-
-
 @pytest.fixture(scope="session")
 def font(qapp: QApplication) -> QFont:
-    """Load the font, without the hints that other systems follow otherwise."""
-    for path in font_files():
-        assert QFontDatabase.addApplicationFont(str(path)) >= 0, path
+    """The font of all tests, without the hints that other systems follow otherwise."""
     font = QFont("DejaVu Sans", 9)
     font.setHintingPreference(QFont.HintingPreference.PreferNoHinting)
     font.setStyleStrategy(QFont.StyleStrategy.NoSubpixelAntialias)

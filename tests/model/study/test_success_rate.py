@@ -93,6 +93,7 @@ def test_the_profile_path_sees_the_images_signal_with_noise(scene: Scene) -> Non
     by_profile = decode_profile(scene, "threshold", chosen, np.random.default_rng(2))
     assert by_profile is not None
     assert by_profile.region is not None
+    assert by_profile.signal is not None
     region = by_profile.region
     image = occ.render(scene, tolerance=np.inf, force=noisy, seed=3).image.astype(float)
     rows = slice(region.first_row, region.last_row)

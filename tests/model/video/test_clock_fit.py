@@ -46,7 +46,7 @@ def test_the_stated_error_of_the_frequency_covers_68_percent() -> None:
         times = np.arange(int(random.integers(30, 150))) / random.choice([24.0, 30.0, 60.0, 240.0])
         frequency = random.uniform(2e3, 2e4)
         drift = frequency * random.uniform(-1e-6, 1e-6)
-        jitter = random.choice([0.0, 1e-5, 1e-4])
+        jitter = float(random.choice([0.0, 1e-5, 1e-4]))
         phases = _phases(frequency, times, 52.0, random, jitter, drift)
         (fit,) = fit_clock(phases, 0.993 * frequency, 1.006 * frequency)
         middle = frequency + drift * (fit.middle - times.mean())

@@ -4,22 +4,25 @@ import re
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QFontDatabase
-from PySide6.QtWidgets import QGridLayout, QLineEdit, QWidget
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
 from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.gesture import Gestures
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import leave_undo_to_window
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, one_line, shown
 from occ_model.scene.parameters import count, payload_parameter
+from occ_model.scene.payload import form_of
 from occ_model.scene.scene import Scene
+
+_MOST_DIGITS = 20
 
 
 class CodeEntry(QWidget):
     """Two fields that show the code as a number and as bits; either can be edited.
 
-    The field of the bits also takes a payload, such as ``text:HELLO``, and shows it; emptied, it
-    shows the code again.
+    The field of the bits also takes a payload, such as ``HELLO``, and shows it alone; emptied, it
+    shows the code again. What cannot be read stays in it, with the reason, until it is typed anew.
     """
 
     edited = Signal(str, object, int)
@@ -32,13 +35,15 @@ class CodeEntry(QWidget):
         super().__init__(parent)
         self._bits, self._code, self._payload = 0, -1, ""
         self._gestures = Gestures()
+        self.title = QLabel()
+        """What is sent, to stand above the fields."""
         self.number = CountEdit(count("code"))
         self.number.setAccessibleName(self.tr("Code as a number"))
         self.bits = QLineEdit()
         self.bits.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
         self.bits.setAccessibleName(self.tr("Code as bits"))
         self.bits.setToolTip(
-            self.tr("The bits, the first sent first; or a payload, such as text:HELLO.")
+            self.tr("The bits, the first sent first; or a text to be sent, such as HELLO.")
         )
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -55,13 +60,15 @@ class CodeEntry(QWidget):
         self.number.refused.connect(self.show_refusal)
         self.number.refused.connect(self.refused)
         self.bits.editingFinished.connect(self._read_bits)
+        self.notices[1].dismissed.connect(self._write)
+        self._show_title(None)
 
     def show_scene(self, scene: Scene) -> None:
         """Show the code of a scene without emitting a signal."""
         transmitter = scene.transmitter
         # A raw pattern or a payload is sent in place of the code.
         self.setEnabled(not transmitter.pattern)
-        self.number.setEnabled(not transmitter.payload)
+        self._show_title(scene)
         shown = (self._bits, self._code, self._payload)
         if (transmitter.bits, transmitter.code, transmitter.payload) == shown:
             return
@@ -74,6 +81,21 @@ class CodeEntry(QWidget):
         )
         self._display(transmitter.code)
 
+    def _show_title(self, scene: Scene | None) -> None:
+        if scene is not None and scene.transmitter.pattern:
+            text = self.tr("Code: not sent, a raw pattern is")
+        elif scene is not None and scene.transmitter.payload:
+            text = {
+                "text": self.tr("Sent as text: {bits} bits"),
+                "hex": self.tr("Sent as bytes: {bits} bits"),
+                "bits": self.tr("Sent as bits: {bits} bits"),
+            }[form_of(scene.transmitter.payload)].format(bits=scene.transmitter.payload_length)
+        else:
+            text = self.tr("Code, as a number and as bits")
+        if text != self.title.text():
+            self.title.setText(text)
+            self.number.setVisible(scene is None or not scene.transmitter.payload)
+
     def _display(self, code: int) -> None:
         self._code = code
         self.number.blockSignals(True)
@@ -83,8 +105,13 @@ class CodeEntry(QWidget):
 
     def _write(self) -> None:
         """Write what is sent in the field of the bits."""
-        self.bits.setText(self._payload or f"{self._code:0{self._bits}b}")
+        self.bits.setText(self._written)
         self.bits.setCursorPosition(0)
+        self.notices[1].end()
+
+    @property
+    def _written(self) -> str:
+        return payload_parameter().format(self._payload) or f"{self._code:0{self._bits}b}"
 
     def show_refusal(self, sentence: str) -> None:
         """Show why a code was refused."""
@@ -95,9 +122,10 @@ class CodeEntry(QWidget):
         self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:
-        """Remove what was shown."""
-        for notice in self.notices:
-            notice.end()
+        """Remove what was shown, but what is said of a text that its field still shows."""
+        self.notices[0].end()
+        if self.bits.text() == self._written:
+            self.notices[1].end()
 
     def _enter(self, code: int) -> None:
         self.end_refusal()
@@ -106,38 +134,37 @@ class CodeEntry(QWidget):
 
     def _read_bits(self) -> None:
         typed = self.bits.text()
-        if self._payload and typed == self._payload:
-            self.notices[1].end()
-            return
-        if ":" in typed or (self._payload and not typed.strip()):
-            self._enter_payload(typed.strip() and typed)
-            return
         text = "".join(typed.split())
-        if re.fullmatch(f"[01]{{{self._bits}}}", text):
-            self.bits.setText(text)
+        if typed == self._written:
             self.notices[1].end()
-            if self._payload:
-                self._enter_payload("")
-            if int(text, 2) != self._code:
-                self._enter(int(text, 2))
+        elif not text and not self._payload:
+            self._write()
+        elif text and set(text) <= set("0123456789"):
+            self._read_digits(text)
+        else:
+            self._enter_payload(typed)
+
+    def _read_digits(self, text: str) -> None:
+        if not re.fullmatch(f"[01]{{{self._bits}}}", text):
+            sentence = self.tr(
+                "The bits are {text}; allowed: {bits} characters 0 and 1. As a text: text:{digits}."
+            ).format(text=shown(text), bits=self._bits, digits=one_line(text, _MOST_DIGITS))
+            self._refuse(sentence)
             return
+        self._enter_payload("")
         self._write()
-        sentence = self.tr("The bits are {text}; allowed: {bits} characters 0 and 1.").format(
-            text=shown(text), bits=self._bits
-        )
-        self._refuse(sentence)
+        if int(text, 2) != self._code:
+            self._enter(int(text, 2))
 
     def _enter_payload(self, text: str) -> None:
         try:
             payload = payload_parameter().parse(text)
         except ParameterError as error:
-            self._write()
             self._refuse(str(error))
             return
-        self.end_refusal()
+        self.notices[0].end()
         changed = payload != self._payload
         self._payload = payload
-        self.number.setEnabled(not payload)
         self._write()
         if changed:
             self.edited.emit("payload", payload, self._gestures.of_change())

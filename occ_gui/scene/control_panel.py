@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 from occ_gui.scene.code_entry import CodeEntry
 from occ_gui.scene.forced_effects import ForcedEffects
 from occ_gui.scene.parameter_panel import ParameterPanel
-from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow
+from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
 from occ_gui.scene.player import Player
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
@@ -109,7 +109,7 @@ class ControlPanel(QWidget):
         layout.addWidget(QLabel(self.tr("Preset")))
         layout.addWidget(self.preset)
         layout.addWidget(self.forced)
-        layout.addWidget(QLabel(self.tr("Code, as a number and as bits")))
+        layout.addWidget(self.code.title)
         layout.addWidget(self.code)
         pages = QTabWidget()
         for title, panel in self.panels.items():
@@ -174,6 +174,15 @@ class ControlPanel(QWidget):
         self.code.show_scene(scene)
         for panel in self.panels.values():
             panel.show_scene(scene)
+        self._show_bits(scene)
+
+    def _show_bits(self, scene: Scene) -> None:
+        """Show how many bits are sent: those of the payload, where there is one."""
+        (row,) = (panel.rows["bits"] for panel in self.panels.values() if "bits" in panel.rows)
+        if isinstance(row, CountRow):
+            sent = scene.transmitter
+            reason = self.tr("Bits of the payload, which is sent in place of the code.")
+            row.show_instead(*((sent.payload_length, reason) if sent.payload else (None,)))
 
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
         """Show marks at values of a parameter, if its slider has a scale."""

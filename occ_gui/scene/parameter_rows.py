@@ -182,6 +182,7 @@ class CountRow(ParameterRow):
 
     def __init__(self, declared: Count, parent: QWidget | None = None) -> None:
         super().__init__(declared, parent)
+        self._declared = declared
         self.field = CountEdit(declared)
         keep_wheel_for_scrolling(self.field)
         _fill(self, self.field, declared)
@@ -193,6 +194,18 @@ class CountRow(ParameterRow):
     def _display(self, value: ParameterValue) -> None:
         self.field.blockSignals(True)
         self.field.setValue(int(value))
+        self.field.blockSignals(False)
+
+    def show_instead(self, number: int | None, reason: str = "") -> None:
+        """Show a number that follows from something else, and why; None: the own value again."""
+        self.field.setEnabled(number is None)
+        self.field.setToolTip(reason or explain(self._declared))
+        self.field.blockSignals(True)
+        if number is None:
+            self.field.limit(self._declared.high)
+            self.field.setValue(int(self.value or self._declared.low))
+        else:
+            self.field.setRange(number, number)
         self.field.blockSignals(False)
 
 
@@ -241,7 +254,10 @@ class OpenChoiceRow(ChoiceRow):
 
 
 class PatternRow(ParameterRow):
-    """A text field for a pattern of chips or a payload."""
+    """A text field for a pattern of chips or a payload.
+
+    What cannot be read stays in it, with the reason, until it is typed anew.
+    """
 
     def __init__(self, declared: ChipPattern | Payload, parent: QWidget | None = None) -> None:
         super().__init__(declared, parent)
@@ -253,10 +269,17 @@ class PatternRow(ParameterRow):
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self._gestures.end)
         self.field.editingFinished.connect(self._read)
+        self.notice.dismissed.connect(lambda: self.field.setText(self._shown))
 
     def _display(self, value: ParameterValue) -> None:
-        self._shown = str(value)
+        self._shown = self._declared.format(str(value))
         self.field.setText(self._shown)
+        self.end_refusal()
+
+    def end_refusal(self) -> None:
+        """Remove the sentence, unless it is about the text that the field still shows."""
+        if self.field.text() == self._shown:
+            super().end_refusal()
 
     def _read(self) -> None:
         if self.field.text() == self._shown:
@@ -265,11 +288,9 @@ class PatternRow(ParameterRow):
         try:
             value = self._declared.parse(self.field.text())
         except ParameterError as error:
-            self.field.setText(self._shown)
             self.refused.emit(str(error))
             return
-        unchanged = value == self._shown
-        self.end_refusal()
+        unchanged = value == self.value
         self.show_value(value)
         if not unchanged:
             self._enter(value)

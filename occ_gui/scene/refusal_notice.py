@@ -1,6 +1,6 @@
 """Refusal notice: why a value was refused, over what is under its field, and a frame round it."""
 
-from PySide6.QtCore import QEvent, QObject, QRectF, Qt
+from PySide6.QtCore import QEvent, QObject, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QAccessible,
     QAccessibleEvent,
@@ -37,6 +37,9 @@ class RefusalNotice(QLabel):
         The field, which a frame is drawn round while there is a sentence.
     """
 
+    dismissed = Signal()
+    """The user has clicked the sentence away."""
+
     def __init__(self, field: QWidget) -> None:
         super().__init__(field)
         self._field = field
@@ -48,7 +51,7 @@ class RefusalNotice(QLabel):
         field.installEventFilter(self)
 
     def show_refusal(self, sentence: str) -> None:
-        """Show why a value was refused; the field shows the last one."""
+        """Show why a value was refused."""
         self._show(refusal_of(sentence))
 
     def show_problem(self, sentence: str) -> None:
@@ -96,6 +99,7 @@ class RefusalNotice(QLabel):
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         """Give way to what lies below."""
         self.end()
+        self.dismissed.emit()
         event.accept()
 
     @guarded

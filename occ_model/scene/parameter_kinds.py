@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 from occ_model.errors import shown
 from occ_model.plugins import plugin_names
 from occ_model.scene.declaration import Declaration
-from occ_model.scene.payload import PAYLOADS, canonical
+from occ_model.scene.payload import PAYLOADS, canonical, typed_form
 from occ_model.scene.units import Unit
 
 ParameterValue: TypeAlias = float | int | str
@@ -263,8 +263,8 @@ class Payload(Declaration):
         return self.check(text)
 
     def format(self, value: str) -> str:
-        """Write a value."""
-        return value
+        """Write a value as it would be typed."""
+        return typed_form(value)
 
 
 @dataclass(frozen=True, slots=True)

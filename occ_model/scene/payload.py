@@ -1,6 +1,7 @@
 """Payloads as texts: ``text:HELLO``, ``hex:48656c6c6f`` and ``bits:0100100001``.
 
 The word before the colon says how the payload is written, and how one that is received is shown.
+Without one of these words it is a text: ``HELLO`` is ``text:HELLO``.
 """
 
 import re
@@ -12,8 +13,17 @@ from occ_model.errors import shown
 
 MAX_PAYLOAD_BITS = 4096
 
-PAYLOADS = f"text:HELLO (UTF-8), hex:48656c6c6f or bits:0100100001, of 1 to {MAX_PAYLOAD_BITS} bits"
+PAYLOADS = (
+    "HELLO or text:HELLO (UTF-8), hex:48656c6c6f or bits:0100100001, "
+    f"of 1 to {MAX_PAYLOAD_BITS} bits"
+)
 """The forms of a payload, in words."""
+
+_FORMS = ("text", "hex", "bits")
+_SHORT_FORM = re.compile(r"\s*(?:0x([0-9a-f ]+)|0b([01 ]+))", re.IGNORECASE)
+"""Bytes or bits as programs write them."""
+
+_DIGITS_ALONE = re.compile("[0-9 ]*")
 
 _UNREADABLE = "?"
 """In place of bytes that are no text."""
@@ -27,13 +37,13 @@ def canonical(value: object) -> str:
     ValueError
         It is no payload; the message is the part of a sentence that says why.
     """
-    if value == "" and isinstance(value, str):
-        return ""
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
     if len(value) > 4 * MAX_PAYLOAD_BITS:
         raise ValueError(f"is a text of {len(value):,} characters")
-    form, _, content = value.partition(":")
+    if not value.strip():
+        return ""
+    form, content = _form_and_content(value)
     if form != "text":
         content = "".join(content.split()).lower()
     if not _is_content(form, content):
@@ -43,6 +53,28 @@ def canonical(value: object) -> str:
     if not 1 <= count <= MAX_PAYLOAD_BITS:
         raise ValueError(f"has {count:,} bits")
     return text
+
+
+def _form_and_content(typed: str) -> tuple[str, str]:
+    word, colon, content = typed.partition(":")
+    form = word.strip().lower()
+    if colon and form in _FORMS:
+        return form, content
+    short = _SHORT_FORM.fullmatch(typed)
+    if short:
+        return ("hex", short[1]) if short[1] is not None else ("bits", short[2])
+    return "text", typed
+
+
+def typed_form(payload: str) -> str:
+    """Return what somebody would type for a payload: a text as it is, where it reads as one.
+
+    Digits alone could be meant as bits or as a number, so that the form stays before them.
+    """
+    form, _, content = payload.partition(":")
+    if form != "text" or not content.strip() or _DIGITS_ALONE.fullmatch(content):
+        return payload
+    return content if _form_and_content(content) == ("text", content) else payload
 
 
 def _is_content(form: str, content: str) -> bool:
@@ -103,11 +135,15 @@ class Piece:
         How it is written; ``received`` is empty where its bits were not received.
     is_right
         Whether all its bits are those sent.
+    first, last
+        Its first bit among those sent, and the one after its last.
     """
 
     sent: str
     received: str
     is_right: bool
+    first: int
+    last: int
 
 
 def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
@@ -126,7 +162,7 @@ def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
         seen = tuple(received[start:end])
         written = payload_of_bits(seen, form_of(payload)) if len(seen) == end - start else ""
         shown_letter = payload_of_bits(bits[start:end], form_of(payload))
-        pieces.append(Piece(shown_letter, written, seen == bits[start:end]))
+        pieces.append(Piece(shown_letter, written, seen == bits[start:end], start, end))
         start = end
     return tuple(pieces)
 

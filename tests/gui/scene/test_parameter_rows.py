@@ -123,9 +123,13 @@ def test_a_pattern_is_sent_without_spaces_and_rubbish_refused(qtbot: QtBot) -> N
     qtbot.keyClicks(told.row.field, "2")
     qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
     assert told.values == ["01010011"]
-    assert told.row.field.text() == "01010011"
     (sentence,) = told.refused
     assert sentence.startswith("pattern is '010100112'")
+    told.row.end_refusal()  # another parameter was changed
+    assert told.row.field.text() == "010100112"
+    assert told.row.notice.text()
+    told.row.show_value("01")
+    assert (told.row.field.text(), told.row.notice.text()) == ("01", "")
 
 
 def test_an_equal_pattern_written_with_spaces_is_no_change(qtbot: QtBot) -> None:

@@ -104,6 +104,7 @@ def test_a_refused_pattern_says_why_at_its_field(qtbot: QtBot) -> None:
     qtbot.keyClicks(row.field, "012")
     qtbot.keyClick(row.field, Qt.Key.Key_Return)
     assert row.notice.isVisible()
+    row.field.clear()
     qtbot.keyClicks(row.field, "01")
     qtbot.keyClick(row.field, Qt.Key.Key_Return)
     assert not row.notice.isVisible()

@@ -57,7 +57,7 @@ def test_a_refused_value_is_not_said_to_be_the_present_one(sentence: str, said: 
 
 @pytest.mark.parametrize("declared", PARAMETERS.values(), ids=lambda declared: declared.name)
 def test_every_parameters_refusal_says_what_it_cannot_be(declared: Parameter) -> None:
-    for wrong in ("#", None, -1e99, "2" * 10_000):
+    for wrong in ("hex:#", None, -1e99, "2" * 10_000):
         with pytest.raises(ParameterError) as caught:
             declared.check(wrong)
         assert refusal_of(str(caught.value)).startswith(f"{declared.label} cannot ")

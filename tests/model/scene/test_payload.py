@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 from payloads import PAYLOADS
 
 import occ_model as occ
+from occ_model.scene.from_text import with_settings
+from occ_model.scene.parameters import payload_parameter
 from occ_model.scene.payload import (
     MAX_PAYLOAD_BITS,
     bits_of_payload,
@@ -47,6 +49,39 @@ def test_spaces_and_capitals_do_not_count_in_digits() -> None:
     assert canonical("text: a ") == "text: a "
 
 
+@pytest.mark.parametrize(
+    ("typed", "payload"),
+    [
+        ("HELLO", "text:HELLO"),
+        ("😀", "text:😀"),
+        ("HI", "text:HI"),
+        ("0x", "text:0x"),
+        ("718", "text:718"),
+        (" a: b ", "text: a: b "),
+        ("https://x", "text:https://x"),
+        ("0xyz", "text:0xyz"),
+        ("0x48 65", "hex:4865"),
+        ("0B01", "bits:01"),
+        ("Hex:4A", "hex:4a"),
+        ("text:0x48", "text:0x48"),
+        ("  ", ""),
+    ],
+)
+def test_what_people_type_is_a_payload_and_shown_as_it_was_typed(typed: str, payload: str) -> None:
+    declared = payload_parameter()
+    assert declared.parse(typed) == payload
+    scene = with_settings(occ.Scene(), [f"payload={typed}"])
+    assert scene == occ.Scene().replace(payload=typed)
+    assert scene.transmitter.payload == payload
+    assert declared.parse(declared.format(payload)) == payload
+
+
+@given(payload=PAYLOADS)
+def test_a_payload_as_it_would_be_typed_is_the_same_payload(payload: str) -> None:
+    declared = payload_parameter()
+    assert declared.parse(declared.format(payload)) == payload
+
+
 def test_wrong_bits_show_as_other_letters_or_question_marks() -> None:
     bits = list(bits_of_payload("text:HELLO"))
     bits[24] ^= 1  # the second L is no ASCII any more
@@ -57,13 +92,13 @@ def test_wrong_bits_show_as_other_letters_or_question_marks() -> None:
 @pytest.mark.parametrize(
     "wrong",
     [
-        "HELLO",
         "text:",
         "bits:",
         "bits:012",
         "hex:4",
         "hex:zz",
-        "utf:x",
+        "0x486",
+        "x" * 513,
         "text:\ud800",
         5,
         None,

@@ -227,6 +227,8 @@ def __getattr__(name: str) -> object:
     from importlib import import_module
 
     value: object = getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+    if type(value) is type(__getattr__):  # a function
+        value = import_module(f"{__name__}.argument_kinds").checked(value)
     globals()[name] = value
     return value
 

@@ -70,7 +70,7 @@ def sources_of(
     sources = {}
     for name, spread in found.uncertainties.items():
         if name in PARAMETERS:
-            precision = quantity(name).format(spread, 3)
+            precision = quantity(name).unit.format_deviation(spread)
             doubt = "; doubtful" if name in found.doubtful_alone else ""
             sources[name] = f"measured to ±{precision} from {where}{doubt}"
     for name in ("rows", "columns"):

@@ -11,9 +11,6 @@ from occ_model.scene.units import HERTZ, SECOND, Unit
 _PERCENT = 100.0
 _RATE = Unit("Hz/s")
 
-_ROUNDING = 1e-12
-"""Share of a value below which its error is that of the arithmetic, and is not stated."""
-
 
 def figures_of(known: FilmProgress, whole: VideoReading | None) -> tuple[Figure, ...]:
     """List the figures of a film that is being read.
@@ -170,8 +167,7 @@ def _clocks(clock: Clock) -> list[Figure]:
 
 
 def _with_error(unit: Unit, measured: Measured) -> str:
-    is_exact = measured.error <= _ROUNDING * abs(measured.value)
-    return unit.format_estimate(measured.value, None if is_exact else measured.error)
+    return unit.format_estimate(measured.value, measured.error)
 
 
 def _tr(text: str) -> str:

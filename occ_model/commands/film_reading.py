@@ -1,7 +1,6 @@
 """What ``occ-model decode`` does with a film: read it, frame by frame, and report."""
 
 import argparse
-import math
 import sys
 
 from occ_model.commands.progress_bar import progress_bar
@@ -10,7 +9,7 @@ from occ_model.program import EXIT_FAILURE
 from occ_model.results import Clock, FilmProgress, Measured, VideoReading
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import SECOND
+from occ_model.scene.units import SECOND, Unit
 from occ_model.study.confidence import wilson_interval
 from occ_model.video.decode import decode_video
 from occ_model.video.file.source import CHANNELS
@@ -157,9 +156,4 @@ def _clock(clock: Clock) -> list[str]:
 
 
 def _measured(measured: Measured, unit: str, scale: float = 1.0) -> str:
-    """Write a number with as many digits as its error makes sense of."""
-    value, error = scale * measured.value, scale * measured.error
-    if not error > 0.0:
-        return f"{value:.9g} {unit}"
-    digits = max(0, 1 - math.floor(math.log10(error)))
-    return f"{value:.{digits}f} ± {error:.2g} {unit}"
+    return Unit(unit).format_estimate(scale * measured.value, scale * measured.error)

@@ -4,6 +4,7 @@ import re
 
 from occ_model.errors import ParameterError, shown
 from occ_model.results import Lamp, Region
+from occ_model.scene.units import Unit
 
 _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
 
@@ -35,7 +36,8 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
     product, deviation = lamp.switching_frequency_times_readout, lamp.product_uncertainty
     if product is None or deviation is None:
         return [*lines, "no stripes: its light does not change while the picture is read out"]
-    lines.append(f"frequency times readout time {product:.5f} ± {deviation:.2g} chips a column")
+    estimate = Unit("chips a column").format_estimate(product, deviation)
+    lines.append(f"frequency times readout time {estimate}")
     if lamp.periods is not None:
         doubt = ": doubtful, so few can be a coincidence" if lamp.repeats_seldom else ""
         lines.append(f"{lamp.periods:.1f} periods in view{doubt}")

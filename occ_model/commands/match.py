@@ -22,6 +22,7 @@ from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
+from occ_model.scene.units import Unit
 
 _ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
@@ -179,10 +180,8 @@ def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
         f"{'saturated':22}{100.0 * stripes.saturated:.1f} % of the region's pixels",
     ]
     if stripes.period is not None:
-        lines.append(
-            f"{'stripes repeat after':22}{stripes.period:.3f} ± {stripes.period_uncertainty:.3f} "
-            "columns"
-        )
+        period = Unit("columns").format_estimate(stripes.period, stripes.period_uncertainty)
+        lines.append(f"{'stripes repeat after':22}{period}")
     if match.other_exposures:
         unit = quantity("exposure_time")
         others = ", ".join(unit.format(t) for t in match.other_exposures)

@@ -4,7 +4,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
-from occ_model.errors import MatchError
+from occ_model.errors import MatchError, ParameterError
 from occ_model.results import Comparison
 
 _FLAT = 1e-9
@@ -36,6 +36,8 @@ def compare(
 
     Raises
     ------
+    ParameterError
+        A profile has not one value for each column.
     MatchError
         Fewer than two columns of the simulation are covered by the photo.
     """
@@ -44,6 +46,10 @@ def compare(
             f"The photo is to lie at column {first_column:g}, scaled by {scale:g}; allowed: "
             "numbers, and a scale above 0."
         )
+    for name, profile in (("flattened", flattened), ("simulated", simulated)):
+        if np.ndim(profile) != 1:
+            shape = np.shape(profile)
+            raise ParameterError(f"{name} has the shape {shape}; allowed: a value for each column.")
     first = max(0, int(np.ceil(min(first_column, len(simulated)))))
     last = min(len(simulated) - 1, int(np.floor(first_column + (len(flattened) - 1) * scale)))
     if last <= first:

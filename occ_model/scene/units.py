@@ -26,8 +26,11 @@ _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 """Numbers whose comma may also separate thousands: one to three digits before it, three after."""
 
-_MOST_DECIMALS = 12
-"""Decimal places of an estimate at most."""
+_MOST_DECIMALS = 6
+"""Decimals of an estimate above which its error is written in a unit of its own."""
+
+_EXACT = 1e-12
+"""Share of a value below which its error is that of the arithmetic, and is not stated."""
 
 LONGEST_TEXT = 200
 """Most characters of a quantity's text: several times those of 17 digits and a unit."""
@@ -137,19 +140,31 @@ class Unit:
 
         Without a deviation, or with one that says nothing, the value alone is written.
         """
-        if deviation is None or not 0.0 < deviation < math.inf:
+        if deviation is None or not _EXACT * abs(value) < deviation < math.inf:
             return self.format(value)
         symbol, factor = self.display(value)
         decimals = _decimals(deviation / factor)
-        number = f"{value / factor:z.{decimals}f} ± {deviation / factor:.{decimals}f}"
-        return f"{number} {symbol}".rstrip()
+        if decimals > _MOST_DECIMALS:
+            whole = math.floor(math.log10(abs(value / factor))) + 1 if value else 0
+            number = f"{value / factor:.{max(whole + decimals, 1)}g} {symbol}".rstrip()
+            return f"{number} ± {self.format_deviation(deviation)}"
+        number = _rounded(value / factor, decimals)
+        return f"{number} ± {_rounded(deviation / factor, decimals)} {symbol}".rstrip()
+
+    def format_deviation(self, deviation: float) -> str:
+        """Write a standard deviation by itself, to two digits and in a unit of its own."""
+        symbol, factor = self.display(deviation)
+        number = deviation / factor
+        decimals = _decimals(number)
+        text = _rounded(number, decimals) if decimals <= _MOST_DECIMALS else f"{number:.1e}"
+        return f"{text} {symbol}".rstrip()
 
     def rounded_estimate(self, value: float, deviation: float | None) -> float:
         """Round a value to the digits that :meth:`format_estimate` writes.
 
         The step is at most a tenth of the deviation: no more is known.
         """
-        if deviation is None or not 0.0 < deviation < math.inf:
+        if deviation is None or not _EXACT * abs(value) < deviation < math.inf:
             return value
         _, factor = self.display(value)
         return _scaled(round(value / factor, _decimals(deviation / factor)), factor)
@@ -164,8 +179,13 @@ class Unit:
 
 
 def _decimals(deviation: float) -> int:
-    """Return the decimals that show two digits of a standard deviation."""
-    return min(max(0, 1 - math.floor(math.log10(deviation))), _MOST_DECIMALS)
+    """Return the decimals that show two digits of a standard deviation; negative for hundreds."""
+    return 1 - math.floor(math.log10(float(f"{deviation:.1e}")))
+
+
+def _rounded(value: float, decimals: int) -> str:
+    """Write a value to so many decimals, or rounded before the point where they are negative."""
+    return f"{round(value, decimals):z.{max(decimals, 0)}f}"
 
 
 def _scaled(value: float, factor: float) -> float:

@@ -1,6 +1,7 @@
 """A value with its standard deviation has the digits that mean something."""
 
 import math
+import re
 
 import pytest
 
@@ -16,6 +17,12 @@ PLAIN = Unit("")
         (66.3425e-6, 24.9e-6, "66 ± 25 µs"),
         (141.173e-6, 3.81e-6, "141.2 ± 3.8 µs"),
         (8.90034e-6, 2e-9, "8.9003 ± 0.0020 µs"),
+        (1.23e-6, 0.0996e-6, "1.23 ± 0.10 µs"),
+        (5.4321e-3, 0.123e-6, "5.43210 ± 0.00012 ms"),
+        (12e-9, 1234e-9, "0 ± 1200 ns"),
+        (68e-6, 68e-17, "68 µs ± 6.8e-07 ns"),
+        (68e-6, 68e-19, "68 µs"),
+        (0.0, 1e-300, "0 s ± 1.0e-291 ns"),
         (68e-6, None, "68 µs"),
         (68e-6, 0.0, "68 µs"),
         (68e-6, math.inf, "68 µs"),
@@ -25,6 +32,23 @@ def test_two_digits_of_the_deviation_are_shown(
     value: float, deviation: float | None, text: str
 ) -> None:
     assert SECOND.format_estimate(value, deviation) == text
+
+
+@pytest.mark.parametrize("size", range(-11, 13))
+@pytest.mark.parametrize("error", [0.123, 0.9951, 9.96, 45.0])
+def test_an_error_has_two_digits_whatever_its_size(size: int, error: float) -> None:
+    for unit in (SECOND, HERTZ, PLAIN):
+        for value in (error * 10.0**size, 1.0):
+            written = unit.format_estimate(value, error * 10.0**size)
+            (digits,) = re.findall(r"± ([0-9.]+)", written)
+            significant = digits.replace(".", "").lstrip("0")
+            assert len(significant.rstrip("0")) <= 2 <= len(significant), written
+            assert "." not in digits or len(significant) == 2
+
+
+def test_a_frequency_of_ten_digits_has_an_error_that_can_be_read() -> None:
+    text = HERTZ.format_estimate(10000.0000001, 8e-6)
+    assert text == "10.0000000001 kHz ± 8.0e-06 Hz"
 
 
 def test_a_pure_number_has_no_unit() -> None:

@@ -1,0 +1,128 @@
+"""An argument of a wrong kind ends in a sentence that names it, in every public function."""
+
+import inspect
+import pickle
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from simulated_photos import photo_of
+
+import occ_model as occ
+from occ_model import argument_kinds
+from occ_model.argument_kinds import checked
+
+SCENE = occ.load_preset("phone-68us").replace(
+    rows=20, columns=300, panel_width=3.0, panel_height=0.5
+)
+FRAME = occ.render(SCENE, tolerance=np.inf)
+VIDEO = occ.render_video(SCENE, 2)
+PHOTO = photo_of(FRAME.image)
+
+RIGHT = {"scene": SCENE, "photo": PHOTO, "result": occ.DecodeResult("threshold")}
+
+NAMES = [name for name in occ.__all__ if inspect.isfunction(getattr(occ, name))]
+
+WRONG: tuple[object, ...] = (
+    None, 5, -1.5, float("nan"), True, "x", b"y", [None], {"a": 1}, object(), np.array("t"),
+    np.zeros((2, 2, 2)), int,
+)  # fmt: skip
+
+OURS = (
+    "Scene",
+    "Executor",
+    "Transmitter",
+    "Photo",
+    "Video",
+    "DecodeResult",
+    "Settings",
+    "Recording",
+    "Lamp",
+)
+"""Parts of annotations of arguments that are refused before any work."""
+
+
+def of_objects() -> Iterator[tuple[str, str]]:
+    for name in NAMES:
+        for argument, declared in inspect.signature(getattr(occ, name)).parameters.items():
+            said = str(declared.annotation)
+            is_ours = any(one in said for one in OURS) and "Sequence" not in said
+            if (is_ours and "Iterable" not in said) or "Callable" in said:
+                yield name, argument
+
+
+def is_right(value: object, said: str) -> bool:
+    """Whether a value is of the kind that an annotation names, told by its text alone."""
+    return ("None" in said and value is None) or ("Callable" in said and callable(value))
+
+
+@pytest.mark.parametrize(("name", "argument"), list(of_objects()))
+def test_an_object_of_a_wrong_kind_is_refused_before_any_work(name: str, argument: str) -> None:
+    function = getattr(occ, name)
+    parameters = inspect.signature(function).parameters
+    for wrong in WRONG:
+        if is_right(wrong, str(parameters[argument].annotation)):
+            continue
+        given: dict[str, object] = {
+            each: RIGHT.get(each, VIDEO)
+            for each, declared in parameters.items()
+            if declared.default is declared.empty
+        }
+        with pytest.raises(occ.ParameterError, match=f"^{argument} is .*; allowed: "):
+            function(**given | {argument: wrong})
+
+
+CALLS: dict[str, tuple[Callable[..., Any], dict[str, object]]] = {
+    "compare": (occ.compare, {"flattened": FRAME.profile, "simulated": FRAME.profile}),
+    "decode": (occ.decode, {"image": FRAME.image, "scene": SCENE, "decoder": "threshold"}),
+    "decode_video": (occ.decode_video, {"video": VIDEO, "scene": SCENE, "decoder": "threshold"}),
+    "load_photo": (occ.load_photo, {"path": "nowhere.png"}),
+    "load_preset": (occ.load_preset, {"name": "phone-68us"}),
+    "match_photos": (occ.match_photos, {"photos": [], "scene": SCENE, "known": {}}),
+    "plan": (occ.plan, {"scene": SCENE, "tolerance": 0.5, "observable": "image", "force": {}}),
+    "render": (occ.render, {"scene": SCENE, "seed": 1, "rows_step": 1, "noise": "exact"}),
+    "render_video": (occ.render_video, {"scene": SCENE, "frames": 2, "rows_step": 1}),
+    "sweep": (
+        occ.sweep,
+        {"scene": SCENE, "axes": {"distance": [1.0]}, "images": 1, "decoder": "threshold",
+         "executor": None, "jobs": 1, "results": None, "path": "auto", "tolerance": np.inf},
+    ),
+    "transmitter_sketch": (occ.transmitter_sketch, {"scene": SCENE, "board": "arduino-uno"}),
+    "wilson_interval": (occ.wilson_interval, {"successes": 1, "trials": 2, "level": 0.9}),
+    "write_video": (occ.write_video, {"video": VIDEO, "path": "nowhere/film.mkv"}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_no_argument_ends_in_an_error_that_says_nothing(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    function, given = CALLS[name]
+    for argument in given:
+        for wrong in WRONG:
+            if name == "sweep" and argument == "jobs" and wrong is WRONG[1]:
+                continue  # five processes are right
+            try:
+                function(**given | {argument: wrong})
+            except occ.OccError as error:
+                assert str(error)[-1] in ".)", (argument, wrong)  # noqa: PT017 - any of ours
+
+
+def test_a_right_argument_keeps_the_error_of_a_fault_of_ours() -> None:
+    def faulty(count: int) -> int:
+        return {}[count]  # type: ignore[no-any-return]
+
+    with pytest.raises(KeyError):
+        checked(faulty)(3)
+    with pytest.raises(occ.ParameterError, match=r"^count is 'three'; allowed: a whole number.$"):
+        checked(faulty)("three")
+
+
+def test_a_checked_function_is_found_again_in_another_process() -> None:
+    for name in NAMES:
+        assert pickle.loads(pickle.dumps(getattr(occ, name))) is getattr(occ, name)
+        assert inspect.getdoc(getattr(occ, name))
+    assert argument_kinds.__doc__

@@ -15,6 +15,7 @@ from occ_model.parallel.job import (
 )
 from occ_model.parallel.processes import (
     begin_worker,
+    check_open_files,
     interrupts_held,
     process_context,
     worker_start,
@@ -47,6 +48,7 @@ class ProcessPool:
     def __init__(self, count: int, preload: str, niceness: int = 0) -> None:
         self.count = count
         self._niceness = niceness
+        check_open_files(count)
         self._context = _RecordingContext(process_context([__name__, preload]))
         # Without locks: a process that dies while it holds one would stop the others.
         self._first_runs = self._context.RawArray("q", CHANNELS)

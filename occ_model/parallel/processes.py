@@ -18,6 +18,10 @@ _LONGEST_FOLDER = 70
 may have at most 103 bytes on macOS and 107 on Linux."""
 
 
+_FILES_OF_SERVER, _FILES_OF_WORKER = 16, 4
+"""Files that processes need open, with twice as many for each as it was seen to need."""
+
+
 def process_context(preload: Sequence[str]) -> Any:
     """Choose the way in which processes are started.
 
@@ -34,6 +38,27 @@ def process_context(preload: Sequence[str]) -> Any:
     if method == "forkserver":
         context.set_forkserver_preload(list(preload))
     return context
+
+
+def check_open_files(workers: int) -> None:
+    """Refuse to start so many processes where the system lets this one open too few files.
+
+    Started all the same, some would die half-way, each with a traceback on the terminal.
+
+    Raises
+    ------
+    OSError
+        There are too few.
+    """
+    opened: list[int] = []
+    try:
+        for _ in range(_FILES_OF_SERVER + _FILES_OF_WORKER * workers):
+            opened.append(os.open(os.devnull, os.O_RDONLY))  # noqa: PERF401 - closed also half-way
+    except OSError as error:
+        raise OSError(f"{workers} of them need more open files than are allowed") from error
+    finally:
+        for each in opened:
+            os.close(each)
 
 
 def _socket_path_fits() -> bool:

@@ -142,7 +142,7 @@ class Unit:
         """
         if deviation is None or not _EXACT * abs(value) < deviation < math.inf:
             return self.format(value)
-        symbol, factor = self.display(value)
+        symbol, factor = self.display(max(abs(value), deviation))
         decimals = _decimals(deviation / factor)
         if decimals > _MOST_DECIMALS:
             whole = math.floor(math.log10(abs(value / factor))) + 1 if value else 0
@@ -160,14 +160,14 @@ class Unit:
         return f"{text} {symbol}".rstrip()
 
     def rounded_estimate(self, value: float, deviation: float | None) -> float:
-        """Round a value to the digits that :meth:`format_estimate` writes.
+        """Round a value to the digits that :meth:`format_estimate` writes, at least to a whole one.
 
         The step is at most a tenth of the deviation: no more is known.
         """
         if deviation is None or not _EXACT * abs(value) < deviation < math.inf:
             return value
         _, factor = self.display(value)
-        return _scaled(round(value / factor, _decimals(deviation / factor)), factor)
+        return _scaled(round(value / factor, max(_decimals(deviation / factor), 0)), factor)
 
     def format(self, value: float, digits: int = 6) -> str:
         """Write ``value`` with ``digits`` significant digits and its unit."""

@@ -293,7 +293,7 @@ def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, o
     assert bench.controller.match is not None
     assert preset.scene == bench.controller.match.scene
     source = preset.sources["readout_time"]
-    for part in ("±2 ns", "photo stripes.png", "2026-01-31", "switching frequency being 2 kHz"):
+    for part in ("±2.0 ns", "photo stripes.png", "2026-01-31", "switching frequency being 2 kHz"):
         assert part in source
     assert "±300 ns" in preset.sources["exposure_time"]
     assert "pattern" not in preset.sources

@@ -60,8 +60,9 @@ def test_the_end_is_what_the_model_reads_of_the_whole_film(film: Video, film_sce
     assert figures["Packets"] == f"{whole.read} read, {whole.lost} lost"
     assert read == whole.read
     assert whole.clock is not None
-    frequency, unit = figures["Frequency"].split(" ± ")[0], figures["Frequency"].split()[-1]
+    frequency, unit, _, error, _ = figures["Frequency"].split()
     assert unit == "kHz"
+    assert float(error) == pytest.approx(whole.clock.switching_frequency.error, rel=0.05)
     assert 1e3 * float(frequency) == pytest.approx(whole.clock.switching_frequency.value, abs=1.0)
 
 

@@ -11,13 +11,9 @@ from occ_gui.background.cancellable import Report
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.marks import Marks, MarkState
 from occ_gui.video.reading_words import figures_of, sentences_of
+from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
-from occ_model.results.video_reading import (
-    FilmProgress,
-    FrameReading,
-    PacketReading,
-    VideoReading,
-)
+from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.scene.scene import Scene
 
 _INTERVAL = 0.1
@@ -34,6 +30,9 @@ _LOOK_SHARE = 0.2
 
 MOST_LIVE = 900
 """Frames of a live film that are remembered: half a minute of 30 a second."""
+
+MOST_MARKS = 1_000_000
+"""Packets up to which each has a mark of its own."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -160,14 +159,18 @@ def state_of_packet(packet: PacketReading) -> MarkState:
     return MarkState.UNCHECKED if packet.correct is None else MarkState.READ
 
 
-def marks_of_packets(packets: tuple[PacketReading, ...]) -> Marks:
-    """Return a mark for each packet, which lasts until the next one begins."""
-    if not packets:
-        return Marks()
-    starts = np.array([packet.time for packet in packets])
-    last = float(np.median(np.diff(starts))) if len(starts) > 1 else 0.0
-    states = np.array([state_of_packet(packet) for packet in packets], dtype=np.uint8)
-    return Marks(starts, np.append(starts[1:], starts[-1] + last), states)
+def marks_of_packets(packets: SentPackets) -> Marks:
+    """Return a mark for each packet; of very many one for all that lie between two in view."""
+    shown = np.array([packet.number for packet in packets.in_view], dtype=np.int64)
+    if len(packets) <= MOST_MARKS:
+        edges = np.arange(len(packets) + 1)
+    else:
+        ends = np.cumsum([0, *(part.count for part in packets.parts)])
+        edges = np.unique(np.concatenate([shown, shown + 1, ends]))
+    states = np.full(len(edges) - 1, MarkState.LOST, dtype=np.uint8)
+    states[np.searchsorted(edges, shown)] = [state_of_packet(one) for one in packets.in_view]
+    starts, last = packets.starts(edges[:-1]), packets.starts(edges[1:] - 1)
+    return Marks(starts, last + packets.steps(edges[:-1]), states)
 
 
 def _joined(before: Marks, after: Marks, first: float) -> Marks:

@@ -51,9 +51,10 @@ def sentences_of(
     said = [problem] if problem else []
     if whole is not None and whole.failure is not None:
         said.append(whole.failure)
-    clock = known.clock if whole is None or whole.clock is None else whole.clock
-    if clock is not None:
-        said += clock.problems
+    if whole is not None:
+        said += whole.problems
+    elif known.clock is not None:
+        said += known.clock.problems
     if whole is not None and whole.cut_off:
         said.append(_losses(known, whole))
     return tuple(dict.fromkeys(said))
@@ -61,12 +62,12 @@ def sentences_of(
 
 def _rates(whole: VideoReading) -> list[Figure]:
     found = []
-    if whole.complete_at is not None:
+    if whole.complete_after is not None:
         found.append(
             Figure(
                 _tr("Payload complete"),
-                _tr("after {time}").format(time=SECOND.format(whole.complete_at, 4)),
-                _tr("When the frame began after which the whole payload was known."),
+                _tr("after {time}").format(time=SECOND.format(whole.complete_after, 4)),
+                _tr("How long the film had run by the end of the frame that completed it."),
             )
         )
     if not whole.packets:

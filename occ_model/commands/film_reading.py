@@ -50,7 +50,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
         )
     for line in _report(reading, video):
         print(line)
-    for sentence in (video.problem, *(reading.clock.problems if reading.clock else ())):
+    for sentence in (video.problem, *reading.problems):
         if sentence:
             print(sentence, file=sys.stderr)
     if reading.failure is not None:
@@ -110,18 +110,15 @@ def _packets(reading: VideoReading) -> list[str]:
         f"packet error rate {_rate(reading.lost, sent)}",
         f"net bits          {reading.bits_per_second:.4g} a second in packets read whole",
     ]
-    if reading.complete_at is not None:
-        time = reading.complete_at + reading.duration / max(len(reading.frames), 1)
-        start = reading.frames[0].time
+    after = reading.complete_after
+    if after is not None:
         lines.append(
-            f"complete          after {SECOND.format(time - start)}: "
-            f"{len(reading.bits) / (time - start):.4g} bits a second"
+            f"complete          after {SECOND.format(after)}: "
+            f"{len(reading.bits) / after:.4g} bits a second"
         )
-    compared = [one for one in reading.packets if one.wrong_bits is not None]
-    bits = sum(len(one.bits) for one in compared if one.bits is not None)
-    if bits:
-        wrong = sum(one.wrong_bits or 0 for one in compared)
-        lines.append(f"bit error rate    {_rate(wrong, bits)}")
+    (whole,) = reading.rates(1)
+    if whole.bits:
+        lines.append(f"bit error rate    {_rate(whole.bits_wrong, whole.bits)}")
     if sent >= _FEWEST_PACKETS:
         lines += [
             f"  {SECOND.format(window.start)} to {SECOND.format(window.end)}: packet error rate "

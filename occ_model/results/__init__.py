@@ -23,6 +23,7 @@ from occ_model.results.match import Alternative, ChipReading, Comparison, Match,
 from occ_model.results.most_bits import MostBits
 from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.results.plan import Decision, Plan
+from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
 from occ_model.results.video import Video, VideoFrame
@@ -31,7 +32,6 @@ from occ_model.results.video_reading import (
     FilmProgress,
     FrameReading,
     Measured,
-    PacketReading,
     RateWindow,
     VideoReading,
 )
@@ -73,6 +73,7 @@ __all__ = [
     "Region",
     "RunHistogram",
     "Runs",
+    "SentPackets",
     "SignalPath",
     "Stripes",
     "SweepPoint",

@@ -2,11 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.results.decoding import Region
+from occ_model.results.sent_packets import PacketReading, SentPackets
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,48 +53,6 @@ class FrameReading:
     chip_length: float | None = None
     place: int | None = None
     failure: str | None = None
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class PacketReading:
-    """One packet, or sub-packet, among those that were sent while the film ran.
-
-    Parameters
-    ----------
-    number
-        Its number among those sent, from 0 for the first one.
-    part
-        Which part of the payload it carries, from 0: its sub-packet; 0 where a packet is the whole.
-    time
-        When it began, in seconds by the film's clock.
-    frame
-        The frame that shows it whole; None where none does.
-    seen
-        Share of its chips that lie whole in any frame, from 0 to 1.
-    bits : ndarray of uint8 or None
-        The bits read of this packet alone; None where it was not read.
-    wrong_bits
-        Bits that differ from those of the payload joined from all packets; None where either was
-        not read.
-    """
-
-    number: int
-    part: int
-    time: float
-    frame: int | None
-    seen: float
-    bits: ByteArray | None
-    wrong_bits: int | None
-
-    @property
-    def is_read(self) -> bool:
-        """Whether one frame shows it whole, and it could be read."""
-        return self.bits is not None
-
-    @property
-    def correct(self) -> bool | None:
-        """Whether it is as the joined payload has it; None where either was not read."""
-        return None if self.wrong_bits is None else self.wrong_bits == 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,7 +166,8 @@ class VideoReading:
         Its frames.
     packets
         The packets that were sent from the first frame's start to the last one's end; empty where
-        the frames' times do not tell how many were sent between frames.
+        the frames' times do not tell how many were sent between frames. Where those jump, so that
+        what lies between cannot be counted, it is left out of this and of all rates.
     clock
         What the film says of the clock; None where too few frames show it.
     bits : ndarray of uint8
@@ -219,12 +180,19 @@ class VideoReading:
         The probability that all bits are right, by the chips' votes.
     complete_at
         The time of the frame after which the payload was complete, in seconds; None before.
+    duration
+        How long the film ran, in seconds: to the end of the last frame's period.
     failure
         None, or a sentence that says why no payload was read.
+    problems
+        Sentences: what is not regular in the frames' times, and what the clock is not sure of.
+    complete_after
+        How long the film had run by the end of that frame's period, in seconds; None where it is
+        not complete, or the times of the frames do not tell their period.
     """
 
     frames: tuple[FrameReading, ...]
-    packets: tuple[PacketReading, ...]
+    packets: SentPackets
     clock: Clock | None
     bits: ByteArray
     known: BoolArray
@@ -233,11 +201,13 @@ class VideoReading:
     complete_at: float | None
     duration: float
     failure: str | None
+    problems: tuple[str, ...] = ()
+    complete_after: float | None = None
 
     @property
     def read(self) -> int:
         """Packets that one frame shows whole, and that are right as far as that is known."""
-        return sum(packet.is_read and packet.correct is not False for packet in self.packets)
+        return sum(packet.is_right for packet in self.packets.in_view)
 
     @property
     def lost(self) -> int:
@@ -247,18 +217,20 @@ class VideoReading:
     @property
     def cut_off(self) -> int:
         """Packets that no frame shows whole: those in a gap, or across the edge of a frame."""
-        return sum(packet.frame is None for packet in self.packets)
+        shown = sum(packet.frame is not None for packet in self.packets.in_view)
+        return len(self.packets) - shown
 
     @property
     def doubled(self) -> int:
         """Packets that were read although their part of the payload had been read before."""
-        parts = {packet.part for packet in self.packets if _is_right(packet)}
+        parts = {packet.part for packet in self.packets.in_view if packet.is_right}
         return self.read - len(parts)
 
     @property
     def bits_per_second(self) -> float:
         """Bits of the payload in the packets read, repetitions included, for each second."""
-        bits = sum(len(one.bits) for one in self.packets if one.bits is not None and _is_right(one))
+        right = (one.bits for one in self.packets.in_view if one.is_right)
+        bits = sum(len(one) for one in right if one is not None)
         return bits / self.duration if self.duration > 0.0 else 0.0
 
     @property
@@ -274,40 +246,34 @@ class VideoReading:
     @property
     def bit_error_rate(self) -> float | None:
         """Share of wrong bits in the packets that were read; None where none was compared."""
-        compared = [one for one in self.packets if one.wrong_bits is not None]
-        count = sum(len(one.bits) for one in compared if one.bits is not None)
-        return sum(one.wrong_bits or 0 for one in compared) / count if count else None
+        bits, wrong = _compared(self.packets.in_view)
+        return wrong / bits if bits else None
 
     def rates(self, windows: int) -> tuple[RateWindow, ...]:
         """Divide the film in parts of equal length, and count the errors in each.
+
+        Where nothing was sent that can be counted, there are none.
 
         Parameters
         ----------
         windows
             How many parts.
         """
-        start = self.frames[0].time if self.frames else 0.0
-        edges = start + self.duration * np.arange(windows + 1) / max(windows, 1)
-        times = np.array([packet.time for packet in self.packets])
-        number = np.clip(np.searchsorted(edges, times, side="right") - 1, 0, windows - 1)
-        found = []
-        for place in range(windows):
-            here = [self.packets[one] for one in np.flatnonzero(number == place).tolist()]
-            found.append(_counted(float(edges[place]), float(edges[place + 1]), here))
-        return tuple(found)
+        if not self.packets:
+            return ()
+        edges = self.duration * np.arange(windows + 1) / max(windows, 1)
+        times = [
+            (self.packets.time_at(start), self.packets.time_at(end, is_end=True))
+            for start, end in pairwise(edges.tolist())
+        ]
+        return tuple(
+            RateWindow(*between, sent, sent - sum(one.is_right for one in shown), *_compared(shown))
+            for between, (sent, shown) in zip(times, self.packets.cut(edges), strict=True)
+        )
 
 
-def _is_right(packet: PacketReading) -> bool:
-    return packet.is_read and packet.correct is not False
-
-
-def _counted(start: float, end: float, packets: Sequence[PacketReading]) -> RateWindow:
+def _compared(packets: Sequence[PacketReading]) -> tuple[int, int]:
+    """Return the bits that could be compared, and those of them that were wrong."""
     compared = [one for one in packets if one.bits is not None and one.wrong_bits is not None]
-    return RateWindow(
-        start=start,
-        end=end,
-        packets=len(packets),
-        packets_lost=sum(not _is_right(one) for one in packets),
-        bits=sum(len(one.bits) for one in compared if one.bits is not None),
-        bits_wrong=sum(one.wrong_bits or 0 for one in compared),
-    )
+    bits = sum(len(one.bits) for one in compared if one.bits is not None)
+    return bits, sum(one.wrong_bits or 0 for one in compared)

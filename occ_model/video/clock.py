@@ -5,7 +5,7 @@ import numpy as np
 from occ_model.results.video_reading import Clock, Measured
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.video.clock_fit import fit_clock
-from occ_model.video.frame_times import FrameTimes
+from occ_model.video.frame_times import FrameTimes, Part
 from occ_model.video.phases import ClockFit, Phases, mean_step
 
 READOUT_TOLERANCE = 0.01
@@ -19,6 +19,9 @@ _FEWEST = 3
 
 _OUTLIERS = 0.1
 """Share of phases that do not agree with the others that is told."""
+
+_NAMED = 5
+"""Most other frequencies that a sentence names."""
 
 _WANDERING = 3.0
 """Ratio of the phases' scatter to that from frame to frame from which they wander."""
@@ -51,7 +54,9 @@ def fits_of(
     return fit_clock(phases, low, high) if low < high else ()
 
 
-def state(fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, columns: int) -> Clock:
+def state(
+    fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, part: Part, columns: int
+) -> Clock:
     """State what fits say of a film's clock.
 
     Parameters
@@ -60,8 +65,8 @@ def state(fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, columns
         The likeliest first; at least one.
     phases
         That they were fitted to.
-    times
-        The frames' times.
+    times, part
+        The frames' times, and the part of the film that the phases are those of.
     columns
         Of a frame.
     """
@@ -71,6 +76,7 @@ def state(fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, columns
     readout_error = readout * float(relative)
     gap = times.period.value - columns * readout
     has_drift = best.drift_error > 0.0
+    only = [f"The clock is that of frames {part.first} to {part.end - 1}."]
     return Clock(
         switching_frequency=Measured(best.frequency, best.frequency_error),
         drift=Measured(best.drift, best.drift_error) if has_drift else None,
@@ -80,7 +86,11 @@ def state(fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, columns
         timing_noise=best.noise / best.frequency,
         frames=int(best.kept.sum()),
         alternatives=tuple((fit.frequency, fit.step / fit.frequency) for fit in fits[1:]),
-        problems=(*times.problems, *_problems(fits, phases)),
+        problems=(
+            *times.problems,
+            *(only if len(times.parts) > 1 else ()),
+            *_problems(fits, phases),
+        ),
     )
 
 
@@ -95,8 +105,8 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
     if len(fits) > 1:
         others = ", ".join(
             f"{HERTZ.format(fit.frequency)} ({SECOND.format(fit.step / fit.frequency)} a column)"
-            for fit in fits[1:]
-        )
+            for fit in fits[1 : 1 + _NAMED]
+        ) + (f" and {len(fits) - 1 - _NAMED} more" if len(fits) > 1 + _NAMED else "")
         problems.append(
             f"Several frequencies fit the frames alike: {HERTZ.format(best.frequency)} is stated, "
             f"but also {others}; a surer readout time, or a longer packet, would tell them apart."

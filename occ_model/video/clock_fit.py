@@ -6,6 +6,8 @@ frequency, from the chips a column and a rough readout time, says which of them 
 then counted on over longer and longer parts of the film, each of which foretells the next one.
 """
 
+import math
+
 import numpy as np
 
 from occ_model.arrays import FloatArray
@@ -20,6 +22,12 @@ _GRID = 8.0
 
 _MOST_TRIED = 2**17
 """Most frequencies that are tried; the part of the film is shortened to it."""
+
+_MOST_ALIASES = 64
+"""Most frequencies that may fit alike: of more, as with frames far apart, none is stated."""
+
+_FEW_TRIED = 64.0
+"""Frequencies among which none is coherent by chance."""
 
 _AS_COHERENT = 0.8
 """Share of the best coherence from which another frequency is an alias to be fitted."""
@@ -90,15 +98,20 @@ def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> lis
     while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MOST_TRIED:
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
-    tried = np.linspace(low, high, _grid(phases.times[:count], low, high, phases.period))
+    number = _grid(times, low, high, phases.period)
+    # Of so many random phasors the mean is longer than r in the share exp(-count r^2).
+    by_chance = math.sqrt(2.0 * math.log(max(number / _FEW_TRIED, 1.0)) / count)
+    if number > _MOST_TRIED or by_chance >= 1.0:
+        return []
+    tried = np.linspace(low, high, number)
     coherent = _coherence(turned[:count], times, tried, phases.period)
     best = float(coherent.max())
-    if best < max(_LEAST_COHERENCE, 1.2 / np.sqrt(count)) and count > 2:
+    if best < max(_LEAST_COHERENCE, 1.2 / math.sqrt(count), by_chance) and count > 2:
         return []
     padded = np.concatenate([[-1.0], coherent, [-1.0]])
     peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:])
     chosen = np.flatnonzero(peaks & (coherent >= _AS_COHERENT * best))
-    return [float(tried[place]) for place in chosen]
+    return [float(tried[place]) for place in chosen] if len(chosen) <= _MOST_ALIASES else []
 
 
 def _grid(times: FloatArray, low: float, high: float, period: float) -> int:

@@ -13,6 +13,11 @@ from occ_model.video.read_frame import TimedFrame
 _LEAST_CERTAINTY = 0.9
 """Least probability that all bits are right, of a payload that is read."""
 
+NO_CLOCK = (
+    "The frame times tell no clock: no frequency that the readout time allows explains what the "
+    "frames show, or too many do. Packets are not counted."
+)
+
 
 def certainty_of(soft: SoftFrame | None, period: SentPeriod) -> float:
     """Return the probability that all bits are right, by the votes and by what the code finds.

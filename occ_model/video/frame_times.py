@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.video_reading import Measured
 from occ_model.scene.units import SECOND
 
@@ -17,6 +17,34 @@ _UNEVEN = 0.02
 _NAMED = 3
 """Most frames that a sentence names."""
 
+_BREAK = 16.0
+"""Periods between two frames from which the film goes on as another part: what a camera that is
+stopped, or a file that is damaged, states for them tells nothing of the frames before."""
+
+_FEWEST = 4.0
+"""Frames of a part on average from which the times tell anything."""
+
+_SHORTEST = 1e-9
+"""Seconds below which two frames have the same time."""
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """Frames that follow each other.
+
+    Parameters
+    ----------
+    first, end
+        The number of its first frame, and of the one after its last.
+    start, duration
+        When its first frame begins, and the time to the end of its last one's period, in seconds.
+    """
+
+    first: int
+    end: int
+    start: float
+    duration: float
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameTimes:
@@ -27,14 +55,36 @@ class FrameTimes:
     period
         The frame period in seconds; its error is that of the times' scatter.
     numbers : ndarray of int64, shape (frames,)
-        How many periods each frame lies after the first one.
+        How many periods each frame lies after the first one of its part.
+    parts
+        The parts of the film, between which the times jump.
     problems
         Sentences.
     """
 
     period: Measured
     numbers: IndexArray
+    parts: tuple[Part, ...]
     problems: tuple[str, ...]
+
+    def is_jump(self, interval: float) -> bool:
+        """Whether an interval is so long that another part begins after it, or leads back."""
+        return interval > _BREAK * self.period.value or interval < -_SHORTEST
+
+    @property
+    def follow(self) -> bool:
+        """Whether most frames follow each other, so that their times tell a clock."""
+        return len(self.parts) == 1 or len(self.numbers) >= _FEWEST * len(self.parts)
+
+    def part_of(self, frame: int) -> Part:
+        """Return the part that a frame is in; the last one for those that came since."""
+        return next((part for part in self.parts if frame < part.end), self.parts[-1])
+
+    def elapsed(self, frame: int) -> float:
+        """Return how long the film had run by the end of a frame's period, in seconds."""
+        here = self.part_of(frame)
+        before = sum(part.duration for part in self.parts if part.end <= here.first)
+        return before + float(self.numbers[frame] + 1) * self.period.value
 
 
 def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
@@ -53,28 +103,55 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
         None where fewer than two times differ.
     """
     intervals = np.diff(times)
-    ahead = intervals[intervals > 0.0]
+    ahead = intervals[intervals > _SHORTEST]
     if ahead.size == 0:
         return None
     usual = float(np.median(ahead))
-    counts = np.rint(intervals / usual).astype(np.int64)
-    numbers = np.concatenate([[0], np.cumsum(counts)])
-    problems = _problems(intervals / usual, counts, usual)
-    if len(times) < 3:
-        return FrameTimes(Measured(usual, rounded_to), numbers, tuple(problems))
-    parts = np.column_stack([np.ones(len(times)), numbers - numbers.mean()])
-    found = np.linalg.lstsq(parts, times, rcond=None)[0]
-    residuals = times - parts @ found
-    free = len(times) - 2
-    scatter = max(float(residuals @ residuals) / free, rounded_to**2 / 12.0)
-    error = float(np.sqrt(scatter / (parts[:, 1] @ parts[:, 1])))
-    deviation = float(np.sqrt(residuals @ residuals / free))
-    if deviation > max(_UNEVEN * usual, rounded_to):
-        problems.append(
-            f"The frame times are uneven: they deviate by {SECOND.format(deviation)} from equal "
-            f"steps of {SECOND.format(float(found[1]))}."
+    jumps = (intervals > _BREAK * usual) | (intervals < -_SHORTEST)
+    counts = np.where(jumps, 0, np.rint(intervals / usual)).astype(np.int64)
+    firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])
+    sizes = np.diff(np.append(firsts, len(times)))
+    counted = np.concatenate([[0], np.cumsum(counts)])
+    numbers = counted - np.repeat(counted[firsts], sizes)
+    # A part begins when it will: only steps within one tell the period.
+    steps, later = (
+        values - np.repeat(np.add.reduceat(values, firsts) / sizes, sizes)
+        for values in (numbers.astype(np.float64), times)
+    )
+    power, free = float(steps @ steps), len(times) - len(firsts) - 1
+    period = Measured(float(steps @ later) / power, rounded_to)
+    problems = _problems(np.where(jumps, 1.0, intervals / usual), counts + jumps, usual)
+    if free > 0:
+        residuals = later - steps * period.value
+        scatter = float(residuals @ residuals) / free
+        error = np.sqrt(max(scatter, rounded_to**2 / 12.0) / power)
+        period = Measured(period.value, float(error))
+        if np.sqrt(scatter) > max(_UNEVEN * usual, rounded_to):
+            problems.append(
+                f"The frame times are uneven: they deviate by {SECOND.format(np.sqrt(scatter))} "
+                f"from equal steps of {SECOND.format(period.value)}."
+            )
+    if jumps.any():
+        problems.append(_jump(intervals, jumps))
+    ends = (firsts + sizes).tolist()
+    parts = tuple(
+        Part(
+            first,
+            end,
+            float(times[first]),
+            float(numbers[end - 1] + 1) * period.value,
         )
-    return FrameTimes(Measured(float(found[1]), error), numbers, tuple(problems))
+        for first, end in zip(firsts.tolist(), ends, strict=True)
+    )
+    return FrameTimes(period, numbers, parts, tuple(problems))
+
+
+def _jump(intervals: FloatArray, jumps: BoolArray) -> str:
+    frames = np.flatnonzero(jumps)
+    return (
+        f"The frame times jump by {SECOND.format(float(intervals[frames[0]]))} after "
+        f"{_named(frames)}: what was sent between is not counted."
+    )
 
 
 def _problems(steps: FloatArray, counts: IndexArray, usual: float) -> list[str]:
@@ -88,8 +165,7 @@ def _problems(steps: FloatArray, counts: IndexArray, usual: float) -> list[str]:
     backward = np.flatnonzero(steps <= 0.0)
     if backward.size:
         problems.append(
-            f"The frame times do not rise after {_named(backward)}: frames are doubled or out of "
-            "order."
+            f"The frame times do not rise after {_named(backward)}: frames are doubled."
         )
     odd = np.flatnonzero((np.abs(steps - counts) > _EVEN) & (steps > 0.0))
     if odd.size:

@@ -13,7 +13,7 @@ from occ_model.errors import ParameterError, SceneFileError, VideoError, one_lin
 from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
 from occ_model.photo.reading.scan_axis import SCAN_AXES, roughness_along
-from occ_model.results.video import Video, VideoFrame
+from occ_model.results.video import LATEST, Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.provenance import first_scene_in
 from occ_model.scene.recording import Recording
@@ -205,6 +205,12 @@ class VideoFile(Video):
             self._problem = (
                 f"{self._shown} ends early: frame {index} has {columns} x {lines} pixels, "
                 "another size than the first."
+            )
+            return None
+        if not abs(stored.time - self._first_time) <= LATEST:
+            self._problem = (
+                f"{self._shown} ends early: the time of frame {index} is "
+                f"{stored.time - self._first_time:.3g} s; allowed: {-LATEST:g} to {LATEST:g} s."
             )
             return None
         if index == len(self._times):

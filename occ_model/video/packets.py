@@ -1,16 +1,16 @@
 """The packets that were sent while a film ran: which of them frames show, and how they read."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.results.video_reading import FrameReading, PacketReading
+from occ_model.results.sent_packets import FilmPart, PacketReading, SentPackets
+from occ_model.results.video_reading import FrameReading
 from occ_model.transmitter import error_correction
 from occ_model.video.period import SentPeriod
-
-_MOST = 1_000_000
-"""Most packets that are listed."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -29,63 +29,95 @@ class PlacedFrame:
     first: int
 
 
-def packets_of(
-    frames: list[PlacedFrame],
-    period: SentPeriod,
-    bits: ByteArray,
-    span: tuple[float, float],
-    chip_times: tuple[float, float],
-) -> tuple[PacketReading, ...]:
-    """List the packets that were sent while a film ran.
+@dataclass(frozen=True, eq=False, slots=True)
+class CountedPart:
+    """A part of a film with its chips counted.
 
     Parameters
     ----------
     frames
-        The frames that are placed, in the order of time.
+        Its frames that are placed, in the order of time.
+    start, duration
+        When it begins by the film's clock, and how long it is, in seconds.
+    span
+        The numbers of the chips that begin with it and end with it.
+    """
+
+    frames: list[PlacedFrame]
+    start: float
+    duration: float
+    span: tuple[float, float]
+
+
+def packets_of(
+    parts: Sequence[CountedPart], period: SentPeriod, bits: ByteArray, frequency: float
+) -> SentPackets:
+    """Count the packets that were sent while a film ran, and read those in view.
+
+    Parameters
+    ----------
+    parts
+        The parts of the film. Of each count the packets that start after its first chip and end
+        before its last one.
     period
         What is sent.
     bits : ndarray of uint8
         The payload, joined from all frames; empty where it was not read.
-    span
-        Numbers of the chips between which packets count: those that start after the first one and
-        end before the last one.
-    chip_times
-        The time of chip 0, and of a chip, in seconds.
+    frequency
+        Chips a second.
     """
-    length = period.part_length
-    numbers = np.arange(int(np.ceil(span[0] / length)), int(np.floor(span[1] / length)))[:_MOST]
-    if not numbers.size:
-        return ()
-    seen = _seen(frames, numbers[0] * length, len(numbers) * length).reshape(-1, length)
-    frame_of, bits_of = _read(frames, period)
-    sent = _sent_bits(period, bits)
-    packets = []
-    for number, share in zip(numbers.tolist(), seen.mean(axis=1).tolist(), strict=True):
-        part = number % period.parts
-        read = bits_of.get(number)
-        wrong = None
-        if read is not None and sent is not None:
-            expected = sent[period.slice_of_part(part)]
-            wrong = int((read != expected).sum()) if len(read) == len(expected) else len(expected)
-        packets.append(
-            PacketReading(
-                number=number - int(numbers[0]),
-                part=part,
-                time=chip_times[0] + number * length * chip_times[1],
-                frame=frame_of.get(number),
-                seen=share,
-                bits=read,
-                wrong_bits=wrong,
+    found: list[FilmPart] = []
+    packets: list[PacketReading] = []
+    length, sent, before = period.part_length, _sent_bits(period, bits), 0
+    step = length / frequency
+    for part in parts:
+        first, end = math.ceil(part.span[0] / length), math.floor(part.span[1] / length)
+        count = max(end - first, 0)
+        begin = (first * length - part.span[0]) / frequency
+        found.append(FilmPart(part.start, part.duration, count, begin, step, first % period.parts))
+        frame_of, bits_of = _read(part.frames, period)
+        for number, chips in sorted(_seen(part.frames, length).items()):
+            if not first <= number < end:
+                continue
+            read, later = bits_of.get(number), number - first
+            packets.append(
+                PacketReading(
+                    number=before + later,
+                    part=number % period.parts,
+                    time=part.start + begin + later * step,
+                    frame=frame_of.get(number),
+                    seen=chips / length,
+                    bits=read,
+                    wrong_bits=_wrong(read, sent, period.slice_of_part(number % period.parts)),
+                )
             )
-        )
-    return tuple(packets)
+        before += count
+    return SentPackets(tuple(found), tuple(packets), period.parts)
 
 
-def _seen(frames: list[PlacedFrame], first: int, count: int) -> FloatArray:
-    seen = np.zeros(count)
-    for frame in frames:
-        start, end = (frame.first + edge - first for edge in frame.reading.whole)
-        seen[max(start, 0) : max(min(end, count), 0)] = 1.0
+def _wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) -> int | None:
+    """Count the bits of a packet that differ from those sent."""
+    if read is None or sent is None:
+        return None
+    expected = sent[part]
+    return int((read != expected).sum()) if len(read) == len(expected) else len(expected)
+
+
+def _seen(frames: list[PlacedFrame], length: int) -> dict[int, int]:
+    """Count the chips in view of each packet of which there are any."""
+    whole = sorted(
+        (frame.first + frame.reading.whole[0], frame.first + frame.reading.whole[1])
+        for frame in frames
+    )
+    seen: dict[int, int] = {}
+    reached: int | None = None
+    for start, end in whole:
+        begin = start if reached is None else max(start, reached)
+        for number in range(begin // length, -(-end // length)):
+            chips = min(end, (number + 1) * length) - max(begin, number * length)
+            if chips > 0:
+                seen[number] = seen.get(number, 0) + chips
+        reached = end if reached is None else max(reached, end)
     return seen
 
 

@@ -4,16 +4,17 @@ Headers place the first frames; their phases give the clock; the clock and the c
 by then place others, whose phases improve the clock.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
 from occ_model.results.video_reading import Clock, FrameReading
 from occ_model.video.clock import fits_of, state
-from occ_model.video.frame_times import FrameTimes, frame_times
+from occ_model.video.frame_times import FrameTimes, Part, frame_times
 from occ_model.video.joining import Joined, Place
-from occ_model.video.packets import PlacedFrame, counted_on
+from occ_model.video.packets import CountedPart, PlacedFrame, counted_on
 from occ_model.video.period import SentPeriod
 from occ_model.video.phases import ClockFit, Phases
 from occ_model.video.read_frame import TimedFrame
@@ -21,7 +22,7 @@ from occ_model.video.read_frame import TimedFrame
 _REFIT = 1.25
 """Factor of the number of frames after which the clock is fitted anew."""
 
-_FIRST_FIT = 3
+FIRST_FIT = 3
 """Placed frames from which the clock is fitted."""
 
 _FORETELLING = 6
@@ -53,8 +54,10 @@ class PlacedFrames:
         self._readout_time, self._tolerance = readout_time, tolerance
         self._places: list[Place | None] = []
         self._fits: tuple[ClockFit, ...] = ()
-        self._next_fit, self._next_try = _FIRST_FIT, _FORETELLING
+        self._next_fit, self._next_try = FIRST_FIT, _FORETELLING
         self._part_unknown = False
+        self._times: FrameTimes | None = None
+        self._clock_from = 0
 
     def add(self, timed: TimedFrame) -> bool:
         """Add the next frame; return whether the clock was fitted anew."""
@@ -102,20 +105,38 @@ class PlacedFrames:
         times = np.array([timed.reading.time for timed in self.frames])
         return frame_times(times, self.time_step) if len(times) > 1 else None
 
-    def counted(self) -> list[PlacedFrame]:
-        """Return the frames that are placed, on the count of all chips sent; needs a fit."""
-        fit = self.fit
+    def counted(self) -> list[CountedPart]:
+        """Return the parts of the film on the count of all chips sent; needs a fit."""
+        times, fit = self.times(), self.fit
+        assert times is not None  # noqa: S101 - there is a fit of them
         assert fit is not None  # noqa: S101 - the caller has asked
+        return [self._counted_part(fit, part) for part in times.parts]
+
+    def _counted_part(self, fit: ClockFit, part: Part) -> CountedPart:
+        """Count the chips of a part by the clock: from its own frames, if it is not the clock's."""
+        length = self._period.length
         both = [
-            (timed, place.chip)
-            for timed, place in zip(self.frames, self._places, strict=True)
-            if place is not None
+            (self.frames[number], place.chip)
+            for number in range(part.first, part.end)
+            if (place := self._places[number]) is not None
         ]
-        firsts = self._counted(fit, both, self._period.length)
-        return [
+        if part.first <= self._clock_from < part.end:
+            firsts = self._counted(fit, both, length)
+            start, end = fit.at_start(np.array([part.start, part.start + part.duration])).tolist()
+        else:
+            since = np.array([timed.reading.time - part.start for timed, _ in both])
+            inside = np.array([fit.step * timed.column - timed.middle for timed, _ in both])
+            places = np.array([place for _, place in both], dtype=np.int64)
+            foretold = fit.frequency * since + inside
+            turns = np.exp(2j * np.pi * (places - foretold) / length).sum()
+            start = float(np.angle(turns)) / (2.0 * np.pi) * length if both else 0.0
+            end = start + fit.frequency * part.duration
+            firsts = [int(first) for first in counted_on(places, foretold + start, length)]
+        frames = [
             PlacedFrame(timed.reading, first)
             for (timed, _), first in zip(both, firsts, strict=True)
         ]
+        return CountedPart(frames, part.start, part.duration, (start, end))
 
     def _counted(
         self, fit: ClockFit, both: Sequence[tuple[TimedFrame, int]], period: int
@@ -132,7 +153,7 @@ class PlacedFrames:
         if not timed.is_read:
             return False
         foretold, deviation, fit = None, 0.0, self.fit
-        if fit is not None and fit.kept.sum() >= _FORETELLING:
+        if fit is not None and fit.kept.sum() >= _FORETELLING and self._is_foretold(number):
             time = timed.reading.time
             phase = float(fit.at_start(np.array([time]))[0]) + fit.step * timed.column
             foretold = (phase - timed.middle) % self._period.length
@@ -142,6 +163,17 @@ class PlacedFrames:
             return False
         self._enter(number, place)
         return True
+
+    def _is_foretold(self, number: int) -> bool:
+        """Whether the times lead from the frames that the clock was fitted to on to a frame."""
+        times = self._times
+        if times is None:
+            return False
+        known = min(number, len(times.numbers) - 1)
+        if times.part_of(known).first != self._clock_from:
+            return False
+        since = [timed.reading.time for timed in self.frames[known : number + 1]]
+        return not any(times.is_jump(after - before) for before, after in pairwise(since))
 
     def _enter(self, number: int, place: Place) -> None:
         self._places[number] = place
@@ -170,9 +202,13 @@ class PlacedFrames:
             places = self._period.places(timed.reading.chips[first:last])
             if places:
                 shown.append((number, (places[0] - first) % length))
-        both = [(self.frames[number], place) for number, place in shown]
         times = self.times()
-        if times is None or len(both) < _FORETELLING:
+        if times is None or not times.follow:
+            return
+        part = _fullest(times, (number for number, _ in shown))
+        shown = [(number, place) for number, place in shown if part.first <= number < part.end]
+        both = [(self.frames[number], place) for number, place in shown]
+        if len(both) < _FORETELLING:
             return
         phases = _phases(both, length)
         fits = fits_of(
@@ -205,17 +241,31 @@ class PlacedFrames:
                 return
 
     def _fit(self) -> None:
-        both = [
-            (timed, place.chip)
-            for timed, place in zip(self.frames, self._places, strict=True)
+        times = self.times()
+        if times is None or not times.follow:
+            self._fits, self.clock = (), None
+            return
+        sure = [
+            (number, place.chip)
+            for number, place in enumerate(self._places)
             if place is not None and place.is_confirmed
         ]
-        times = self.times()
-        if times is None or len(both) < _FIRST_FIT:
+        part = _fullest(times, (number for number, _ in sure))
+        both = [(self.frames[n], chip) for n, chip in sure if part.first <= n < part.end]
+        if len(both) < FIRST_FIT:
             return
         phases, period = _phases(both, self._period.length), times.period.value
+        self._times, self._clock_from = times, part.first
         self._fits = fits_of(phases, self._readout_time, self._tolerance, self.columns, period)
-        self.clock = state(self._fits, phases, times, self.columns) if self._fits else None
+        self.clock = state(self._fits, phases, times, part, self.columns) if self._fits else None
+
+
+def _fullest(times: FrameTimes, frames: Iterable[int]) -> Part:
+    """Return the part that most of some frames are in."""
+    counts = np.zeros(len(times.parts), dtype=np.int64)
+    ends = np.array([part.end for part in times.parts])
+    np.add.at(counts, np.searchsorted(ends, np.array(list(frames), np.int64), side="right"), 1)
+    return times.parts[int(counts.argmax())]
 
 
 def _later(count: int) -> int:

@@ -7,21 +7,20 @@ from occ_model.errors import ParameterError, shown
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
-from occ_model.results.video import VideoFrame
-from occ_model.results.video_reading import (
-    FilmProgress,
-    PacketReading,
-    VideoReading,
-)
+from occ_model.results.sent_packets import SentPackets
+from occ_model.results.video import LATEST, VideoFrame
+from occ_model.results.video_reading import FilmProgress, VideoReading
+from occ_model.scene.argument_checks import check_count
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import code_of
 from occ_model.video.clock import READOUT_TOLERANCE
-from occ_model.video.failures import certainty_of, why_not_read, why_unplaced
+from occ_model.video.failures import NO_CLOCK, certainty_of, why_not_read, why_unplaced
+from occ_model.video.frame_times import FrameTimes
 from occ_model.video.packets import packets_of
 from occ_model.video.partial_payload import known_bits, written
 from occ_model.video.period import period_of
-from occ_model.video.placed_frames import PlacedFrames
+from occ_model.video.placed_frames import FIRST_FIT, PlacedFrames
 from occ_model.video.read_frame import FrameReader
 
 
@@ -55,7 +54,8 @@ class VideoReader:
         self._placed = PlacedFrames(self._period, readout, readout_tolerance)
         self._joined = self._placed.joined
         self._seen = -1
-        self._complete_at: float | None = None
+        self._shape: tuple[int, ...] | None = None
+        self._complete_with: int | None = None
         self._payload = ""
 
     @property
@@ -74,11 +74,19 @@ class VideoReader:
         -------
         FilmProgress
             What is known now.
+
+        Raises
+        ------
+        ParameterError
+            It is no frame, its time is no number from -1e8 to 1e8 s, or its picture is none, or of
+            another size than the first: the frames before are kept.
         """
-        self._placed.columns = frame.image.shape[1]
-        if self._placed.add(self._reads.read(frame)):
+        self._check(frame)
+        timed = self._reads.read(frame)
+        self._shape, self._placed.columns = frame.image.shape, frame.image.shape[1]
+        if self._placed.add(timed):
             self._seen = -1
-        self._read_on(frame.time)
+        self._read_on()
         frames = len(self._placed.frames)
         return FilmProgress(
             frame=self._placed.reading(frames - 1),
@@ -86,7 +94,7 @@ class VideoReader:
             placed=self._placed.placed,
             payload=self._payload,
             known=float(self._joined.known.mean()),
-            complete=self._complete_at is not None,
+            complete=self._complete_with is not None,
             clock=self._placed.clock,
         )
 
@@ -95,10 +103,12 @@ class VideoReader:
         placed = self._placed
         placed.settle()
         self._seen = -1
-        self._read_on(placed.frames[-1].reading.time if placed.frames else 0.0)
+        self._read_on()
         soft = self._soft_frame()
         failure = self._failure(soft)
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
+        times = placed.times()
+        number = self._complete_with if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),
             packets=self._packets(bits),
@@ -107,12 +117,47 @@ class VideoReader:
             known=self._joined.known,
             payload=self._written(bits) if bits.size else "",
             certainty=certainty_of(soft, self._period),
-            complete_at=self._complete_at if failure is None else None,
-            duration=self._duration(),
+            complete_at=None if number is None else placed.frames[number].reading.time,
+            duration=0.0 if times is None else sum(part.duration for part in times.parts),
             failure=failure,
+            problems=self._problems(times),
+            complete_after=None if number is None or times is None else times.elapsed(number),
         )
 
-    def _read_on(self, time: float) -> None:
+    def _problems(self, times: FrameTimes | None) -> tuple[str, ...]:
+        """Say what is not regular in the times of the frames, and what the clock is not sure of."""
+        placed = self._placed
+        if placed.clock is not None:
+            return placed.clock.problems
+        found = () if times is None else times.problems
+        if times is None and len(placed.frames) > 1:
+            found = ("The frame times do not rise.",)
+        return (*found, NO_CLOCK) if placed.placed >= FIRST_FIT else found
+
+    def _check(self, frame: VideoFrame) -> None:
+        """Refuse a frame that cannot be read with those before."""
+        if not isinstance(frame, VideoFrame):
+            raise ParameterError(f"frame is {shown(frame)}; allowed: a VideoFrame.")
+        check_count("index of a frame", frame.index, 0)
+        image: object = frame.image
+        if not isinstance(image, np.ndarray) or image.dtype != np.uint8 or image.ndim != 2:
+            kind = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else shown(image)
+            raise ParameterError(
+                f"image of frame {frame.index} is {kind}; allowed: uint8 (rows, columns)."
+            )
+        if self._shape not in (None, image.shape):
+            raise ParameterError(
+                f"image of frame {frame.index} has the shape {image.shape}; allowed: that of the "
+                f"first frame, {self._shape}."
+            )
+        time: object = frame.time
+        if not isinstance(time, int | float | np.number) or not abs(float(time)) <= LATEST:
+            raise ParameterError(
+                f"time of frame {frame.index} is {shown(time)} s; allowed: {-LATEST:g} to "
+                f"{LATEST:g} s."
+            )
+
+    def _read_on(self) -> None:
         """Read the payload anew where chips have come into view."""
         seen = int(self._joined.seen.sum())
         if seen == self._seen or self._period.scheme is None:
@@ -121,7 +166,8 @@ class VideoReader:
         soft = self._soft_frame()
         if soft is not None and self._failure(soft) is None:
             self._payload = self._written(soft.framed.bits)
-            self._complete_at = time if self._complete_at is None else self._complete_at
+            if self._complete_with is None:
+                self._complete_with = len(self._placed.frames) - 1
         else:
             self._payload = written(known_bits(self._joined, self._period), self._scene)
 
@@ -143,17 +189,8 @@ class VideoReader:
             return payload_of_bits(bits.tolist(), form_of(payload))
         return str(code_of(bits.tolist()))
 
-    def _duration(self) -> float:
-        """Return the time from the first frame's start to the end of the last one's period."""
-        times = self._placed.times()
-        return float(times.numbers[-1] + 1) * times.period.value if times is not None else 0.0
-
-    def _packets(self, bits: ByteArray) -> tuple[PacketReading, ...]:
+    def _packets(self, bits: ByteArray) -> SentPackets:
         fit = self._placed.fit
         if fit is None or self._period.scheme is None:
-            return ()
-        begin = self._placed.frames[0].reading.time
-        first, last = fit.at_start(np.array([begin, begin + self._duration()])).tolist()
-        chip = 1.0 / fit.frequency
-        times = begin - first * chip, chip
-        return packets_of(self._placed.counted(), self._period, bits, (first, last), times)
+            return SentPackets()
+        return packets_of(self._placed.counted(), self._period, bits, fit.frequency)

@@ -13,7 +13,6 @@ import numpy as np
 
 from occ_model.errors import ParameterError
 from occ_model.receiver.decoders import PAPER_DECODER
-from occ_model.results.video_reading import VideoReading
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene, check_scene
@@ -194,7 +193,7 @@ def _measured(
             packets_received_on_average(timing, 1 / Fraction(request.frame_rate), length)
         ),
         bits_per_second=reading.bits_per_second,
-        complete_at=_completed(reading),
+        complete_at=reading.complete_after,
         is_right=reading.bits.tolist() == list(scene.transmitter.payload_bits),
         failure=reading.failure,
     )
@@ -213,12 +212,6 @@ def _counted(video: SimulatedVideo, timing: ShutterTiming, length: int) -> int:
     """Count the packets that the frames of a film show whole."""
     starts = (video.start_of(number) for number in range(video.frame_count or 0))
     return sum(timing.whole_packets(start, length) for start in starts)
-
-
-def _completed(reading: VideoReading) -> float | None:
-    if reading.complete_at is None:
-        return None
-    return reading.complete_at - reading.frames[0].time + reading.duration / len(reading.frames)
 
 
 def scene_of_films(scene: Scene) -> Scene:

@@ -16,8 +16,9 @@ from occ_gui.video.reading_jobs import (
     state_of_frame,
     state_of_packet,
 )
+from occ_model.results.sent_packets import FilmPart, PacketReading, SentPackets
 from occ_model.results.video import Video
-from occ_model.results.video_reading import FrameReading, PacketReading
+from occ_model.results.video_reading import FrameReading
 from occ_model.scene.scene import Scene
 
 
@@ -35,10 +36,22 @@ def test_a_packet_is_read_only_if_it_is_as_the_others() -> None:
     ]
     expected = [MarkState.READ, MarkState.LOST, MarkState.UNCHECKED, MarkState.LOST]
     assert [state_of_packet(each) for each in found] == expected
-    marks = marks_of_packets(tuple(found))
+    marks = marks_of_packets(SentPackets((FilmPart(0.0, 0.008, 4, step=0.002),), tuple(found)))
     assert marks.states.tolist() == expected
     assert marks.ends.tolist() == pytest.approx([0.002, 0.004, 0.006, 0.008])
-    assert not len(marks_of_packets(()))
+    assert not len(marks_of_packets(SentPackets()))
+
+
+def test_millions_of_packets_have_a_few_marks_that_cover_the_film() -> None:
+    parts = (FilmPart(5.0, 1e5, 2_000_000, step=0.05), FilmPart(3e5, 1.0, 10, step=0.1))
+    packets = SentPackets(parts, (packet(3, [1, 0], 0), packet(2_000_004, [1, 0], 0)))
+    marks = marks_of_packets(packets)
+    lost, read = MarkState.LOST, MarkState.READ
+    assert marks.states.tolist() == [lost, read, lost, lost, read, lost]
+    assert marks.starts.tolist() == pytest.approx([5.0, 5.15, 5.2, 3e5, 3e5 + 0.4, 3e5 + 0.5])
+    assert marks.ends.tolist() == pytest.approx(
+        [5.15, 5.2, 100_005.0, 3e5 + 0.4, 3e5 + 0.5, 3e5 + 1]
+    )
 
 
 def test_a_frame_is_read_where_its_place_is_known() -> None:

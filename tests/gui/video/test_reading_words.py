@@ -4,12 +4,8 @@ import numpy as np
 import pytest
 
 from occ_gui.video.reading_words import figures_of, sentences_of
-from occ_model.results.video_reading import (
-    FilmProgress,
-    FrameReading,
-    PacketReading,
-    VideoReading,
-)
+from occ_model.results.sent_packets import PacketReading, SentPackets
+from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 
 _BITS = np.zeros(10, dtype=np.uint8)
 
@@ -24,7 +20,7 @@ def reading(right: int, unread: int, unseen: int, wrong: int = 0) -> VideoReadin
     kinds = [(0, 0)] * right + [(0, None)] * unread + [(None, None)] * unseen + [(0, 1)] * wrong
     return VideoReading(
         frames=(FrameReading(0, 0.0), FrameReading(1, 0.03)), clock=None, certainty=1.0,
-        packets=tuple(packet(number, *kind) for number, kind in enumerate(kinds)),
+        packets=SentPackets.listed([packet(number, *kind) for number, kind in enumerate(kinds)]),
         bits=_BITS, known=np.ones(24, dtype=bool), payload="0", complete_at=0.0, duration=0.06,
         failure=None,
     )  # fmt: skip

@@ -2,8 +2,10 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
+from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video_reading import VideoReading
 
 
@@ -11,9 +13,10 @@ from occ_model.results.video_reading import VideoReading
 def test_bits_a_second_are_those_that_were_read_over_the_films_length(
     duration: float, rate: float
 ) -> None:
+    kinds = [(20, 0), (20, None), (9, 1), (None, None)]
     packets = [
-        SimpleNamespace(bits=bits, is_read=bits is not None, correct=correct)
-        for bits, correct in ((range(20), True), (range(20), None), (range(9), False), (None, None))
+        PacketReading(number, 0, 0.0, 0, 1.0, None if bits is None else np.zeros(bits, np.uint8), w)
+        for number, (bits, w) in enumerate(kinds)
     ]
-    film = SimpleNamespace(duration=duration, packets=packets)
+    film = SimpleNamespace(duration=duration, packets=SentPackets.listed(packets))
     assert VideoReading.bits_per_second.fget(film) == rate  # type: ignore[attr-defined]

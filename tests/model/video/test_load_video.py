@@ -443,3 +443,13 @@ def test_a_film_without_a_rate_states_no_length_that_it_could_end_before(
     VideoFile._note_end(film, 3)  # type: ignore[arg-type]
     assert (film._problem is None) is is_whole
     assert film.frame_count == (3 if is_whole else 100)
+
+
+def test_a_film_ends_where_its_times_cannot_be(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("occ_model.video.load.LATEST", 0.2)
+    film = occ.load_video(saved(tmp_path, film_bytes("mp4", "mp4v")))
+    assert [frame.index for frame in film] == list(range(7))
+    assert film.problem is not None
+    assert "the time of frame 7 is 0.233 s; allowed: -0.2 to 0.2 s." in film.problem

@@ -1,7 +1,8 @@
 """Simulated films, read: the clock within its errors, the payload where all of it was in view."""
 
 import math
-from collections.abc import Iterator
+import tracemalloc
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
 
@@ -10,6 +11,7 @@ import pytest
 from simulated_films import FILMS, Film, Judged, film, judge
 
 import occ_model as occ
+from occ_model.arrays import FloatArray
 from occ_model.results.video import VideoFrame
 from occ_model.scene.recording import Recording
 from occ_model.video.read_frame import read_by_itself
@@ -154,11 +156,7 @@ def test_sub_packets_are_joined_by_their_numbers() -> None:
 
 
 def test_packets_read_and_lost_are_those_that_counting_gives() -> None:
-    scene = SCENE.replace(payload="", bits=8, code=0b10110010, framing="paper",
-                          line_code="differential-manchester")  # fmt: skip
-    recording = Recording(frame_rate=30.0)
-    frames = recorded(scene, 30, recording)
-    reading = reading_of(frames, scene)
+    reading = reading_of_short_packets()
     assert reading.payload == str(0b10110010)
     sent = 1.0 * 3.1e3 / 20.0
     assert len(reading.packets) == pytest.approx(sent, abs=1.0)
@@ -166,6 +164,142 @@ def test_packets_read_and_lost_are_those_that_counting_gives() -> None:
     seen = [packet for packet in reading.packets if packet.seen == 1.0 and packet.frame is not None]
     assert reading.read == len(seen)
     assert all(packet.correct for packet in seen)
+
+
+SHORT = SCENE.replace(payload="", bits=8, code=0b10110010, framing="paper",
+                      line_code="differential-manchester")  # fmt: skip
+
+
+@cache
+def film_of_short_packets() -> list[VideoFrame]:
+    return recorded(SHORT, 30)
+
+
+def retimed(times: Iterable[float]) -> list[VideoFrame]:
+    """The film of short packets, of whose frames a file states other times."""
+    both = zip(film_of_short_packets(), times, strict=True)
+    return [replace(frame, time=float(time)) for frame, time in both]
+
+
+def assert_adds_up(reading: occ.VideoReading) -> None:
+    """Every figure of a reading is of the same packets and the same seconds."""
+    windows = reading.rates(4)
+    assert reading.read + reading.lost == len(reading.packets)
+    assert sum(window.packets for window in windows) == len(reading.packets)
+    assert sum(window.packets_lost for window in windows) == reading.lost
+    assert sum(packet.is_right for packet in reading.packets.in_view) == reading.read
+    assert [packet.number for packet in reading.packets[:99]] == list(
+        range(min(99, len(reading.packets)))
+    )
+    if reading.complete_after is not None:
+        assert 0.0 < reading.complete_after <= reading.duration * (1.0 + 1e-9)
+
+
+@cache
+def reading_of_short_packets() -> occ.VideoReading:
+    return reading_of(film_of_short_packets(), SHORT)
+
+
+@pytest.mark.parametrize(
+    ("jump", "after"), [(0.6, 1), (3600.0, 15), (3.15e7, 29), (-0.5, 15), (-3600.0, 1)]
+)
+def test_what_lies_between_two_parts_of_a_film_is_in_none_of_its_figures(
+    jump: float, after: int
+) -> None:
+    steady = reading_of_short_packets()
+    times = np.arange(30) / 30.0
+    times[after:] += jump
+    reading = reading_of(retimed(times), SHORT)
+    assert_adds_up(reading)
+    assert (reading.payload, reading.read) == (steady.payload, steady.read)
+    assert len(reading.packets) == pytest.approx(len(steady.packets), abs=2)
+    assert reading.duration == pytest.approx(steady.duration)
+    assert reading.bits_per_second == pytest.approx(steady.bits_per_second)
+    assert reading.complete_after == pytest.approx(steady.complete_after)
+    clock = reading.clock
+    assert clock is not None
+    off = clock.switching_frequency.value - SHORT.transmitter.switching_frequency
+    assert abs(off) < 5.0 * clock.switching_frequency.error
+    assert clock.frame_period.value == pytest.approx(1.0 / 30.0, rel=1e-8)
+    assert any("times jump by" in problem for problem in reading.problems)
+
+
+def test_times_that_lie_take_no_memory() -> None:
+    reader = occ.VideoReader(SHORT)
+    tracemalloc.start()
+    for number, frame in enumerate(film_of_short_packets()[:9]):
+        reader.add(replace(frame, time=9e6 * number))
+    reader.reading()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 20e6
+
+
+def test_a_payload_is_complete_after_the_frames_that_it_took() -> None:
+    """The frames after it come later and later: equal steps would have said half an hour."""
+    times = np.concatenate([np.arange(10) / 30.0, 1.0 + np.cumsum(np.linspace(0.1, 0.4, 20))])
+    reading = reading_of(retimed(times), SHORT)
+    assert reading.complete_after is not None
+    assert reading.complete_after < 0.2
+    assert reading.duration > 3.0
+    assert_adds_up(reading)
+
+
+@pytest.mark.parametrize(
+    ("times", "said"),
+    [
+        (60.0 * np.arange(30), "tell no clock"),
+        (np.full(30, 7.0), "do not rise"),
+        (1.0 - np.arange(30) / 30.0, "do not rise"),
+        (3600.0 * (np.arange(30) % 2) + np.arange(30) / 30.0, "times jump by"),
+        (np.random.default_rng(1).permutation(30) / 30.0, "times jump by"),
+        (np.arange(30) / 60.0, "tell no clock"),
+        (1e-300 * np.arange(30), "do not rise"),
+    ],
+)
+def test_times_that_tell_no_clock_give_none_and_a_sentence(times: FloatArray, said: str) -> None:
+    reading = reading_of(retimed(times), SHORT)
+    assert reading.payload == str(0b10110010)
+    assert reading.clock is None
+    assert len(reading.packets) == 0
+    assert reading.rates(3) == ()
+    assert any(said in problem for problem in reading.problems)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"time": math.nan}, "time of frame 3 is nan s; allowed: -1e+08 to 1e+08 s"),
+        ({"time": -math.inf}, "time of frame 3 is -inf s"),
+        ({"time": 1e308}, "time of frame 3 is 1e[+]308 s"),
+        ({"time": "0:03"}, "time of frame 3 is '0:03' s"),
+        ({"index": -1}, "index of a frame is -1"),
+        (
+            {"image": np.zeros((32, 721), np.uint8)},
+            r"shape \(32, 721\); allowed: that of the first",
+        ),
+        ({"image": np.zeros((31, 720), np.uint8)}, r"shape \(31, 720\)"),
+        ({"image": np.zeros(720, np.uint8)}, r"image of frame 3 is uint8 \(720,\); allowed"),
+        ({"image": np.zeros((32, 720))}, r"image of frame 3 is float64 \(32, 720\)"),
+        ({"image": None}, "image of frame 3 is None"),
+        ({"exposure_time": math.nan}, "exposure_time is "),
+    ],
+)
+def test_a_frame_that_cannot_be_read_is_refused_and_those_before_are_kept(
+    change: dict[str, object], said: str
+) -> None:
+    reader = occ.VideoReader(SHORT)
+    for number, frame in enumerate(film_of_short_packets()[:6]):
+        if number == 3:
+            with pytest.raises(occ.ParameterError, match=said.replace("+08", "[+]08")):
+                reader.add(replace(frame, **change))  # type: ignore[arg-type]
+        reader.add(frame)
+    without = reading_of(film_of_short_packets()[:6], SHORT)
+    reading = reader.reading()
+    assert reading.clock == without.clock
+    assert (reading.read, reading.payload) == (without.read, without.payload)
+    with pytest.raises(occ.ParameterError, match="frame is 3; allowed: a VideoFrame"):
+        reader.add(3)  # type: ignore[arg-type]
 
 
 def test_a_square_wave_leaves_aliases_and_they_are_said() -> None:
@@ -200,7 +334,7 @@ def test_a_film_without_stripes_fails_with_a_sentence() -> None:
     ]
     reading = reading_of(dark, SCENE)
     assert reading.clock is None
-    assert reading.packets == ()
+    assert len(reading.packets) == 0
     assert reading.failure is not None
     assert reading.failure.startswith("None of 5 frames shows chips; of the first one: No panel")
 

@@ -68,7 +68,7 @@ def test_other_programs_open_it(tmp_path: Path, film: occ.Video, ending: str) ->
     occ.write_video(film, path)
     if ending in (".gif", ".png"):
         with Image.open(path) as picture:
-            assert (picture.n_frames, picture.size) == (7, (160, 120))  # type: ignore[attr-defined]
+            assert (picture.n_frames, picture.size) == (7, (160, 120))
             picture.seek(6)
             last = np.asarray(picture.convert("L"))
         np.testing.assert_array_equal(last, film.frame(6).image)
@@ -273,7 +273,7 @@ def test_no_more_frames_are_asked_for_when_the_disk_is_full(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Simulating a film takes hours, and OpenCV goes on as if nothing were wrong."""
-    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(9, 9, 0))  # type: ignore[attr-defined]
+    monkeypatch.setattr(shutil, "disk_usage", lambda _: shutil._ntuple_diskusage(9, 9, 0))
     pictures = iter([stripes(0)] * 5)
     with pytest.raises(occ.OutputError, match="cannot be written: No space left on device"):
         write_frames(tmp_path / "a.mkv", pictures, 30.0, "")

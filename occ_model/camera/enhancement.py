@@ -18,6 +18,9 @@ _SAME = 1e-9
 _FAR = 5.0
 """Standard deviations beyond which less than a part in 10^6 of a normal distribution is left."""
 
+_TABULATED = 8.0
+"""Standard deviations to which it is tabulated: beyond, none of 10^14 pixels is expected."""
+
 _PER_DEVIATION = 2048
 """Entries of the table of the normal distribution to a standard deviation."""
 
@@ -163,15 +166,15 @@ def _tail(deviations: FloatArray) -> FloatArray:
 
     From a table: exact to 10^-4.
     """
-    place = np.clip(deviations, -_FAR, _FAR)
-    place += _FAR
+    place = np.clip(deviations, -_TABULATED, _TABULATED)
+    place += _TABULATED
     place *= _PER_DEVIATION
     return _tail_table()[place.astype(np.int32)]
 
 
 @lru_cache(maxsize=1)
 def _tail_table() -> FloatArray:
-    places = (np.arange(2 * round(_FAR) * _PER_DEVIATION + 1) + 0.5) / _PER_DEVIATION - _FAR
+    places = (np.arange(2 * round(_TABULATED) * _PER_DEVIATION + 1) + 0.5) / _PER_DEVIATION - _TABULATED
     return np.array([0.5 * math.erfc(u / math.sqrt(2.0)) for u in places.tolist()])
 
 

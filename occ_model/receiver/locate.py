@@ -43,8 +43,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
         return None
     bright = _above(image, level - 1)
     rows, columns = image.shape
-    cell = cell_size(rows, columns)
-    grid_size = (-(-columns // cell), -(-rows // cell))
+    grid_size = grid_of(rows, columns)[::-1]
     share = np.asarray(cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
     cells = _above(share, 255 * _SPECK)
     if not cv2.hasNonZero(cells):
@@ -60,12 +59,20 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
         min(columns, int((x + width + 1) * scale_x)),
     )
     reach = _growth_to_one(cells)
-    return Location(_bounds(bright, around), level, _contours(cells), reach * cell)
+    return Location(
+        _bounds(bright, around), level, _contours(cells), reach * _cell_size(rows, columns)
+    )
 
 
-def cell_size(rows: int, columns: int) -> int:
+def _cell_size(rows: int, columns: int) -> int:
     """Return the pixels along a side of a cell of the grid."""
     return -(-max(rows, columns) // _GRID)
+
+
+def grid_of(rows: int, columns: int) -> tuple[int, int]:
+    """Return the number of cells, down and across, that contours of a picture are grown on."""
+    cell = _cell_size(rows, columns)
+    return -(-rows // cell), -(-columns // cell)
 
 
 def least_bright_share() -> float:

@@ -9,16 +9,17 @@ from functools import lru_cache
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, byte_shares, share_above
 from occ_model.camera.photometry import WHITE, saturate
 from occ_model.effects.effect import NoiseEffect, PixelEffect
 from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.registry import planned
-from occ_model.receiver.locate import bright_level, cell_size, least_bright_share
+from occ_model.receiver.locate import bright_level
 from occ_model.results import Plan, Region
 from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
+from occ_model.study.drawn_region import BrightShares
 
 _LEVELS = 512
 """Column values at which means are computed where there are more columns; between them linearly."""
@@ -70,9 +71,32 @@ class NoisyColumns:
             values = limit.apply(self._scene, values)
         return saturate(values), spread.astype(np.float64)
 
-    def means(self, span: Region, random: np.random.Generator) -> FloatArray:
-        """Return the means of the enhanced pixels of some columns, with their sampling error."""
-        panel = self._columns.panel[span.first_column : span.last_column]
+    def means(self, region: Region, random: np.random.Generator) -> FloatArray:
+        """Return the means of a rectangle's columns, with their sampling error.
+
+        The panel's pixels are enhanced, those beside it are not.
+        """
+        span = self._span
+        beside = self._beside(slice(region.first_column, region.last_column))
+        crossed = max(
+            0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row)
+        )
+        mean, variance = beside[0], beside[1] ** 2 / region.rows
+        first = max(region.first_column, span.first_column)
+        last = max(min(region.last_column, span.last_column), first)
+        if crossed and last > first:
+            panel, deviation = self._on_panel(slice(first, last))
+            seen, share = slice(first - region.first_column, last - region.first_column), 1.0
+            if crossed < region.rows:
+                share = crossed / region.rows
+                panel = share * panel + (1.0 - share) * mean[seen]
+            mean[seen] = panel
+            variance[seen] = share * deviation**2 / region.rows + (1.0 - share) * variance[seen]
+        return np.asarray(mean + np.sqrt(variance) * random.standard_normal(len(mean)))
+
+    def _on_panel(self, columns: slice) -> tuple[FloatArray, FloatArray]:
+        """Return mean and standard deviation of the panel's enhanced pixels in some columns."""
+        panel = self._columns.panel[columns]
         low, high = float(panel.min()), float(panel.max())
         levels = panel if len(panel) <= _LEVELS else np.linspace(low, high, _LEVELS)
         value, spread = self._distribution(levels)
@@ -81,10 +105,18 @@ class NoisyColumns:
             levels = panel
             value, spread = self._distribution(levels)
         mean, deviation = self._enhancement.moments(value, spread)
-        deviation /= math.sqrt(span.rows)
         if levels is not panel:
-            mean, deviation = np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
-        return np.asarray(mean + deviation * random.standard_normal(len(panel)))
+            return np.interp(panel, levels, mean), np.interp(panel, levels, deviation)
+        return mean, deviation
+
+    def _beside(self, columns: slice) -> tuple[FloatArray, FloatArray]:
+        """Return mean and standard deviation of pixels beside the panel in some columns."""
+        values = self._columns.surroundings[columns]
+        # All alike where the surroundings do not flicker.
+        levels = values[:1] if np.ptp(values) == 0.0 else values
+        plain = Enhancement(levels, "none")
+        mean, deviation = plain.moments(*self._distribution(levels))
+        return np.resize(mean, len(values)), np.resize(deviation, len(values))
 
     def plain_means(self, span: Region) -> FloatArray:
         """Return the expected means of some columns' pixels before enhancement and rounding.
@@ -97,24 +129,23 @@ class NoisyColumns:
         value, spread = self._distribution(panel)
         return value + _lost_beyond(value, spread) - _lost_beyond(WHITE - value, spread)
 
-    def bright_span(self, random: np.random.Generator) -> slice | None:
-        """Draw the columns from the first bright one to the last, as they are found in an image."""
+    def draw_region(self, random: np.random.Generator) -> Region:
+        """Draw the rectangle that a receiver finds; all that the panel fills in an even picture."""
         scene, span = self._scene, self._span
-        level = bright_level(self._histogram(), scene.receiver.bright_fraction)
+        counts = random.poisson(self._histogram())
+        level = bright_level(counts, scene.receiver.bright_fraction)
         if level is None:
-            return None
-        panel = self._columns.panel[span.first_column : span.last_column]
-        value, spread = self._distribution(panel)
-        brightest = int(np.searchsorted(self._enhancement.curve, level))
-        bright = share_above(brightest - 0.5, value, spread)
-        cell = cell_size(scene.camera.rows, scene.camera.columns)
-        seen = random.random(len(panel)) < _any_of(bright, span.rows)
-        columns = np.flatnonzero(seen & _near_cells(bright, cell, span, random))
-        if columns.size == 0:
-            return None
-        return slice(span.first_column + int(columns[0]), span.first_column + int(columns[-1]) + 1)
+            return span
+        panel, around = (
+            share_above(limit - 0.5, *self._distribution(values))
+            for limit, values in (
+                (int(np.searchsorted(self._enhancement.curve, level)), self._columns.panel),
+                (level, self._columns.surroundings),
+            )
+        )
+        return BrightShares(scene.camera.rows, span, panel, around).draw_region(random)
 
-    def _histogram(self) -> IndexArray:
+    def _histogram(self) -> FloatArray:
         """Return the expected number of pixels of each grey level in the whole image."""
         span, rows = self._span, self._scene.camera.rows
         on_panel = self._columns.panel[span.first_column : span.last_column]
@@ -124,7 +155,7 @@ class NoisyColumns:
         curve = self._enhancement.curve
         counts = np.asarray(np.bincount(curve, weights=panel, minlength=256), dtype=np.float64)
         counts += self._shares(self._columns.surroundings, beside)
-        return np.rint(counts).astype(np.int64)
+        return np.maximum(counts, 0.0)
 
     def _shares(self, values: FloatArray, pixels: FloatArray) -> FloatArray:
         """Return the expected number of columns' pixels of each grey level before enhancement."""
@@ -144,32 +175,3 @@ def _lost_beyond(distance: FloatArray, spread: FloatArray) -> FloatArray:
     density = np.exp(-0.5 * deviations**2) / math.sqrt(2.0 * math.pi)
     beyond = density - deviations * share_above(0.0, -deviations, np.ones_like(deviations))
     return np.asarray(spread * np.maximum(beyond, 0.0))
-
-
-def _any_of(share: FloatArray, count: int) -> FloatArray:
-    """Return the probability that any of some pixels is bright."""
-    return np.asarray(-np.expm1(count * np.log1p(-np.minimum(share, 1.0 - 1e-12))))
-
-
-def _near_cells(
-    bright: FloatArray, cell: int, span: Region, random: np.random.Generator
-) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """Draw which columns lie in or beside a cell that is bright enough in any of its rows."""
-    columns = len(bright)
-    cells = -(-columns // cell)
-    share = np.add.reduceat(bright, np.arange(0, columns, cell)) / cell
-    pixels = cell * cell
-    least = math.floor(least_bright_share() * pixels) + 1
-    too_few = np.zeros(cells)
-    for count in range(least):
-        ways = math.comb(pixels, count)
-        too_few += ways * share**count * (1.0 - share) ** (pixels - count)
-    marked = random.random(cells) < _any_of(
-        np.clip(1.0 - too_few, 0.0, 1.0), span.rows // cell or 1
-    )
-    if not marked.any():
-        return np.ones(columns, dtype=bool)
-    first, last = np.flatnonzero(marked)[[0, -1]].tolist()
-    near = np.zeros(columns, dtype=bool)
-    near[max(0, (first - 1) * cell) : (last + 2) * cell] = True
-    return near

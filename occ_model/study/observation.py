@@ -19,8 +19,9 @@ from occ_model.receiver.locate import bright_level, locate
 from occ_model.receiver.signal import column_means
 from occ_model.results import DecodeResult, Plan, Region
 from occ_model.scene.scene import Scene
-from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.row_sample import SampledPicture
+from occ_model.study.drawn_region import BrightShares
 from occ_model.study.noisy_columns import NoisyColumns
 
 
@@ -71,7 +72,8 @@ def decode_profile(
 ) -> DecodeResult | None:
     """Decode the column means of an image without the image.
 
-    The decoder's region is found as in the image: from the first bright column to the last.
+    The decoder's region is drawn as it is found in the image: see
+    :mod:`occ_model.study.drawn_region`.
 
     Parameters
     ----------
@@ -113,54 +115,52 @@ def observe_profile(
     random
         The source of the noise.
     """
-    scene = view.scene
     columns = expose_columns(view, plan)
-    profile, around = columns.profile, columns.around
     if span.columns == 0:
-        return Observation(to_bytes(around), None)
-    enhancement = Enhancement(profile, scene.model.enhancement)
+        return Observation(to_bytes(columns.around), None)
+    enhancement = Enhancement(columns.profile, view.scene.model.enhancement)
     if "noise" in plan.kinds:
-        noisy = NoisyColumns(scene, columns, plan, span, enhancement)
-        span = narrowed(span, noisy.bright_span(random))
-        return Observation(noisy.means(span, random), span)
-    span = narrowed(span, bright_span(scene, columns, span, enhancement(profile)))
-    seen = slice(span.first_column, span.last_column)
-    return Observation(enhancement(profile[seen]).astype(np.float64), span)
+        noisy = NoisyColumns(view.scene, columns, plan, span, enhancement)
+        region = noisy.draw_region(random)
+        return Observation(noisy.means(region, random), region)
+    panel, around = enhancement(columns.profile), to_bytes(columns.around)
+    region = region_without_noise(view.scene, span, panel, around)
+    return Observation(means_without_noise(region, span, panel, around), region)
 
 
-def narrowed(span: Region, bright: slice | None) -> Region:
-    """Narrow the rectangle that the panel fills to its bright columns, if there are any."""
-    if bright is None:
-        return span
-    return replace(span, first_column=bright.start, last_column=bright.stop)
-
-
-def bright_span(scene: Scene, columns: Columns, span: Region, panel: ByteArray) -> slice | None:
-    """Find the columns from the first bright one to the last, as in the whole image.
+def region_without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> Region:
+    """Find the rectangle that a receiver finds in a picture without noise.
 
     Parameters
     ----------
     scene
-        The scene, without noise.
-    columns
-        Its columns.
+        The scene.
     span
         The rectangle that the panel fills.
-    panel : ndarray of uint8, shape (columns,)
-        The panel's enhanced grey levels.
+    panel, around : ndarray of uint8, shape (columns,)
+        Grey levels on the panel, enhanced, and beside it.
     """
-    around = to_bytes(columns.around)
-    left, right = span.first_column, span.last_column
-    beside = scene.camera.rows - span.rows
-    counts = np.bincount(panel[left:right], minlength=256) * span.rows
-    counts += np.bincount(around[left:right], minlength=256) * beside
-    outside = np.concatenate([around[:left], around[right:]])
-    counts += np.bincount(outside, minlength=256) * scene.camera.rows
+    rows, seen = scene.camera.rows, slice(span.first_column, span.last_column)
+    counts = np.bincount(around, minlength=256) * rows
+    counts += np.bincount(panel[seen], minlength=256) * span.rows
+    counts -= np.bincount(around[seen], minlength=256) * span.rows
     level = bright_level(counts.astype(np.int64), scene.receiver.bright_fraction)
     if level is None:
-        return None
-    bright = np.flatnonzero(panel[left:right] >= level)
-    return slice(left + int(bright[0]), left + int(bright[-1]) + 1) if bright.size else None
+        return span
+    shares = ((values >= level).astype(np.float64) for values in (panel, around))
+    return BrightShares(rows, span, *shares).draw_region(np.random.default_rng(0))
+
+
+def means_without_noise(
+    region: Region, span: Region, panel: ByteArray, around: ByteArray
+) -> FloatArray:
+    """Return the means of a rectangle's columns; the arguments as for the rectangle."""
+    columns = slice(region.first_column, region.last_column)
+    crossed = max(0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row))
+    shares = np.zeros(len(panel))
+    shares[span.first_column : span.last_column] = crossed / region.rows
+    shares = shares[columns]
+    return np.asarray(shares * panel[columns] + (1.0 - shares) * around[columns])
 
 
 def observe_sample(

@@ -22,7 +22,12 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns
 from occ_model.study.noisy_columns import NoisyColumns
-from occ_model.study.observation import Observation, bright_span, narrowed, panel_span
+from occ_model.study.observation import (
+    Observation,
+    means_without_noise,
+    panel_span,
+    region_without_noise,
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -109,11 +114,19 @@ def _column_means(
     signal = enhanced.astype(np.float64)
     if span.columns == 0:
         return profile, signal, Observation(to_bytes(columns.around), None)
-    if "noise" in chosen.kinds:
-        noisy = NoisyColumns(scene, columns, chosen, span, enhancement)
-        region = narrowed(span, noisy.bright_span(random))
-        seen = slice(span.first_column, span.last_column)
-        profile[seen], signal[seen] = noisy.plain_means(span), noisy.means(span, random)
+    seen = slice(span.first_column, span.last_column)
+    if "noise" not in chosen.kinds:
+        around = to_bytes(columns.around)
+        region = region_without_noise(scene, span, enhanced, around)
+        means = means_without_noise(region, span, enhanced, around)
+        return profile, signal, Observation(means, region)
+    noisy = NoisyColumns(scene, columns, chosen, span, enhancement)
+    region = noisy.draw_region(random)
+    profile[seen], signal[seen] = noisy.plain_means(span), noisy.means(span, random)
+    if (region.first_row, region.last_row) == (span.first_row, span.last_row) and (
+        span.first_column <= region.first_column and region.last_column <= span.last_column
+    ):  # what is drawn is what is read
+        means = signal[region.first_column : region.last_column]
     else:
-        region = narrowed(span, bright_span(scene, columns, span, enhanced))
-    return profile, signal, Observation(signal[region.first_column : region.last_column], region)
+        means = noisy.means(region, random)
+    return profile, signal, Observation(means, region)

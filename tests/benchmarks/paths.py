@@ -1,6 +1,6 @@
-"""Print the agreement of the profile path with the image path, as a Markdown table.
+"""Print the agreement of studies with whole pictures, as a Markdown table.
 
-python tests/benchmarks/paths.py --scenes 200 --images 200
+python tests/benchmarks/paths.py --scenes 200 --images 24
 python tests/benchmarks/paths.py --pictures
 
 The second prints the rates of the phone's whole pictures round the end of its working range.
@@ -8,6 +8,7 @@ The second prints the rates of the phone's whole pictures round the end of its w
 
 import argparse
 import sys
+from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -15,33 +16,43 @@ import numpy as np
 import occ_model as occ
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from physics.paths import DECODERS, TwoPaths, compared, significance
+from physics.paths import DECODERS, PRESETS, TwoPaths, compared, significance
 
-METHODS = ("equalization", "stretch", "none")
+JOBS = 2
 
 
 def main() -> None:
-    """Compare both paths and print a line for each decoder and enhancement."""
+    """Compare studies with pictures and print a line for each decoder and preset."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scenes", type=int, default=200)
-    parser.add_argument("--images", type=int, default=200)
+    parser.add_argument("--images", type=int, default=24)
     parser.add_argument("--seed", type=int, default=2)
     parser.add_argument("--pictures", action="store_true")
     asked = parser.parse_args()
     if asked.pictures:
         compare_pictures()
         return
-    found = list(compared(asked.scenes, asked.images, asked.seed))
-    print("| decoder | enhancement | scenes | in doubt | mean difference, points | p |")
+    with ProcessPoolExecutor(JOBS) as processes:
+        jobs = [
+            processes.submit(compared_one, number, asked.images, asked.seed)
+            for number in range(asked.scenes)
+        ]
+        found = [pair for job in jobs for pair in job.result()]
+    print("| decoder | preset | scenes | in doubt | mean difference, points | p |")
     print("|---|---|---|---|---|---|")
     for decoder in DECODERS:
-        for method in METHODS:
-            show(
-                decoder,
-                method,
-                [p for p in found if p.decoder == decoder and p.scene.model.enhancement == method],
-            )
-    show("both", "all", found)
+        of_decoder = [pair for pair in found if pair.decoder == decoder]
+        for preset in PRESETS:
+            show(decoder, preset, [p for p in of_decoder if p.preset == preset])
+        show(decoder, "all", of_decoder)
+    show("all", "all", found)
+    for pair in sorted(found, key=lambda pair: -abs(pair.deviation))[:5]:
+        print(pair.number, pair.decoder, pair.deviation, pair.study.mean(), pair.image.mean())
+
+
+def compared_one(number: int, images: int, seed: int) -> list[TwoPaths]:
+    """Compare at one scene, as the job of a process."""
+    return list(compared(range(number, number + 1), images, seed))
 
 
 def compare_pictures() -> None:
@@ -61,7 +72,7 @@ def compare_pictures() -> None:
 def show(decoder: str, method: str, pairs: list[TwoPaths]) -> None:
     """Print a line of the table."""
     probability, terms = significance(pairs)
-    off = np.mean([100.0 * (pair.profile.mean() - pair.image.mean()) for pair in pairs])
+    off = np.mean([100.0 * (pair.study.mean() - pair.image.mean()) for pair in pairs])
     print(f"| {decoder} | {method} | {len(pairs)} | {terms} | {off:+.2f} | {probability:.2f} |")
 
 

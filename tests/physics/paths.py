@@ -1,9 +1,8 @@
-"""Success rates by the profile path and by the image path, side by side at random scenes."""
+"""Success rates as studies count them and of whole pictures, side by side at random scenes."""
 
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import count
 
 import numpy as np
 from scipy import stats
@@ -14,30 +13,40 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import right_bits_of_images
 
-DECODERS = ("threshold", "matched")
+PRESETS = ("phone-68us", "phone-136us", "tablet-61us", "tablet-122us", "phone-136us-real")
+
+DECODERS = ("threshold", "matched", "equalizer", "sequence")
 IN_DOUBT = (0.05, 0.95)
 """Between which rates a scene's rate is in doubt."""
 
 
 @dataclass(frozen=True)
 class TwoPaths:
-    """The share of right bits in images of one scene, by both paths.
+    """The share of right bits in images of one scene, by a study and of whole pictures.
 
     Parameters
     ----------
-    profile, image : ndarray of float64, shape (images,)
-        Of each image; the images of the two paths have nothing in common.
+    study, image : ndarray of float64, shape (images,)
+        Of each image; those of the study and the whole pictures have nothing in common.
     """
 
+    number: int
     scene: Scene
     decoder: str
-    profile: np.ndarray
+    study: np.ndarray
     image: np.ndarray
+
+    @property
+    def preset(self) -> str:
+        """The preset that the scene was made from, as its timing tells."""
+        exposure = round(1e6 * self.scene.camera.exposure_time)
+        real = "-real" if self.scene.lens.radial_k1 else ""
+        return next(name for name in PRESETS if name.endswith(f"-{exposure}us{real}"))
 
     @property
     def rate(self) -> float:
         """The rate of all images."""
-        return float((self.profile.mean() + self.image.mean()) / 2.0)
+        return float((self.study.mean() + self.image.mean()) / 2.0)
 
     @property
     def is_in_doubt(self) -> bool:
@@ -45,69 +54,77 @@ class TwoPaths:
 
     @property
     def deviation(self) -> float:
-        """The difference of the rates over its standard error; 0 where no image differs."""
-        off = float(self.profile.mean() - self.image.mean())
-        variance = (self.profile.var() + self.image.var()) / len(self.image)
-        if variance:
-            return off / math.sqrt(variance)
-        return math.inf if off else 0.0
+        """The normal deviate of the difference of the rates; 0 where no image differs.
+
+        From Student's t, as the scatter is known from the images alone.
+        """
+        off = float(self.study.mean() - self.image.mean())
+        images = len(self.image)
+        variance = (self.study.var(ddof=1) + self.image.var(ddof=1)) / images
+        if not variance:
+            return math.inf if off else 0.0
+        tail = stats.t.sf(abs(off) / math.sqrt(variance), 2 * images - 2)
+        return math.copysign(float(stats.norm.isf(tail)), off)
 
 
 def random_scene(random: np.random.Generator) -> Scene:
-    """A level panel on part of a preset's sensor, the exposure 1.5 to 30 chips long."""
-    names = [name for name in occ.presets() if not name.endswith("-real")]
-    scene = occ.load_preset(names[int(random.integers(len(names)))])
-    ratio = random.uniform(1.5, 2.2) if random.random() < 0.5 else random.uniform(2.2, 30.0)
+    """A panel on part of a preset's sensor: dark or bright, near or far, at or between nulls.
+
+    The exposure is 1.5 to 16 chips long. Every fifth scene has a lens, a file and flicker: its
+    rows differ, and a study reads a sample of them.
+    """
+    scene = occ.load_preset(PRESETS[int(random.integers(len(PRESETS)))])
+    null = random.random() < 0.3
+    ratio = (
+        2.0 * int(random.integers(1, 5)) + random.uniform(-0.15, 0.15)
+        if null
+        else random.uniform(1.5, 2.2)
+        if random.random() < 0.4
+        else random.uniform(2.2, 16.0)
+    )
+    differ = scene.lens.radial_k1 != 0.0
     changes: dict[str, ParameterValue] = {
-        "rows": scene.camera.rows // int(random.integers(16, 33)),
+        "rows": scene.camera.rows
+        // int(random.integers(4, 7) if differ else random.integers(12, 25)),
         "columns": scene.camera.columns // 2,
         "readout_time": scene.camera.readout_time * 2.0,
         "panel_width": scene.transmitter.panel_width * float(random.uniform(0.8, 1.6)),
         "code": int(random.integers(1024)),
         "enhancement": ("equalization", "stretch", "none")[int(random.integers(3))],
-        "distance": float(random.uniform(0.5, 1.4)),
+        "distance": float(np.exp(random.uniform(np.log(0.5), np.log(2.5)))),
+        "luminance": float(np.exp(random.uniform(np.log(40.0), np.log(4000.0)))),
+        "read_noise": float(random.uniform(1.0, 12.0)),
         "iso": float(100.0 * 2.0 ** random.uniform(0.0, 3.0)),
         "switching_frequency": float(ratio) / scene.camera.exposure_time,
     }
+    if random.random() < 0.3:
+        payload = "".join(map(str, random.integers(0, 2, 16).tolist()))
+        changes |= {
+            "line_code": "manchester", "framing": "preamble", "payload": f"bits:{payload}"
+        }  # fmt: skip
     return scene.replace(**changes)
 
 
 def shares(scene: Scene, path: SignalPath, images: int, seed: int) -> np.ndarray:
     """The share of right bits in each image, shape (images, decoders)."""
     settings = RateSettings(images, DECODERS, seed, path=path)
-    return np.array([*right_bits_of_images(scene, settings)]) / scene.transmitter.bits
+    counts = np.array([*right_bits_of_images(scene, settings)])
+    return np.asarray(counts / scene.transmitter.payload_length)
 
 
-def is_in_doubt(scene: Scene) -> bool:
-    """Whether a rate of a few images is in doubt, and will be so of others.
-
-    Most scenes show by the first images that none is.
-    """
-    low, high = 2.0 * IN_DOUBT[0], 1.0 - 2.0 * (1.0 - IN_DOUBT[1])
-    for images in (4, 20):
-        rates = shares(scene, "profile", images, 1_000_000_000).mean(axis=0)
-        if not ((rates > low) & (rates < high)).any():
-            return False
-    return True
+def compared(scenes: range, images: int, seed: int) -> Iterator[TwoPaths]:
+    """Compare a study with whole pictures at some scenes."""
+    for number in scenes:
+        scene = random_scene(np.random.default_rng([seed, number]))
+        yield from compared_at(scene, images, number)
 
 
-def compared(scenes: int, images: int, seed: int) -> Iterator[TwoPaths]:
-    """Compare both paths at some scenes, in every second of which a rate is in doubt."""
-    random = np.random.default_rng(seed)
-    for number in range(scenes):
-        for _ in count():
-            scene = random_scene(random)
-            if is_in_doubt(scene) == bool(number % 2):
-                break
-        yield from compared_at(scene, images, number * images)
-
-
-def compared_at(scene: Scene, images: int, first: int) -> Iterator[TwoPaths]:
-    """Compare both paths at a scene, by images with seeds of their own from the first on."""
-    by_profile = shares(scene, "profile", images, first)
-    by_image = shares(scene, "image", images, 500_000_000 + first)
+def compared_at(scene: Scene, images: int, number: int) -> Iterator[TwoPaths]:
+    """Compare both at a scene, by images with seeds of their own."""
+    by_study = shares(scene, "auto", images, number)
+    by_image = shares(scene, "image", images, 500_000_000 + number)
     for place, decoder in enumerate(DECODERS):
-        yield TwoPaths(scene, decoder, by_profile[:, place], by_image[:, place])
+        yield TwoPaths(number, scene, decoder, by_study[:, place], by_image[:, place])
 
 
 def significance(found: list[TwoPaths]) -> tuple[float, int]:

@@ -298,7 +298,7 @@ class DetectionMapController(QObject):
             return
         index, sent = x * shown.shape[1] + y, int(shown.sent[x, y])
         right = tuple(int(count) for count in shown.right[x, y])
-        ends = rate_intervals(SweepPoint(index, sent, right))
+        ends = rate_intervals(SweepPoint(index, sent, right), max(1, int(shown.images[x, y])))
         counts = tuple(
             (name, count, low, high)
             for name, count, (low, high) in zip(shown.decoders, right, ends, strict=True)

@@ -32,10 +32,11 @@ def table_of(
     )  # fmt: skip
     settings = replace(request.settings, frames_a_second=frames_a_second)
     request = replace(request, settings=settings)
+    request_images = rates.least_images
     sent, right = rates.sent.copy(), rates.right.copy()
     ends = np.array(
         [
-            rate_intervals(SweepPoint(index, int(bits), tuple(map(int, read))))
+            rate_intervals(SweepPoint(index, int(bits), tuple(map(int, read))), request_images)
             for index, (bits, read) in enumerate(
                 zip(sent.ravel(), right.reshape(sent.size, -1), strict=True)
             )

@@ -174,7 +174,8 @@ def _tail(deviations: FloatArray) -> FloatArray:
 
 @lru_cache(maxsize=1)
 def _tail_table() -> FloatArray:
-    places = (np.arange(2 * round(_TABULATED) * _PER_DEVIATION + 1) + 0.5) / _PER_DEVIATION - _TABULATED
+    entries = 2 * round(_TABULATED) * _PER_DEVIATION + 1
+    places = (np.arange(entries) + 0.5) / _PER_DEVIATION - _TABULATED
     return np.array([0.5 * math.erfc(u / math.sqrt(2.0)) for u in places.tolist()])
 
 

@@ -64,9 +64,8 @@ class SweepTable:
     right : ndarray of int64, shape (..., decoders)
         Bits of them that were read rightly.
     low, high : ndarray of float64, shape (..., decoders)
-        Wilson's 95 % interval, percent; not a number where the model refuses the scene. It
-        assumes independent bits, which those of one image are not: where images are few, the
-        true interval is wider.
+        The 95 % interval, percent, which counts images, as bits of one image fail together; not a
+        number where the model refuses the scene.
     notes
         Why the model refuses a scene, by the point's index, the last axis running fastest.
     whole : ndarray of int64, shape (..., decoders)

@@ -10,7 +10,7 @@ from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.version import __version__
 
-_FORMAT = 2
+_FORMAT = 3
 
 TITLE = "# Success rate over "
 """The beginning of every table of a sweep."""

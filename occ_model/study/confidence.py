@@ -1,4 +1,4 @@
-"""Wilson's confidence interval of a success rate, from the number of successes and trials."""
+"""Wilson's confidence interval of a success rate, by trials or by pictures."""
 
 import math
 from numbers import Real
@@ -44,9 +44,30 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
     """
     check_count("trials", trials, 1, _MOST_TRIALS)
     check_count("successes", successes, 0, int(trials))
-    won, lost = int(successes), int(trials) - int(successes)
     # From the tail, which keeps its digits where the level is next to 1.
     z = -NormalDist().inv_cdf((1.0 - _checked(level)) / 2.0)
+    return _interval(int(successes), int(trials) - int(successes), z)
+
+
+def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, float]:
+    """Give the 95 % interval of the share of right bits, in percent; not a number of no bits.
+
+    The bits of a picture are read together or not at all, so that the pictures are the trials: it
+    is Wilson's interval of as many successes as the pictures' share of right bits adds up to.
+    Where pictures are read in part the rate scatters less, and the interval is wider than it need
+    be.
+    """
+    if not sent:
+        return math.nan, math.nan
+    won = pictures * right / sent
+    low, high = _interval(won, pictures - won, _TWO_SIDED)
+    return 100.0 * low, 100.0 * high
+
+
+_TWO_SIDED = NormalDist().inv_cdf(0.975)
+
+
+def _interval(won: float, lost: float, z: float) -> tuple[float, float]:
     middle = 2 * won + z * z
     root = z * math.sqrt(z * z + 4 * won * lost / (won + lost))
     # The product of both ends is (s / n) s / (n + z^2): a quotient loses no digits near 0.

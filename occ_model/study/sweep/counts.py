@@ -1,25 +1,14 @@
 """Count the bits that a sweep's points read rightly, and make the table of the counts."""
 
-import math
-from functools import lru_cache
-
 import numpy as np
 
 from occ_model.results import SweepPoint, SweepRequest, SweepTable
-from occ_model.study.confidence import wilson_interval
+from occ_model.study.confidence import interval_of_pictures
 
 
-def rate_intervals(point: SweepPoint) -> list[tuple[float, float]]:
+def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:
     """Give the 95 % interval of each decoder's rate in percent, not a number without a rate."""
-    return [_interval(right, point.sent) for right in point.right]
-
-
-@lru_cache(maxsize=4096)
-def _interval(right: int, sent: int) -> tuple[float, float]:
-    if not sent:
-        return math.nan, math.nan
-    low, high = wilson_interval(right, sent)
-    return 100.0 * low, 100.0 * high
+    return [interval_of_pictures(right, point.sent, images) for right in point.right]
 
 
 class Counts:
@@ -46,7 +35,7 @@ class Counts:
         self._sent[point.index] = point.sent
         self._right[point.index] = point.right
         self._whole[point.index] = point.whole
-        self._ends[point.index] = rate_intervals(point)
+        self._ends[point.index] = rate_intervals(point, self._request.settings.images)
         if point.note:
             self._notes[point.index] = point.note
         self.entered += 1

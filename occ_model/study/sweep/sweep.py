@@ -5,6 +5,7 @@ import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, closing
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
@@ -131,7 +132,8 @@ def run_sweep(
     with ExitStack() as stack:
         file = None
         if results is not None:
-            file = stack.enter_context(ResultsFile(Path(results), request, rate_intervals))
+            intervals = partial(rate_intervals, images=request.settings.images)
+            file = stack.enter_context(ResultsFile(Path(results), request, intervals))
         return _measured_table(request, file, executor, jobs, progress)
 
 

@@ -21,6 +21,7 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
+from occ_model.study.confidence import interval_of_pictures
 
 SHAPE = (13, 7)
 IMAGES = (1, 2)
@@ -215,7 +216,7 @@ def test_a_click_sets_both_parameters_and_is_one_step(bench_of: Callable[..., Be
     assert bench.scenes.scene == before
 
 
-def test_the_point_at_the_mouse_has_its_wilson_interval(
+def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
@@ -226,8 +227,7 @@ def test_the_point_at_the_mouse_has_its_wilson_interval(
     assert (facts.x, facts.y, facts.sent) == (found.x_values[6], found.y_values[3], 20)
     for name, right, low, high in facts.counts:
         assert 100 * right / facts.sent == found.rates(name)[6, 3]
-        interval = occ.wilson_interval(right, facts.sent)
-        assert (low / 100, high / 100) == pytest.approx(interval)
+        assert (low, high) == interval_of_pictures(right, facts.sent, facts.images)
     bench.controller.point_at(None)
     assert bench.pane.facts is None
 

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.study.confidence import wilson_interval
+from occ_model.study.confidence import interval_of_pictures, wilson_interval
 
 LEVELS = st.floats(1e-6, 1 - 1e-12)
 
@@ -162,3 +162,19 @@ def test_a_level_next_to_1_keeps_its_digits() -> None:
     assert wilson_interval(7, 9, level) == pytest.approx(
         tuple(map(float, by_definition(7, 9, level))), rel=1e-9
     )
+
+
+@pytest.mark.parametrize("share", [0.02, 0.1, 0.37, 0.5, 0.8, 0.9, 0.95, 0.98])
+def test_the_interval_of_pictures_holds_where_bits_of_a_picture_fail_together(share: float) -> None:
+    random = np.random.default_rng(3)
+    held = wide = 0
+    for _ in range(800):
+        whole = int(random.binomial(20, share))
+        low, high = interval_of_pictures(10 * whole, 200, 20)
+        held += low <= 100.0 * share <= high
+        near, far = (100.0 * end for end in wilson_interval(10 * whole, 200))
+        wide += near <= 100.0 * share <= far
+    assert 0.90 <= held / 800 <= 0.995
+    # Counted by bits it would not hold: the test's own power.
+    assert wide / 800 < 0.9
+    assert interval_of_pictures(200, 200, 20)[0] == pytest.approx(83.89, abs=0.01)

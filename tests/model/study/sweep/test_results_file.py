@@ -162,9 +162,9 @@ def test_another_scene_or_format_is_another_sweep(
     path.write_bytes(whole.replace(b"\n", b"\r\n"))
     with pytest.raises(occ.OutputError, match="was changed by another program"):
         run(scene, path)
-    newer = whole.replace(b"# format 2 of", b"# format 3 of")
+    newer = whole.replace(b"# format 3 of", b"# format 4 of")
     path.write_bytes(newer)
-    with pytest.raises(occ.OutputError, match="format 3"):
+    with pytest.raises(occ.OutputError, match="format 4"):
         run(scene, path)
     assert path.read_bytes() == newer
 

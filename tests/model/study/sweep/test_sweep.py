@@ -19,6 +19,7 @@ from occ_model.results import RateSettings, SweepTable
 from occ_model.results.sweep_request import MOST_AXES
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.sweep.request_check import checked_request
 
@@ -52,9 +53,9 @@ def test_rates_stand_where_their_axes_say(table: SweepTable) -> None:
         for row in table.rows:
             if row.decoder == decoder:
                 place = tuple(AXES[name].index(float(row.point[name])) for name in AXES)
-                wilson = occ.wilson_interval(row.right, row.sent)
+                pictures = interval_of_pictures(row.right, row.sent, 3)
                 assert (rates[place], low[place], high[place]) == (row.rate, row.low, row.high)
-                assert (row.low, row.high) == tuple(100.0 * end for end in wilson)
+                assert (row.low, row.high) == pictures
     with pytest.raises(occ.ParameterError, match="decoder is 'psychic'; allowed in this table"):
         table.rates("psychic")
 

@@ -7,6 +7,7 @@ from enum import IntEnum
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.video.frame_times import BREAK
 
 
 class MarkState(IntEnum):
@@ -32,7 +33,7 @@ def _no_states() -> ByteArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Marks:
-    """Marks in order of time.
+    """Marks, in order of time but where a film states another one.
 
     Parameters
     ----------
@@ -70,12 +71,12 @@ class Marks:
 
 
 def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: float) -> Marks:
-    """Return a mark for each frame, which lasts until the next one begins.
+    """Return a mark for each frame, which lasts until the next one begins, if that is soon.
 
     Parameters
     ----------
     times
-        When each frame begins, rising, in seconds.
+        When each frame begins, in seconds.
     states : ndarray of uint8, shape (frames,)
         Whether each was read.
     last
@@ -84,4 +85,9 @@ def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: fl
     starts = np.asarray(times, dtype=np.float64)
     if not len(starts):
         return Marks()
-    return Marks(starts, np.append(starts[1:], starts[-1] + last), states)
+    steps = np.append(np.diff(starts), last)
+    ahead = steps[steps > 0.0]
+    usual = float(np.median(ahead)) if ahead.size else last
+    # Where the times jump nobody knows what was between.
+    steps = np.where((steps < 0.0) | (steps > BREAK * usual), usual, steps)
+    return Marks(starts, starts + steps, states)

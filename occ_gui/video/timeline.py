@@ -135,8 +135,9 @@ class Timeline(QWidget):
         """Return the frame at a pixel, the first or last one beside the film."""
         area = self._area()
         time = self._scale.time((x - area.left()) / area.width())
-        place = int(np.searchsorted(self.frames.starts, time, side="right")) - 1
-        return min(max(place, 0), max(len(self.frames) - 1, 0))
+        order = np.argsort(self.frames.starts, kind="stable")  # some films state another one
+        place = int(np.searchsorted(self.frames.starts, time, side="right", sorter=order)) - 1
+        return int(order[max(place, 0)]) if len(order) else 0
 
     # Drawing.
 

@@ -21,7 +21,7 @@ class TimelineScale:
         """Return the scale that shows all frames of a film."""
         if not len(frames):
             return cls()
-        return cls(float(frames.starts[0]), float(frames.ends[-1]))
+        return cls(float(frames.starts.min()), float(frames.ends.max()))
 
     @property
     def span(self) -> float:

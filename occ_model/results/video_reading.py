@@ -188,7 +188,7 @@ class VideoReading:
         Sentences: what is not regular in the frames' times, and what the clock is not sure of.
     complete_after
         How long the film had run by the end of that frame's period, in seconds; None where it is
-        not complete, or the times of the frames do not tell their period.
+        not complete, or there is no clock.
     """
 
     frames: tuple[FrameReading, ...]

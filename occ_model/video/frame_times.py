@@ -17,7 +17,7 @@ _UNEVEN = 0.02
 _NAMED = 3
 """Most frames that a sentence names."""
 
-_BREAK = 16.0
+BREAK = 16.0
 """Periods between two frames from which the film goes on as another part: what a camera that is
 stopped, or a file that is damaged, states for them tells nothing of the frames before."""
 
@@ -69,7 +69,7 @@ class FrameTimes:
 
     def is_jump(self, interval: float) -> bool:
         """Whether an interval is so long that another part begins after it, or leads back."""
-        return interval > _BREAK * self.period.value or interval < -_SHORTEST
+        return interval > BREAK * self.period.value or interval < -_SHORTEST
 
     @property
     def follow(self) -> bool:
@@ -107,7 +107,7 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
     if ahead.size == 0:
         return None
     usual = float(np.median(ahead))
-    jumps = (intervals > _BREAK * usual) | (intervals < -_SHORTEST)
+    jumps = (intervals > BREAK * usual) | (intervals < -_SHORTEST)
     counts = np.where(jumps, 0, np.rint(intervals / usual)).astype(np.int64)
     firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])
     sizes = np.diff(np.append(firsts, len(times)))

@@ -241,9 +241,8 @@ class PlacedFrames:
                 return
 
     def _fit(self) -> None:
-        times = self.times()
+        self._fits, self.clock, times = (), None, self.times()
         if times is None or not times.follow:
-            self._fits, self.clock = (), None
             return
         sure = [
             (number, place.chip)
@@ -257,7 +256,8 @@ class PlacedFrames:
         phases, period = _phases(both, self._period.length), times.period.value
         self._times, self._clock_from = times, part.first
         self._fits = fits_of(phases, self._readout_time, self._tolerance, self.columns, period)
-        self.clock = state(self._fits, phases, times, part, self.columns) if self._fits else None
+        if self._fits:
+            self.clock = state(self._fits, phases, times, part, self.columns)
 
 
 def _fullest(times: FrameTimes, frames: Iterable[int]) -> Part:

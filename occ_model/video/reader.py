@@ -121,7 +121,9 @@ class VideoReader:
             duration=0.0 if times is None else sum(part.duration for part in times.parts),
             failure=failure,
             problems=self._problems(times),
-            complete_after=None if number is None or times is None else times.elapsed(number),
+            complete_after=None
+            if number is None or times is None or placed.clock is None
+            else times.elapsed(number),
         )
 
     def _problems(self, times: FrameTimes | None) -> tuple[str, ...]:

@@ -85,6 +85,19 @@ def test_a_long_film_is_drawn_by_shares(timeline: Timeline) -> None:
     assert timeline.frame_at(timeline.x_of(500.0) + 0.01) == pytest.approx(15_000, abs=35)
 
 
+@pytest.mark.parametrize("jump", [3600.0, -0.7, -3600.0])
+def test_frames_whose_times_jump_are_shown_for_their_own_time_only(
+    timeline: Timeline, jump: float
+) -> None:
+    times = np.arange(20) / 30.0
+    times[10:] += jump
+    marks = frame_marks(times, np.ones(20, dtype=np.uint8), 1 / 30.0)
+    assert (marks.ends - marks.starts).tolist() == pytest.approx([1 / 30.0] * 20)
+    timeline.show_frames(marks)
+    ends = (timeline.frame_at(timeline.x_of(time)) for time in (times.min(), times.max()))
+    assert times[list(ends)].tolist() == [times.min(), times.max()]
+
+
 def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
     timeline = Timeline()
     qtbot.addWidget(timeline)

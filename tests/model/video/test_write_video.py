@@ -68,7 +68,7 @@ def test_other_programs_open_it(tmp_path: Path, film: occ.Video, ending: str) ->
     occ.write_video(film, path)
     if ending in (".gif", ".png"):
         with Image.open(path) as picture:
-            assert (picture.n_frames, picture.size) == (7, (160, 120))
+            assert (picture.n_frames, picture.size) == (7, (160, 120))  # type: ignore[attr-defined]
             picture.seek(6)
             last = np.asarray(picture.convert("L"))
         np.testing.assert_array_equal(last, film.frame(6).image)

@@ -119,9 +119,11 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         )
         if abs(jitter - before) <= 1e-3 * max(jitter, _LEAST_PHASE):
             break
-    scatter = excess if kept.sum() - design.shape[1] >= _FEWEST_FOR_DRIFT else max(1.0, excess)
-    alike = _alike(residuals[kept])
-    covariance = inverse * scatter * alike / np.outer(scale, scale)
+    by_scatter = kept.sum() - design.shape[1] >= _FEWEST_FOR_DRIFT
+    scatter = excess if by_scatter else max(1.0, excess)
+    if (by_scatter or jitter > 0.0) and free > 2:
+        scatter *= free / (free - 2.0)  # frames may agree by chance: the variance of Student's t
+    covariance = inverse * scatter * _alike(residuals[kept]) / np.outer(scale, scale)
     noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))
     if has_drift:
         # The phase in the middle is without what the bend's own mean takes off.

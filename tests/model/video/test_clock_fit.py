@@ -57,6 +57,19 @@ def test_the_stated_error_of_the_frequency_covers_68_percent() -> None:
     assert shares[1] == pytest.approx(0.954, abs=0.04)
 
 
+@pytest.mark.parametrize("count", [6, 8])
+def test_the_errors_of_a_few_frames_hold_also_far_out(count: int) -> None:
+    """So few may agree by chance: without Student's t a sixth lay beyond two errors."""
+    random, times = np.random.default_rng(count), np.arange(count) / 30.0
+    off = []
+    for _ in range(200):
+        (fit, *_) = fit_clock(_phases(8e3, times, 52.0, random, 1e-5), 7960.0, 8040.0)
+        off.append([fit.drift / fit.drift_error, (fit.frequency - 8e3) / fit.frequency_error])
+    shares = np.mean(np.abs(off) < 2.0, axis=0)
+    # The standard deviation of a share in 200 trials is 1.5 %.
+    assert shares.tolist() == pytest.approx([0.954, 0.954], abs=0.045)
+
+
 def test_frequencies_a_period_of_the_frames_apart_are_all_given() -> None:
     random = np.random.default_rng(2)
     times = np.arange(60) / 30.0

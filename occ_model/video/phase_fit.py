@@ -119,9 +119,10 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         )
         if abs(jitter - before) <= 1e-3 * max(jitter, _LEAST_PHASE):
             break
-    by_scatter = kept.sum() - design.shape[1] >= _FEWEST_FOR_DRIFT
-    scatter = excess if by_scatter else max(1.0, excess)
-    if (by_scatter or jitter > 0.0) and free > 2:
+    # Frames agree better than each by itself is sure where they share a part of their errors, such
+    # as the sensor's fixed pattern; that part moves the fit all the same.
+    scatter = max(1.0, excess)
+    if jitter > 0.0 and free > 2:
         scatter *= free / (free - 2.0)  # frames may agree by chance: the variance of Student's t
     covariance = inverse * scatter * _alike(residuals[kept]) / np.outer(scale, scale)
     noise = float(np.sqrt(residuals[kept] @ residuals[kept] / free))

@@ -70,6 +70,15 @@ def test_the_errors_of_a_few_frames_hold_also_far_out(count: int) -> None:
     assert shares.tolist() == pytest.approx([0.954, 0.954], abs=0.045)
 
 
+def test_frames_that_agree_better_than_each_is_sure_make_the_clock_no_surer() -> None:
+    """What they share, such as the sensor's fixed pattern, does not show in their scatter."""
+    phases = _phases(8e3, np.arange(60) / 30.0, 52.0, np.random.default_rng(9))
+    (sure,) = fit_clock(phases, 7960.0, 8040.0)
+    (fit,) = fit_clock(replace(phases, errors=4.0 * phases.errors), 7960.0, 8040.0)
+    assert fit.drift_error == pytest.approx(4.0 * sure.drift_error, rel=0.2)
+    assert fit.frequency_error == pytest.approx(4.0 * sure.frequency_error, rel=0.2)
+
+
 def test_frequencies_a_period_of_the_frames_apart_are_all_given() -> None:
     random = np.random.default_rng(2)
     times = np.arange(60) / 30.0

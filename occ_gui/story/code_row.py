@@ -1,6 +1,7 @@
 """Row of the code: the chips and bits received, under the columns that they were read from."""
 
 from collections.abc import Sequence
+from typing import TypeAlias
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette
@@ -24,14 +25,25 @@ from occ_gui.widgets.state_look import State
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
+from occ_model.scene.payload import Piece, compared, form_of
+
+Span: TypeAlias = tuple[float, float]
+"""Where a bit is drawn: its first and its last x."""
 
 _CHIPS, _BITS = 20, 22
 _GAP = 3
 """Pixels of the cells, and between them, in text of the usual size."""
 
 
+_MISSING = "·"
+"""In place of a letter that was not received."""
+
+
 class CodeRow(StoryRow):
-    """Chips as cells, and under them header and bits, the right ones ticked, the wrong crossed."""
+    """Chips as cells, and under them header and bits, the right ones ticked, the wrong crossed.
+
+    The letters of a text, or the bytes, stand above their bits.
+    """
 
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
@@ -43,16 +55,22 @@ class CodeRow(StoryRow):
         self._drawn_from: tuple[object, ...] = ()
         self.edges: FloatArray | None = None
         self.fields: tuple[PacketField, ...] = ()
+        self.letters: tuple[Piece, ...] = ()
+        self._form = ""
 
     def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
         """Show the chips and bits of one decoder's result."""
-        looks = (*_looks(decoded), reading.sent, received_fields(decoded, reading.scene))
+        payload = reading.scene.transmitter.payload if reading.sent else ""
+        looks = (*_looks(decoded), reading.sent, received_fields(decoded, reading.scene), payload)
         if are_same(looks, self._drawn_from):
             return
         self._drawn_from = looks
         self._decoded, self._sent = decoded, reading.sent
         self.edges = received_edges(decoded)
         self.fields = received_fields(decoded, reading.scene)
+        self.letters = compared(payload, decoded.bits.tolist()) if decoded.bits.size else ()
+        self._form = form_of(payload)
+        self.updateGeometry()
         self.setAccessibleDescription(self._in_words())
         self.redraw()
 
@@ -91,29 +109,33 @@ class CodeRow(StoryRow):
         return int(decoded.chips[place]), next(bits, None)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of both lines."""
-        return QSize(200, sum(self._heights()) + 4 * _GAP)
+        """Return the height of all lines."""
+        return QSize(200, self._lines()[-1][1] + 2 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of both lines."""
-        return QSize(160, sum(self._heights()) + 4 * _GAP)
+        """Return the height of all lines."""
+        return QSize(160, self._lines()[-1][1] + 2 * _GAP)
 
-    def _heights(self) -> tuple[int, int]:
-        """Return the heights of the chips and of the bits."""
+    def _lines(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
+        """Return top and bottom of the chips, of the letters, if there are any, and of the bits."""
         metrics = self.fontMetrics()
-        return line_height(metrics, _CHIPS), line_height(metrics, _BITS, 4)
+        bit = line_height(metrics, _BITS, 4)
+        chips = _GAP + line_height(metrics, _CHIPS)
+        letters = chips + (bit + _GAP if self.letters else 0)
+        return (_GAP, chips), (chips + _GAP, letters), (letters + _GAP, letters + _GAP + bit)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
         """Draw the chips in view, and the packet that was read."""
         decoded = self._decoded
         if decoded is None:
             return
-        of_chips, of_bits = self._heights()
-        chips = QRectF(area.left(), area.top() + _GAP, area.width(), of_chips)
-        bits = QRectF(area.left(), chips.bottom() + _GAP, area.width(), of_bits)
+        chips, letters, bits = (
+            QRectF(area.left(), area.top() + top, area.width(), bottom - top)
+            for top, bottom in self._lines()
+        )
         if self.edges is None:
             self._say_instead(painter, chips, decoded)
-            self._list_bits(painter, bits, decoded)
+            self._draw_letters(painter, letters, self._list_bits(painter, bits, decoded))
             return
         edges = self.xs_of(self.edges).tolist()
         cells = [
@@ -123,14 +145,28 @@ class CodeRow(StoryRow):
         ]
         draw_chips(painter, cells, SIMULATION, self.palette(), within=area)
         if self.fields:
-            self._draw_fields(painter, bits, decoded, edges)
+            spans = self._draw_fields(painter, bits, decoded, edges)
         else:
-            self._list_bits(painter, bits, decoded)
+            spans = self._list_bits(painter, bits, decoded)
+        self._draw_letters(painter, letters, spans)
+
+    def _draw_letters(self, painter: QPainter, place: QRectF, spans: Sequence[Span]) -> None:
+        """Draw each letter that was received above its bits."""
+        for letter in self.letters:
+            if letter.last > len(spans):  # its bits were not received
+                return
+            left, right = spans[letter.first][0], spans[letter.last - 1][1]
+            cell = QRectF(left, place.top(), right - left, place.height())
+            state = self.state_of(letter.first)
+            if state is not State.NEUTRAL:
+                state = State.GOOD if letter.is_right else State.BAD
+            text = letter.received or _MISSING
+            draw_field(painter, cell, (text,), self.palette(), state=state, within=place)
 
     def _draw_fields(
         self, painter: QPainter, place: QRectF, decoded: DecodeResult, edges: list[float]
-    ) -> None:
-        """Draw header and bits under the columns that carry them."""
+    ) -> list[Span]:
+        """Draw header and bits under the columns that carry them; give where the bits are."""
         spans = [(field.bit, edges[field.first], edges[field.last]) for field in self.fields]
         widths = [right - left for bit, left, right in spans if bit is not None]
         is_marked, is_told = _have_room(painter, widths)
@@ -144,6 +180,7 @@ class CodeRow(StoryRow):
                 texts = (str(int(decoded.bits[bit])),)
                 draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),
                            is_marked=is_marked, is_told=is_told)  # fmt: skip
+        return [(left, right) for bit, left, right in spans if bit is not None]
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Say why there are no chips: none were read, or the decoder reads whole packets."""
@@ -163,11 +200,11 @@ class CodeRow(StoryRow):
             return self.tr("not accepted:")
         return self.tr("from all packets together:")
 
-    def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
+    def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> list[Span]:
         """Draw bits that have no columns of their own side by side, and say so before them."""
         if not decoded.bits.size:
             self._write(painter, place, self.tr("No bits were read."))
-            return
+            return []
         label = self.list_label()
         self._write(painter, place, label)
         left = place.left() + 16 + painter.fontMetrics().horizontalAdvance(label)
@@ -178,17 +215,17 @@ class CodeRow(StoryRow):
             cell = QRectF(left + bit * width, place.top(), width, place.height())
             draw_field(painter, cell, (str(value),), self.palette(), state=self.state_of(bit),
                        is_marked=is_marked, is_told=is_told)  # fmt: skip
+        return [(left + bit * width, left + (bit + 1) * width) for bit in range(count)]
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         """Name the lines."""
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        chips, bits = self._heights()
-        for text, top, height in (
-            (self.tr("chips"), _GAP, chips),
-            (self.tr("bits"), chips + 2 * _GAP, bits),
-        ):
-            painter.drawText(QRectF(0, top, area.left() - 6, height), flags, text)
+        is_text = bool(self.letters) and self._form == "text"
+        letters = self.tr("text") if is_text else self.tr("bytes")
+        names = (self.tr("chips"), letters if self.letters else "", self.tr("bits"))
+        for text, (top, bottom) in zip(names, self._lines(), strict=True):
+            painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), flags, text)
 
 
 def _looks(decoded: DecodeResult) -> tuple[object, ...]:

@@ -1,5 +1,7 @@
 """Row of the light: the LED's waveform, and the exposure of the chosen column as a window on it."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QBrush,
@@ -13,15 +15,17 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.story.bit_cells import draw_field, header_texts
+from occ_gui.story.bit_cells import draw_field, have_room_for_bits, header_texts
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
-from occ_gui.story.column_facts import light_over_columns, packet_fields
+from occ_gui.story.column_facts import PacketField, light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.text_room import line_height
 from occ_gui.widgets.chip_cell import draw_digits, have_room_for_digits
 from occ_gui.widgets.state_look import is_dark
+from occ_model.errors import one_line
 from occ_model.results.teaching import LightCurve
+from occ_model.scene.payload import Piece, compared
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
@@ -37,6 +41,9 @@ _LEAST_CHIP = 1.5
 """Fewest pixels of a chip that is drawn."""
 
 _LEAST_FOR_DIGIT = 9
+
+_MOST_LETTERS = 60
+"""Letters of a payload that is told in words."""
 
 _GRIP = 6
 """Pixels beside the window that still belong to it."""
@@ -66,6 +73,7 @@ class LightRow(StoryRow):
         self._drawn_from: tuple[object, ...] = ()
         self._edged = False
         self._sent: tuple[int, ...] = ()
+        self.letters: tuple[Piece, ...] = ()
         self._grabbed: float | None = None
 
     def show_reading(self, reading: Reading) -> None:
@@ -73,6 +81,7 @@ class LightRow(StoryRow):
         if reading.scene != self._scene:
             self.update()  # the window, at least
         self._scene, self._sent = reading.scene, reading.sent
+        self.letters = compared(reading.scene.transmitter.payload, self._sent)
         self._edged = "led-edges" in reading.plan
         drawn = (
             self._scene.transmitter, self._scene.camera.readout_time,
@@ -100,8 +109,8 @@ class LightRow(StoryRow):
         return area.adjusted(0, self._label_height() + 1, 0, -strip - 5)
 
     def _strip_height(self) -> int:
-        """Return the height of the strip of the bits sent."""
-        return line_height(self.fontMetrics(), _STRIP)
+        """Return the height of the strip of the bits sent, and of the letters above them."""
+        return line_height(self.fontMetrics(), _STRIP) * (2 if self.letters else 1)
 
     def _label_height(self) -> int:
         """Return the height of the window's length above it."""
@@ -161,26 +170,73 @@ class LightRow(StoryRow):
 
     def _draw_fields(self, painter: QPainter, area: QRectF, curve: LightCurve) -> None:
         """Draw header and bits of each packet in view under the chips that carry them."""
-        fields = () if self._scene is None else packet_fields(self._scene)
+        if self._scene is None:
+            return
+        fields = packet_fields(self._scene)
         edges = self.xs_of(curve.edges)
         step = float(edges[1] - edges[0])
-        if not fields or 2 * step < _LEAST_FOR_DIGIT:
+        chips_a_bit = fields[-1].last - fields[-1].first if fields else 0
+        if chips_a_bit * step < _LEAST_FOR_DIGIT:
+            self._say_sent(painter, area)
             return
-        strip, length = self._strip_height(), fields[-1].last
-        top = area.bottom() - strip + 1
+        length = fields[-1].last
         # Of each packet in view, also the one that begins before it, the x of its first chip.
         start = float(edges[0]) - int(curve.places[0]) * step
         while start < area.right():
-            for field in fields:
-                left = start + field.first * step
-                cell = QRectF(left, top, (field.last - field.first) * step, strip - 2)
-                if cell.right() < area.left() or cell.left() > area.right():
-                    continue
-                texts = header_texts() if field.bit is None else (str(self._sent[field.bit]),)
-                draw_field(
-                    painter, cell, texts, self.palette(), is_header=field.bit is None, within=area
-                )
+            self._draw_packet(painter, area, fields, start, step)
             start += length * step
+
+    def _draw_packet(
+        self,
+        painter: QPainter,
+        area: QRectF,
+        fields: Sequence[PacketField],
+        start: float,
+        step: float,
+    ) -> None:
+        """Draw a packet that starts at an x: its header, its bits, and the letters above them."""
+        header, *bits = fields
+        line = self._strip_height() / (2 if self.letters else 1)
+        low = area.bottom() - line + 1
+        width = (bits[0].last - bits[0].first) * step
+        is_told = have_room_for_bits(painter.fontMetrics(), [width]) or None
+        cells = [
+            (header_texts(), header, header, low),
+            *(((str(self._sent[bit]),), field, field, low) for bit, field in enumerate(bits)),
+            *(
+                ((piece.sent,), bits[piece.first], bits[piece.last - 1], low - line)
+                for piece in self.letters
+            ),
+        ]
+        for texts, first, last, top in cells:
+            cell = QRectF(
+                start + first.first * step, top, (last.last - first.first) * step, line - 2
+            )
+            if cell.right() >= area.left() and cell.left() <= area.right():
+                draw_field(painter, cell, texts, self.palette(), is_header=first is header,
+                           is_told=is_told if top == low else None, within=area)  # fmt: skip
+
+    def _say_sent(self, painter: QPainter, area: QRectF) -> None:
+        """Say what is sent where its bits have no room, or no chips of their own."""
+        strip = self._strip_height()
+        place = QRectF(area.left() + 8, area.bottom() - strip, area.width() - 8, strip)
+        painter.setPen(self.colour(QPalette.ColorRole.Text))
+        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+        painter.drawText(place, flags, self.sent_in_words())
+
+    def sent_in_words(self) -> str:
+        """Return what is sent, in words."""
+        if self._scene is None:
+            return ""
+        sent = self._scene.transmitter
+        if sent.pattern:
+            return self.tr("a raw pattern of {chips} chips").format(chips=len(sent.pattern))
+        if sent.payload:
+            what = one_line(sent.payload.partition(":")[2], _MOST_LETTERS)
+            text = self.tr("“{what}”, {bits} bits")
+        else:
+            what, text = str(sent.code), self.tr("code {what}, {bits} bits")
+        return text.format(what=what, bits=len(self._sent))
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         """Name the levels, and the strip of bits."""

@@ -7,8 +7,10 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.results import DecodeResult
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.transmitter.framings.paper import HEADER
-from occ_model.transmitter.packet import packet_length, packets, sent_chips
+from occ_model.transmitter.framings.paper import FRAMING, HEADER_ONES
+from occ_model.transmitter.line_codes.registry import LINE_CODES
+from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import scheme_of
 
 _MOST_EXCEPTIONS = 0.05
 """Largest share of columns that a level may part otherwise than the decoder's threshold."""
@@ -32,19 +34,28 @@ class PacketField:
 
 
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
-    """Return header and bits of the packet that a scene sends, by the paper's scheme.
+    """Return header and bits of the packet that a scene sends.
 
     Returns
     -------
     tuple of PacketField
-        Chips are counted from the packet's first; empty where something else is sent.
+        Chips are counted from the packet's first; empty where the packet is no header with the bits
+        sent behind it, or where a bit has no chips of its own.
     """
     check_scene(scene)
-    transmitter = scene.transmitter
-    papers = packets(np.array([transmitter.code]), transmitter.bits)[0]
-    if not np.array_equal(sent_chips(transmitter), papers):
+    sent = scene.transmitter
+    code = scheme_of(sent).line_code
+    # A plug-in's may take any time, and the fields are asked for while the window is drawn.
+    is_known = code.name in LINE_CODES.files and code.block_bits == 1
+    if sent.pattern or sent.error_correction != "none" or not is_known:
         return ()
-    return _fields(0, transmitter.bits)
+    chips, bits = sent_chips(sent), np.array(sent.payload_bits, dtype=np.uint8)
+    header = len(chips) - code.chips_for(len(bits))
+    if header <= 0 or not np.array_equal(chips[header:], code.encode(bits, int(chips[header - 1]))):
+        return ()
+    starts = range(header, len(chips), code.block_chips)
+    data = (PacketField(at, at + code.block_chips, bit) for bit, at in enumerate(starts))
+    return (PacketField(0, header, None), *data)
 
 
 def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ...]:
@@ -53,21 +64,19 @@ def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ..
     Returns
     -------
     tuple of PacketField
-        Chips are counted as in ``result.chips``; empty where no packet was read from chips.
+        Chips are counted as in ``result.chips``; empty where no packet was read from chips, or
+        where all packets together were.
     """
-    fields = packet_fields(scene)
+    fields = packet_fields(scene) if scene.transmitter.framing == FRAMING.name else ()
     if not fields or not result.chips.size or not result.bits.size or len(result.headers) < 2:
         return ()
+    run = scheme_of(scene.transmitter).line_code.longest_run
     first, second = result.headers[:2]
-    if second - first != packet_length(scene.transmitter.bits):
+    if run is None or run >= HEADER_ONES or second - first != fields[-1].last:
         return ()
-    return _fields(first, scene.transmitter.bits)
-
-
-def _fields(start: int, bits: int) -> tuple[PacketField, ...]:
-    data = start + len(HEADER)
-    header = PacketField(start, data, None)
-    return (header, *(PacketField(data + 2 * bit, data + 2 * bit + 2, bit) for bit in range(bits)))
+    return tuple(
+        PacketField(first + field.first, first + field.last, field.bit) for field in fields
+    )
 
 
 def received_edges(result: DecodeResult) -> FloatArray | None:

@@ -14,7 +14,7 @@ The paper names only the three ones. Without the zero the code 0 and the code wi
 bit set would send the same endless chip sequence.
 """
 
-_HEADER_ONES = sum(HEADER)
+HEADER_ONES = sum(HEADER)
 
 
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
@@ -29,7 +29,7 @@ def find_headers(chips: ByteArray) -> tuple[int, ...]:
     """
     edges = np.diff(np.concatenate([[0], chips.astype(np.int8), [0]]))
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
-    return tuple((ends[ends - starts >= _HEADER_ONES] - _HEADER_ONES).tolist())
+    return tuple((ends[ends - starts >= HEADER_ONES] - HEADER_ONES).tolist())
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
@@ -38,7 +38,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     Where data may contain a header, all packets are tried that fit.
     """
     length = len(HEADER) + form.line_code.chips_for(form.bits)
-    if form.line_code.longest_run is None or form.line_code.longest_run >= _HEADER_ONES:
+    if form.line_code.longest_run is None or form.line_code.longest_run >= HEADER_ONES:
         header = np.array(HEADER, dtype=np.uint8)
         return read_repeated(
             chips,

@@ -10,9 +10,10 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.scene.parameter_rows import OpenChoiceRow, ParameterRow
+from occ_gui.scene.parameter_rows import CountRow, OpenChoiceRow, ParameterRow, PatternRow
 from occ_model import plugins
 from occ_model.receiver import decoders
+from occ_model.scene.from_text import with_settings
 
 
 def row(application: Application, name: str) -> ParameterRow:
@@ -52,6 +53,63 @@ def test_a_text_typed_for_the_code_is_sent_read_and_shown(
     user.wait_until_idle()
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert view.payload.isHidden()
+
+
+@pytest.mark.parametrize("scheme", [{}, {"line_code": "4b6b", "framing": "c-ook"}])
+@pytest.mark.parametrize(
+    ("typed", "letters"),
+    [("HELLO", "HELLO"), ("Hi😀", "Hi😀"), ("718", "718"), ("0x48 69", ["48", "69"]), ("0b01", "")],
+)
+def test_all_places_say_that_what_was_typed_is_sent(
+    application: Application,
+    user: User,
+    qtbot: QtBot,
+    scheme: dict[str, str],
+    typed: str,
+    letters: str | list[str],
+) -> None:
+    # Near enough for two packets of the longest.
+    application.store.put(application.store.scene.replace(distance=0.6, **scheme), "scheme")
+    field = row(application, "payload")
+    assert isinstance(field, PatternRow)
+    field.field.setText(typed)
+    qtbot.keyClick(field.field, Qt.Key.Key_Return)
+    user.wait_until_idle()
+    scene = application.store.scene
+    assert with_settings(scene.replace(payload=""), [f"payload={typed}"]) == scene
+    bits = scene.transmitter.payload_length
+    code, count = application.controls.code, row(application, "bits")
+    assert isinstance(count, CountRow)
+    assert code.bits.text() == field.field.text()
+    assert code.title.text().endswith(f": {bits} bits")
+    assert (count.field.value(), count.field.isEnabled()) == (bits, False)
+    rows = application.story.rows
+    assert [letter.sent for letter in rows.light.letters] == list(letters)
+    assert [letter.received for letter in rows.code.letters] == list(letters)
+    assert rows.light.sent_in_words().endswith(f", {bits} bits")
+    assert len(application.decode.strip._sent) == bits
+    code.bits.clear()
+    qtbot.keyClick(code.bits, Qt.Key.Key_Return)
+    user.wait_until_idle()
+    assert (count.field.value(), count.field.isEnabled()) == (10, True)
+    assert (field.field.text(), code.bits.text()) == ("", "1011001110")
+    assert rows.light.sent_in_words() == "code 718, 10 bits"
+
+
+@pytest.mark.parametrize("typed", ["hex:4", "x" * 513])
+def test_a_payload_that_cannot_be_read_stays_with_the_reason(
+    application: Application, user: User, qtbot: QtBot, typed: str
+) -> None:
+    field = row(application, "payload")
+    assert isinstance(field, PatternRow)
+    field.field.setText(typed)
+    qtbot.keyClick(field.field, Qt.Key.Key_Return)
+    user.enter("iso", "200")
+    assert field.field.text() == typed
+    assert field.notice.text().startswith("Payload cannot ")
+    assert application.store.scene.transmitter.payload == ""
+    application.store.change(payload="HI")
+    assert (field.field.text(), field.notice.text()) == ("HI", "")
 
 
 def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(

@@ -479,7 +479,8 @@ def test_larger_text_has_the_room_that_it_needs(rows: StoryRows, points: float) 
     height = QFontMetrics(font).height()
     assert rows.time.sizeHint().height() >= height
     assert rows.code.minimumSizeHint().height() > 2 * height
-    assert min(rows.code._heights()) >= height
+    chips, _, bits = rows.code._lines()
+    assert min(bottom - top for top, bottom in (chips, bits)) >= height
     assert min(rows.light._strip_height(), rows.light._label_height()) >= height
     assert rows._line_of_legend.contentsMargins().left() == rows.axis.gutter
 

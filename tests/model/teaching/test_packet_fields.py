@@ -14,6 +14,7 @@ from occ_model.teaching.packet_fields import (
 )
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.line_codes import differential_manchester
+from occ_model.transmitter.scheme import scheme_of
 
 
 def read(**changes: float) -> tuple[Frame, DecodeResult]:
@@ -42,6 +43,36 @@ def test_the_fields_sent_cover_the_packet_once() -> None:
     chips = [chip for field in fields for chip in range(field.first, field.last)]
     assert chips == list(range(len(occ.packet(scene))))
     assert packet_fields(scene.replace(pattern="0100101")) == ()
+
+
+@pytest.mark.parametrize("framing", ["paper", "preamble"])
+@pytest.mark.parametrize("line_code", ["differential-manchester", "manchester", "nrz"])
+def test_the_fields_of_a_text_hold_its_bits_one_after_the_other(
+    line_code: str, framing: str
+) -> None:
+    scene = occ.Scene().replace(payload="HELLO", line_code=line_code, framing=framing)
+    header, *bits = packet_fields(scene)
+    chips = occ.packet(scene)
+    assert [field.bit for field in bits] == list(range(40))
+    assert (header.first, header.last, bits[-1].last) == (0, bits[0].first, len(chips))
+    scheme = scheme_of(scene.transmitter)
+    level = int(chips[header.last - 1])
+    decoded = scheme.line_code.decode(chips[header.last :], level)
+    assert tuple(decoded.bits.tolist()) == scene.transmitter.payload_bits
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"line_code": "4b6b"},
+        {"line_code": "fsk"},
+        {"framing": "raw"},
+        {"framing": "c-ook"},
+        {"error_correction": "reed-solomon"},
+    ],
+)
+def test_bits_without_chips_of_their_own_have_no_fields(changes: dict[str, str]) -> None:
+    assert packet_fields(occ.Scene().replace(payload="HELLO", **changes)) == ()
 
 
 def test_a_result_without_chips_has_no_places() -> None:

@@ -83,7 +83,7 @@ def wrong_texts(declared: Parameter) -> list[str]:
         case Choice():
             return ["nan", ""]
         case Payload():
-            return ["hex:zz", "soon"]
+            return ["hex:zz", "bits:2"]
         case _:
             return ["2", "nan"]
 

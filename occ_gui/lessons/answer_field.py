@@ -1,4 +1,4 @@
-"""Answer field: what a student types, a button to check it, and what the check says."""
+"""Answer field: what the check says, what a student types, and a button to check it."""
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QPalette
@@ -44,8 +44,9 @@ class AnswerField(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        layout.addLayout(row)
+        # Above the field, which stands at the lower end of the pane: it stays where it is.
         layout.addWidget(self.sentence)
+        layout.addLayout(row)
 
     def begin(self, unit: str, is_number: bool, before: CheckedAnswer | None) -> None:
         """Show an empty field, or the answer given before."""

@@ -12,6 +12,9 @@ from occ_model.results import Comparison
 
 _LEAST_HEIGHT = 56
 
+_PADDING = 0.2
+"""Of the axis above and below its last ticks, as a share of what is between them."""
+
 _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
 """Grey levels at which the axis can end, so that it rarely changes."""
 
@@ -74,15 +77,20 @@ class ResidualPlot(QWidget):
         residual = comparison.residual
         columns = comparison.first_column + np.arange(len(residual), dtype=np.float64)
         self.curve.setData(columns, residual)
-        largest = float(np.abs(residual).max())
-        limit = next((step for step in _STEPS if largest <= step), _STEPS[-1])
-        self.plot.setYRange(-limit, limit, padding=0.2)
+        usual = comparison.usual_residual
+        limit = next((step for step in _STEPS if usual <= step), _STEPS[-1])
+        self.plot.setYRange(-limit, limit, padding=_PADDING)
         ticks = [(level, f"{level:.0f}") for level in (-limit, 0.0, limit)]
         self.plot.getAxis("left").setTicks([ticks])
-        self.numbers.set_full_text(self._in_words(comparison))
+        self.numbers.set_full_text(self._in_words(comparison, (1.0 + 2.0 * _PADDING) * limit))
 
-    def _in_words(self, comparison: Comparison) -> str:
-        return self.tr(
+    def _in_words(self, comparison: Comparison, shown: float) -> str:
+        text = self.tr(
             "Residual, photo minus the present scene's simulation: correlation {correlation:.4f} "
             "as they lie here, RMSE {rmse:.2f} grey levels"
         ).format(correlation=comparison.correlation, rmse=comparison.rmse)
+        if comparison.largest_residual > shown:
+            text += self.tr("; at most {largest:.0f}, beyond the axis").format(
+                largest=comparison.largest_residual
+            )
+        return text

@@ -31,6 +31,9 @@ _CAPTION_SIZE = 7
 _LEAST_HEIGHT = 1.3
 """Inches of a figure of a flat picture, with the texts above and below it."""
 
+_AXIS_OF_RESIDUAL = 2.0
+"""Ends of the axis of a residual, as a multiple of what most columns stay within."""
+
 _NAMED = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
 
@@ -269,6 +272,10 @@ def _profile_figure(
         axes[1].plot(column, residual[part], linewidth=0.9, color=colours.PHOTO)
         axes[1].set_ylabel("photo less\nsimulation")
         message = f"correlation {comparison.correlation:.4f}, RMSE {comparison.rmse:.2f} levels"
+        shown = max(_AXIS_OF_RESIDUAL * comparison.usual_residual, 1.0)
+        if comparison.largest_residual > shown:
+            axes[1].set_ylim(-shown, shown)
+            message += f", at most {comparison.largest_residual:.0f}, beyond the axis"
         axes[1].set_title(message, fontsize=8)
     axes[-1].set_xlabel("column")
     figure.legend(loc="outside upper center", ncols=len(lines) + 1, frameon=False)

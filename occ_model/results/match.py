@@ -248,6 +248,10 @@ class Match:
         return float(np.sqrt(np.mean(self.residual**2)))
 
 
+_USUAL = 0.95
+"""Share of columns whose residual an axis shows whole: a single edge is not to set it."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Comparison:
     """A photo's profile beside a simulated one, column by column of the simulation.
@@ -273,6 +277,16 @@ class Comparison:
     def residual(self) -> FloatArray:
         """The photo's profile less the simulated one, in grey levels, shape (columns,)."""
         return self.photo - self.simulated
+
+    @property
+    def largest_residual(self) -> float:
+        """The residual that is farthest from 0, without its sign, in grey levels."""
+        return float(np.abs(self.residual).max())
+
+    @property
+    def usual_residual(self) -> float:
+        """The grey levels that 95 of 100 columns stay within: what an axis is to show."""
+        return float(np.quantile(np.abs(self.residual), _USUAL))
 
     @property
     def rmse(self) -> float:

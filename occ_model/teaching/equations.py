@@ -130,10 +130,12 @@ def _column_value(scene: Scene) -> Equation:
 def _band_lengths(scene: Scene) -> tuple[Equation, Equation]:
     period = Term(SECOND.format(scene.transmitter.switching_period), ("switching_frequency",))
     exposure, readout = _shown(scene, "exposure_time"), _shown(scene, "readout_time")
+    # Of the two only the length of one state becomes undefined: an exposure always has a length.
+    transition = result_text(COLUMN, scene.camera.exposure_time / scene.camera.readout_time)
     try:
-        complete, transition = (result_text(COLUMN, length) for length in band_lengths(scene))
+        complete = result_text(COLUMN, band_lengths(scene)[0])
     except BandModelUndefined:
-        complete = transition = (
+        complete = (
             "undefined: the exposure is longer than the switching period; the simulation goes on"
         )
     led, own = Term("t<sub>LED</sub>", ("switching_frequency",)), Term("t", ("exposure_time",))

@@ -182,6 +182,28 @@ def test_the_explanation_is_shown_to_its_end(qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: view.rect().contains(page.equation.mapTo(view, end)), timeout=5000)
 
 
+def test_the_answers_field_stays_where_it_is_whatever_the_check_says(qtbot: QtBot) -> None:
+    page = StepPage()
+    qtbot.addWidget(page)
+    page.show_step(lessons().lessons[0], 0, None)
+    page.resize(300, 500)
+    page.show()
+    qtbot.waitExposed(page)
+    given, places = page.answer_field, []
+    for sentence in ("", "Not yet: that is too low. Try again.", "Not yet, and here is why. " * 6):
+        if sentence:
+            given.show_checked(CheckedAnswer("40", "wrong", sentence))
+        qtbot.waitUntil(lambda: given.sentence.isVisible() == bool(sentence))  # noqa: B023
+        page.layout().activate()
+        qtbot.wait(1)
+        places.append(given.field.mapTo(page, QPoint()))
+        assert page.question.mapTo(page, QPoint()).y() >= 0
+    qtbot.keyClicks(given.field, "50")
+    qtbot.waitUntil(lambda: not given.sentence.isVisible())
+    places.append(given.field.mapTo(page, QPoint()))
+    assert len(set(places)) == 1
+
+
 def test_question_answer_and_check_stay_in_view_however_long_the_text(qtbot: QtBot) -> None:
     page = StepPage()
     qtbot.addWidget(page)

@@ -157,6 +157,22 @@ def test_a_compared_photo_is_drawn_in_simulated_levels(
     assert high > 3.0
 
 
+def test_one_edge_does_not_set_the_axis_of_the_residual(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_reading(snapshot_of())
+    seen = 100.0 + 4.0 * np.sin(np.arange(300.0))
+    edge = seen.copy()
+    edge[:6] += 90.0
+    for profile, said in ((seen, False), (edge, True)):
+        comparison = Comparison(0, profile, np.full(300, 100.0), 0.9)
+        view.show_photo_profile(PhotoProfile(comparison, photo.profile))
+        assert view.residual.plot.getViewBox().viewRange()[1] == pytest.approx([-7.0, 7.0])
+        text = view.residual.numbers.toolTip()
+        assert ("beyond the axis" in text) == said
+    assert f"at most {comparison.largest_residual:.0f}, beyond" in text
+
+
 def test_the_residual_follows_the_profiles_columns_when_moved(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:

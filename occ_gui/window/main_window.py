@@ -10,7 +10,7 @@ from PySide6.QtGui import (
     QShowEvent,
     QUndoStack,
 )
-from PySide6.QtWidgets import QApplication, QMainWindow, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
@@ -242,6 +242,10 @@ class MainWindow(QMainWindow):
         """
         self._message_until = until
         self._status_line.showMessage(sentence)
+
+    def leave_messages_to(self, *labels: QLabel) -> None:
+        """Show nothing in the status line that one of these labels shows meanwhile."""
+        self._status_line.leave_to(*labels)
 
     def happened(self, what: str) -> None:
         """Remove the sentence that is shown until this event."""

@@ -1,8 +1,8 @@
 """Status line: a message, the work in progress, the level under the mouse, and computing times."""
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSizePolicy, QStatusBar, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QWidget
 
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST
@@ -11,6 +11,11 @@ from occ_model.errors import one_line
 
 _MESSAGE_SHARE, _POINTED_SHARE, _TIMING_SHARE = 0.3, 0.4, 0.3
 """Fractions of the width: the message takes at least so much, the readouts at most."""
+
+_SEEN_ANEW = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
+"""Events of a label after which it may show another text, or none."""
+
+_BULLET = "• "
 
 _GAP = 8
 """Pixels to the left of a readout."""
@@ -26,6 +31,7 @@ class StatusLine(QStatusBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._message = self._plan_change = ""
+        self._others: list[QLabel] = []
         self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName(self.tr("Message"))
@@ -53,6 +59,22 @@ class StatusLine(QStatusBar):
         """Return the message; empty if there is none."""
         return self._message
 
+    def leave_to(self, *labels: QLabel) -> None:
+        """Show no message that one of these labels shows in full, as long as it is in view."""
+        for label in labels:
+            self._others.append(label)
+            label.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        """Look again whether the message is shown elsewhere."""
+        if self._message and event.type() in _SEEN_ANEW:
+            self._show_sentence()
+        return super().eventFilter(watched, event)
+
+    def _is_told_elsewhere(self) -> bool:
+        texts = (each.text() for each in self._others if each.isVisible())
+        return bool(self._message) and any(self._message in _in_one_line(text) for text in texts)
+
     def show_plan_change(self, sentence: str) -> None:
         """Show which effects the plan has switched, while there is no message; empty ends it."""
         self._plan_change = sentence
@@ -78,7 +100,13 @@ class StatusLine(QStatusBar):
         return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
 
     def _show_sentence(self) -> None:
-        self._sentence.set_full_text(self._message or self._plan_change)
+        is_told = self._is_told_elsewhere()
+        self._sentence.set_full_text("" if is_told else self._message or self._plan_change)
+
+
+def _in_one_line(text: str) -> str:
+    """Write a list of sentences as one text."""
+    return " ".join(text.replace(_BULLET, " ").split())
 
 
 class _Readout(ElidedLabel):

@@ -9,9 +9,11 @@ import pytest
 from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.scene.scene import Scene
 
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
@@ -110,3 +112,28 @@ def test_a_preset_that_has_a_picture_says_nothing(application: Application, user
         user.choose_next_preset()
         assert user.message == ""
         assert application.store.scene in map(occ.load_preset, occ.presets())
+
+
+def test_no_sentence_stands_in_the_status_line_beside_the_one_in_view(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    window = application.window
+    (line,) = [
+        label
+        for label in window.statusBar().findChildren(ElidedLabel)
+        if label.accessibleName() == "Message"
+    ]
+    application.store.change(distance=0.05, yaw=1.2)
+    user.wait_until_idle()
+    said = window.statusBar().currentMessage()
+    assert said.startswith("Turned like this")
+    qtbot.waitUntil(lambda: said in application.story.verdict.accessibleDescription())
+    qtbot.waitUntil(lambda: not line.text())
+    window.toolbar.modes.setCurrentIndex(1)  # the photo's, without the banner of the simulation
+    qtbot.waitUntil(lambda: line.toolTip() != "")
+    assert not application.story.verdict.isVisible()
+    window.toolbar.modes.setCurrentIndex(0)
+    qtbot.waitUntil(lambda: not line.text())
+    application.store.undo_stack.undo()
+    user.wait_until_idle()
+    assert not window.statusBar().currentMessage()

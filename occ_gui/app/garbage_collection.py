@@ -1,15 +1,36 @@
-"""Cyclic garbage collection on the window's thread only.
+"""Cyclic garbage collection on the window's thread only, and memory given back at rest.
 
 By default Python collects on the thread that happens to allocate. If a worker thread so destroys a
 widget, it waits for Qt's lock, while the window's thread, which may hold that lock, waits for the
 interpreter: a deadlock.
+
+What pictures have taken and freed, the C library keeps: a hundred megabytes after a few minutes of
+work. It gives them back when it is asked to, which takes some milliseconds.
 """
 
+import ctypes
 import gc
+import time
+from contextlib import suppress
 
 from PySide6.QtCore import QObject, QTimer
 
 _INTERVAL_MS = 250
+
+_REST_S = 2.0
+"""How long the program is idle before memory is given back."""
+
+_IDLE = 0.1
+"""Share of a processor that an idle program takes at most."""
+
+_WORTH_S = 1.0
+"""Processor time of the work since memory was given back last, below which it is not again."""
+
+
+def give_memory_back() -> None:
+    """Let the C library give back what is freed, where it is that of GNU."""
+    with suppress(OSError, AttributeError):
+        ctypes.CDLL("libc.so.6").malloc_trim(0)
 
 
 class GarbageCollector(QObject):
@@ -24,6 +45,8 @@ class GarbageCollector(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         gc.disable()
+        self._looked, self._used = time.monotonic(), time.process_time()
+        self._idle = self._worked = 0.0
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.collect)
         self._timer.start(_INTERVAL_MS)
@@ -41,8 +64,21 @@ class GarbageCollector(QObject):
         gc.unfreeze()
 
     def collect(self) -> None:
-        """Collect the oldest generation whose threshold is exceeded, if there is one."""
+        """Collect the oldest generation whose threshold is exceeded, and give memory back."""
         counts, limits = gc.get_count(), gc.get_threshold()
         due = [old for old in range(3) if counts[old] > limits[old] > 0]
         if due:
             gc.collect(due[-1])
+        self._rest()
+
+    def _rest(self) -> None:
+        """Give memory back once after each work, as soon as nothing is done for a while."""
+        now, used = time.monotonic(), time.process_time()
+        passed, taken = now - self._looked, used - self._used
+        self._looked, self._used = now, used
+        self._worked += taken
+        self._idle = self._idle + passed if taken <= _IDLE * passed else 0.0
+        if self._idle >= _REST_S and self._worked >= _WORTH_S:
+            gc.collect()
+            give_memory_back()
+            self._worked = 0.0

@@ -19,7 +19,7 @@ from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.garbage_collection import GarbageCollector
+from occ_gui.app.garbage_collection import GarbageCollector, give_memory_back
 from occ_gui.lessons import lesson_controller as lessons_room
 
 ACTIONS = int(os.environ.get("OCC_SOAK", 120))
@@ -58,8 +58,7 @@ def memory(line: str) -> float:
 def used_memory() -> float:
     """Give the memory that the process uses now, without what it keeps free for later."""
     gc.collect()
-    with suppress(OSError, AttributeError):
-        ctypes.CDLL("libc.so.6").malloc_trim(0)
+    give_memory_back()
     return memory("VmRSS")
 
 

@@ -2,11 +2,15 @@
 
 import gc
 import threading
+from pathlib import Path
 from typing import ClassVar
 
+import numpy as np
+import pytest
 from PySide6.QtCore import QObject
 from pytestqt.qtbot import QtBot
 
+from occ_gui.app import garbage_collection
 from occ_gui.app.garbage_collection import GarbageCollector
 
 
@@ -49,3 +53,36 @@ def test_nothing_is_done_where_little_has_been_allocated(qtbot: QtBot) -> None:
     gc.collect()
     assert len(Cycle.freed_on) == 1
     owner.deleteLater()
+
+
+def test_memory_is_given_back_once_after_each_work_and_at_rest_only(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    clock, given, told = [0.0, 0.0], list[float](), list[float]()
+    monkeypatch.setattr(garbage_collection.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(garbage_collection.time, "process_time", lambda: clock[1])
+    monkeypatch.setattr(garbage_collection, "give_memory_back", lambda: given.append(clock[0]))
+    owner = QObject()
+    collector = GarbageCollector(owner)
+    for busy, seconds in ((0.9, 3), (0.01, 10), (0.9, 3), (0.01, 10), (0.9, 0.5), (0.01, 10)):
+        for _ in range(int(4 * seconds)):
+            clock[0] += 0.25
+            clock[1] += 0.25 * busy
+            collector.collect()
+        told.append(clock[0])
+    assert len(given) == 2, "not again after half a second of work"
+    assert told[0] + 2.0 <= given[0] <= told[0] + 3.0
+    assert told[2] + 2.0 <= given[1] <= told[2] + 3.0
+    owner.deleteLater()
+
+
+def test_freed_arrays_are_no_longer_the_programs(qtbot: QtBot) -> None:
+    def resident() -> int:
+        return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * 4096
+
+    # Between blocks that stay, so that the heap's end cannot simply be cut off.
+    blocks = [np.ones(100_000, np.uint8) for _ in range(1000)]
+    before = resident()
+    del blocks[::2]
+    garbage_collection.give_memory_back()
+    assert before - resident() > 20e6

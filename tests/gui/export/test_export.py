@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.user import User
+from model.figures.artists import cut_off
 from PIL import Image
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
@@ -18,6 +19,7 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import SHAPE
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
+from occ_gui.picture.photo_overlay import MODES
 from occ_model.figures import drawing
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
@@ -369,3 +371,27 @@ def test_the_picture_with_the_photo_has_an_entry_of_its_own(
     over, beside, over_again, blended = (np.asarray(Image.open(BytesIO(f))) for f in files)
     assert over.shape == over_again.shape == blended.shape != beside.shape
     application.show_mode("beside")
+
+
+@pytest.mark.whole
+def test_no_text_of_an_exported_figure_is_cut_off_however_the_photo_is_shown(
+    application: Application, user: User, tmp_path: Path, photo_file: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    cut: dict[str, list[str]] = {}
+    monkeypatch.setattr(
+        drawing, "fit_texts", lambda figure: cut.setdefault(mode, []).extend(cut_off(figure))
+    )
+    long = tmp_path / f"{'A photo of the lamp in our laboratory, '.ljust(50)}, taken by me.png"
+    long.write_bytes(photo_file.read_bytes())
+    application.open_photo(long)
+    user.wait_until_idle()
+    for mode in MODES:
+        application.show_mode(mode)
+        for name in ("picture", "overlay", "profile"):
+            said = export(application, user, name, tmp_path / f"{name}.svg")
+            assert said.startswith("Exported"), said
+    mode = "decoding"
+    export(application, user, "decoding-threshold", tmp_path / "decoding.svg")
+    assert cut == {mode: [] for mode in (*MODES, "decoding")}
+    application.show_mode(MODES[0])

@@ -132,8 +132,8 @@ def _across(ax: Axes) -> int:
 
 def _to_the_edge(text: Text, figure: Figure) -> float:
     """Give the width that a text may have where it stands."""
-    box, width = text.get_window_extent(), figure.get_figwidth()
-    left, right = box.x0 / figure.dpi, box.x1 / figure.dpi
+    box, width = text.get_window_extent(), float(figure.get_figwidth())
+    left, right = float(box.x0 / figure.dpi), float(box.x1 / figure.dpi)
     match text.get_horizontalalignment():
         case "left":
             return width - _MARGIN - left

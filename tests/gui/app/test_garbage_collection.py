@@ -2,6 +2,7 @@
 
 import gc
 import threading
+import time
 from pathlib import Path
 from typing import ClassVar
 
@@ -59,8 +60,8 @@ def test_memory_is_given_back_once_after_each_work_and_at_rest_only(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     clock, given, told = [0.0, 0.0], list[float](), list[float]()
-    monkeypatch.setattr(garbage_collection.time, "monotonic", lambda: clock[0])
-    monkeypatch.setattr(garbage_collection.time, "process_time", lambda: clock[1])
+    monkeypatch.setattr(time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(time, "process_time", lambda: clock[1])
     monkeypatch.setattr(garbage_collection, "give_memory_back", lambda: given.append(clock[0]))
     owner = QObject()
     collector = GarbageCollector(owner)

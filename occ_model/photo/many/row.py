@@ -74,8 +74,12 @@ def row_of(
     place: int, source: Path | Photo, settings: MatchSettings, heartbeat: Heartbeat
 ) -> tuple[int, PhotoRow]:
     """Match the file or photo at a place of the table, and give its row with its place."""
-    make = row_of_photo if isinstance(source, Photo) else row_of_file
-    row = make(source, settings.of(place), heartbeat)  # type: ignore[operator]
+    own = settings.of(place)
+    row = (
+        row_of_photo(source, own, heartbeat)
+        if isinstance(source, Photo)
+        else row_of_file(source, own, heartbeat)
+    )
     return place, replace(row, given=dict(settings.known).get(place))
 
 

@@ -139,7 +139,8 @@ class PhotoRowsModel(QAbstractTableModel):
         return (
             self.tr("Photo"),
             self.tr("Verdict"),
-            label_of(self.known),
+            # Short: the times beside it are to stay in view.
+            self.tr("given {symbol}").format(symbol=quantity(self.known).symbol),
             label_of(self._estimate),
             label_of("exposure_time"),
             self.tr("As noted"),

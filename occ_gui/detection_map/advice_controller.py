@@ -13,7 +13,7 @@ from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -65,7 +65,7 @@ class AdviceRequest:
     def stages(self, rank: int) -> Iterator[Stage]:
         """Give one job for each decoder."""
         jobs = []
-        for counter, decoder in enumerate(QUICK_DECODERS, 1):
+        for counter, decoder in enumerate(DECODERS, 1):
             settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
             jobs.append(Job(advise, (self.scene, settings, decoder, RATE), counter))
         yield Stage(rank, tuple(jobs))
@@ -178,10 +178,10 @@ class AdvisorController(QObject):
         self.went.emit(decoder)
 
     def _count(self) -> int:
-        return sum(self._queue.counted(counter) for counter, _ in enumerate(QUICK_DECODERS, 1))
+        return sum(self._queue.counted(counter) for counter, _ in enumerate(DECODERS, 1))
 
     def _show_progress(self) -> None:
-        share = (self._count() - self._counted) / (_USUAL * len(QUICK_DECODERS))
+        share = (self._count() - self._counted) / (_USUAL * len(DECODERS))
         self._pane.show_advice_progress(min(share, 0.99))
 
     def _take(self, _request: AdviceRequest, results: list[Advice]) -> None:

@@ -46,6 +46,9 @@ class AdviceSentences(QObject):
     def lines(self, advice: Advice) -> list[AdviceLine]:
         """Write a title and a few lines on what was found."""
         ends = {
+            ("switching_frequency", "lowest"): self.tr(
+                "The lowest frequency that it reads is {value}"
+            ),
             ("switching_frequency", "highest"): self.tr(
                 "The highest frequency that it reads is {value}"
             ),
@@ -64,19 +67,43 @@ class AdviceSentences(QObject):
                 for end in facts.ends
                 if (end.parameter, end.side) in ends
             )
+            if facts.found.gaps:
+                lines.append(AdviceLine(self.gaps(facts.found)))
+            if facts.theory.two_packets is not None:
+                lines.append(AdviceLine(self._two_packets(facts.theory.two_packets)))
             lines.append(AdviceLine(theory, is_common=True))
-        if advice.frequency.ends:
-            lines.append(AdviceLine(self._bits_a_second(advice.limits), is_common=True))
+        lines.append(AdviceLine(self.bits_a_second(advice.limits)))
         lines.append(AdviceLine(self._confidence(advice.limits), is_common=True))
         return lines
 
-    def _bits_a_second(self, found: Limits) -> str:
-        camera, bits = found.scene.camera, found.scene.transmitter.payload_length
-        pictures = min(self.frames_a_second, 1.0 / (camera.columns * camera.readout_time))
+    def gaps(self, found: WorkingRange) -> str:
+        """Write between which values it does not read."""
+        gaps = [
+            self.tr("{low} and {high}").format(
+                low=_formatted(found.parameter, end.value),
+                high=_formatted(found.parameter, after.value),
+            )
+            for end, after in found.gaps
+        ]
+        return self.tr("It does not read everywhere between: gaps lie between {gaps}.").format(
+            gaps="; ".join(gaps)
+        )
+
+    def _two_packets(self, frequency: float) -> str:
+        return self.tr("Below {packets} no two packets fit the picture, which it needs.").format(
+            packets=HERTZ.format(frequency, _DIGITS)
+        )
+
+    def bits_a_second(self, found: Limits) -> str:
+        """Write how many bits a second arrive at the scene's own values."""
+        own = found.frequency.own
         return self.tr(
-            "Where a decoder reads, {bits} bits in each of {pictures:.4g} pictures a second are at "
-            "least {right:.4g} right bits a second."
-        ).format(bits=bits, pictures=pictures, right=found.rate / 100.0 * bits * pictures)
+            "At {frequency} it reads {whole} of {images} pictures: {bits:.4g} bits a second, each "
+            "picture with another payload."
+        ).format(
+            frequency=HERTZ.format(own.value, _DIGITS), whole=own.whole, images=own.images,
+            bits=found.bits_a_second(self.frames_a_second),
+        )  # fmt: skip
 
     def on_highest_frequency(self, advice: Advice) -> AdviceLine:
         """Write the line on the highest frequency that is read, or that there is none."""
@@ -152,8 +179,8 @@ class AdviceSentences(QObject):
         return AdviceLine(sentence, (end.parameter, end.inside.value, place))
 
     def _counted(self, trial: Trial) -> str:
-        return self.tr("{right} of {sent} bits ({low:.1f} to {high:.1f} %)").format(
-            right=trial.right, sent=trial.sent, low=trial.low, high=trial.high
+        return self.tr("{rate:.3g} % in {images} images ({low:.1f} to {high:.1f} %)").format(
+            rate=trial.rate, images=trial.images, low=trial.low, high=trial.high
         )
 
     def _theory_of_frequency(self, theory: TheoryLimits) -> str:
@@ -163,10 +190,6 @@ class AdviceSentences(QObject):
             band=HERTZ.format(theory.band_model, _DIGITS),
             null=HERTZ.format(theory.null, _DIGITS),
         )
-        if theory.two_packets is not None:
-            text += self.tr("; below {packets} no two packets fit the picture").format(
-                packets=HERTZ.format(theory.two_packets, _DIGITS)
-            )
         return f"{text}."
 
     def _theory_of_exposure(self, theory: TheoryLimits) -> str:
@@ -184,9 +207,10 @@ class AdviceSentences(QObject):
 
     def _confidence(self, found: Limits) -> str:
         return self.tr(
-            "Each of these values was tried with {images} images; the intervals contain the rate "
-            "in 95 of 100 cases if bit errors are independent of each other."
-        ).format(images=found.images)
+            "Each end was tried with {images} images that had not chosen it; the 95 % intervals "
+            "count images. Values between were tried in steps of {step:.0f} %: a narrower gap can "
+            "be missed."
+        ).format(images=found.images, step=100.0 * (found.frequency.step - 1.0))
 
 
 def highest_frequency(advice: Advice) -> EndFacts | None:

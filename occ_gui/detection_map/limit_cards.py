@@ -1,4 +1,4 @@
-"""Cards of the limits: the highest frequency that each decoder reads, with a button to go there."""
+"""Cards of the limits: the frequencies that each decoder reads, with a button to the highest."""
 
 from collections.abc import Sequence
 
@@ -13,6 +13,7 @@ from occ_gui.detection_map.advice_sentences import (
 )
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.results import WorkingRange
 from occ_model.results.advice import Advice, EndFacts
 
 _PARAMETER = "switching_frequency"
@@ -95,7 +96,12 @@ class LimitCards(QWidget):
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
             line = self._sentences.on_highest_frequency(advice)
-            card.show_limit(highest_frequency(advice), line.text, advice.limits.rate)
+            found = advice.limits.frequency
+            gaps = self._sentences.gaps(found) if found.gaps else ""
+            bits = self._sentences.bits_a_second(advice.limits)
+            tip = "\n".join(text for text in (line.text, gaps, bits) if text)
+            card.show_limit(highest_frequency(advice), tip, advice.limits.rate)
+            card.show_range(found)
 
     def show_ended(self, why_not: str = "") -> None:
         """Show that the search has ended, and why where it has not found all limits."""
@@ -114,7 +120,7 @@ class LimitCards(QWidget):
 
 
 class LimitCard(QFrame):
-    """The highest frequency that a decoder reads.
+    """The frequencies that a decoder reads.
 
     Parameters
     ----------
@@ -135,6 +141,8 @@ class LimitCard(QFrame):
         self._is_outdated = False
         self.name = ElidedLabel(decoder)
         self.value = QLabel()
+        self.range = ElidedLabel()
+        self.range.setAccessibleName(self.tr("Frequencies read, {name}").format(name=decoder))
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         self.value.setAccessibleName(self.tr("Highest frequency, {name}").format(name=decoder))
         self.go = QPushButton(self.tr("Go"))
@@ -147,6 +155,7 @@ class LimitCard(QFrame):
         grid.setSpacing(2)
         grid.addWidget(self.name, 0, 0)
         grid.addWidget(self.value, 1, 0)
+        grid.addWidget(self.range, 2, 0, 1, 2)
         grid.addWidget(self.go, 0, 1, 2, 1)
         grid.setColumnStretch(0, 1)
         self.show_unknown()
@@ -164,6 +173,7 @@ class LimitCard(QFrame):
 
     def _show(self, text: str, tip: str, destination: float | None) -> None:
         self._destination = destination
+        self.range.set_full_text("")
         self.value.setText(text)
         self.value.setToolTip(tip)
         # Not the limit itself, but a frequency inside of it: the button says which.
@@ -218,9 +228,23 @@ class LimitCard(QFrame):
         )
         self._show(limit, text, None if inside is None else inside.value)
 
+    def show_range(self, found: WorkingRange) -> None:
+        """Show the lowest frequency, and the gap next to it."""
+        if found.lowest is None:
+            return
+        text = self.tr("from {low}").format(low=formatted_frequency(found.lowest.value))
+        if found.gaps:
+            end, after = found.gaps[0]
+            more = len(found.gaps) - 1
+            text += self.tr("; not from {end} to {after}").format(
+                end=formatted_frequency(end.value), after=formatted_frequency(after.value)
+            ) + (self.tr(" and {more} gaps more").format(more=more) if more else "")
+        self.range.set_full_text(text)
+
     def set_outdated(self, outdated: bool) -> None:
         """Show whether the limit is of an earlier scene."""
         self._is_outdated = outdated
+        self.range.setEnabled(not outdated)
         self.value.setEnabled(not outdated)
         self.name.set_full_text(
             self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)

@@ -23,6 +23,7 @@ from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.outdated_mark import OutdatedMark
+from occ_model.receiver.decoders import DECODERS
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
@@ -93,7 +94,7 @@ class MapView(QWidget):
         self.left_out = ElidedLabel()
         self.left_out.setAccessibleName(self.tr("Effects that the map leaves out"))
         self.left_out.hide()
-        self.advice = AdviceView(decoders)
+        self.advice = AdviceView(tuple(DECODERS))
         self.cards = self.advice.cards
         self.most_bits = MostBitsCard()
         self._lay_out()

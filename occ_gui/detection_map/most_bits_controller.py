@@ -12,12 +12,12 @@ from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver import decoders
 from occ_model.results import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, example_of, unvaried
 
-_COUNTER = len(QUICK_DECODERS) + 1
+_COUNTER = len(decoders.DECODERS) + 1
 """The counter of the pictures tried: those before are the advice's."""
 
 _RANK = -1

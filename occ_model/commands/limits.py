@@ -2,6 +2,8 @@
 
 import argparse
 import math
+import sys
+from collections.abc import Sequence
 
 from occ_model.commands.options import (
     Commands,
@@ -13,15 +15,16 @@ from occ_model.commands.options import (
 )
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
-from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
-from occ_model.results import Limits, Trial
-from occ_model.results.advice import Advice, EndFacts, RangeFacts
+from occ_model.receiver.decoders import DECODERS
+from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
+from occ_model.results.advice import Advice
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
+from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study.advice import advice_of
-from occ_model.study.limits import limits
+from occ_model.study.limits import limits_of
 
 _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
 
@@ -38,8 +41,8 @@ def add_to(commands: Commands) -> None:
     parser.add_argument(
         "--decoder",
         type=decoder_name,
-        default=PAPER_DECODER,
-        help=f"one of {', '.join(DECODERS)} or a plug-in's; default: %(default)s",
+        action="append",
+        help=f"one of {', '.join(DECODERS)} or a plug-in's; give it again for more; default: these",
     )
     parser.add_argument(
         "--rate", type=number, default=99.0, metavar="PERCENT",
@@ -65,83 +68,119 @@ def add_to(commands: Commands) -> None:
 def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     FRAME_RATE.check(options.fps)
+    decoders = tuple(dict.fromkeys(options.decoder or DECODERS))
+    for line in _heading(scene, options):
+        print(line)
     with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
 
         def show(share: float, what: str) -> None:
             bar.set_description_str(what, refresh=False)
             bar.update(round(100.0 * share) - bar.n)
 
-        found = limits(
+        def show_row(found: Limits) -> None:
+            bar.write(row(found, options.fps))
+            sys.stdout.flush()
+
+        answers = limits_of(
             scene,
-            options.decoder,
+            decoders,
             rate=options.rate,
             images=options.images,
             seed=options.seed,
             jobs=options.jobs,
             progress=show,
+            found=show_row,
         )
-    for line in sentences(advice_of(found), options.fps):
+    for line in sentences(answers):
         print(line)
-    return 0 if found.highest_frequency and found.longest_exposure else EXIT_FAILURE
+    reads = any(each.highest_frequency and each.longest_exposure for each in answers)
+    return 0 if reads else EXIT_FAILURE
 
 
-def sentences(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
-    """Write advice as lines of text."""
-    found = advice.limits
-    scene = found.scene
+_COLUMNS = (
+    "decoder", "lowest", "highest", "gaps", "shortest", "longest", "gaps", "bits a second",
+)  # fmt: skip
+_WIDTHS = (10, 20, 20, 20, 20, 20, 20, 14)
+
+
+def _heading(scene: Scene, options: argparse.Namespace) -> list[str]:
     exposure = SECOND.format(scene.camera.exposure_time)
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = quantity("distance").format(scene.pose.distance)
-    reads = f"the {found.decoder} decoder reads {found.rate:g} % of the bits"
     return [
-        *_on_range(f"At an exposure of {exposure} and {distance} {reads}", advice.frequency),
-        *_on_range(f"At {frequency} and {distance} {reads}", advice.exposure),
-        f"Each of these values was tried with {found.images} images, seed {found.seed}; the "
-        "intervals hold the rate in 95 of 100 cases if bits err independently of each other.",
-        *_bits_a_second(found, frames_a_second),
-        *_by_theory(advice),
+        f"Read with {options.rate:g} % of the bits at {distance}: frequencies at {exposure}, "
+        f"exposures and bits a second at {frequency}.",
+        _in_columns(_COLUMNS),
     ]
 
 
-def _bits_a_second(found: Limits, frames_a_second: float) -> list[str]:
-    """Say what the scene's payload is a second, where it is read."""
-    if not found.highest_frequency:
-        return []
-    bits = found.scene.transmitter.payload_length
-    camera = found.scene.camera
-    pictures = min(frames_a_second, 1.0 / (camera.columns * camera.readout_time))
-    a_second = bits * pictures * found.rate / 100.0
-    return [
-        f"Where it does, {bits} bits in each of {pictures:.4g} pictures a second are at least "
-        f"{a_second:.4g} right bits a second; occ-model most-bits looks for more."
-    ]
+def _in_columns(cells: Sequence[str]) -> str:
+    padded = [cell.ljust(width) for cell, width in zip(cells, _WIDTHS, strict=True)]
+    return "  ".join(padded).rstrip()
 
 
-def _on_range(start: str, facts: RangeFacts) -> list[str]:
-    if not facts.ends:
-        return [facts.found.failure or ""]
-    low, high = (_written(end.parameter, end.value) for end in facts.ends)
-    label = quantity(facts.found.parameter).label.lower()
-    return [f"{start} at any {label} from {low} to {high}.", *map(_on_end, facts.ends)]
+def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
+    """Write the limits of a decoder as a line of the table."""
+    cells = [found.decoder]
+    for each in (found.frequency, found.exposure):
+        if each.lowest is None or each.highest is None:
+            cells += ["none", "none", ""]
+            continue
+        gaps = [f"{_written(each.parameter, end.value)} to {_written(each.parameter, after.value)}"
+                for end, after in each.gaps]  # fmt: skip
+        more = f", {len(gaps) - 1} more" if len(gaps) > 1 else ""
+        cells += [
+            _end_text(each, each.lowest, "-"), _end_text(each, each.highest, "+"),
+            gaps[0] + more if gaps else "no",
+        ]  # fmt: skip
+    return _in_columns([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
 
 
-def _on_end(end: EndFacts) -> str:
-    works = f"at {_written(end.parameter, end.value)} {_counted(end.works)}"
+def _end_text(found: WorkingRange, end: RangeEnd, side: str) -> str:
+    """Write an end with how far beyond it the true one may lie."""
+    value = _written(found.parameter, end.value)
     if end.fails is None:
-        side = {"lowest": "below", "highest": "above"}[end.side]
-        return f"  {works}; {side} it was not searched.{_on_inside(end)}"
-    beyond = f"at {_written(end.parameter, end.fails.value)} {_counted(end.fails)}"
-    return f"  {works}, {beyond}.{_on_inside(end)}"
+        return f"{value} or {'less' if side == '-' else 'more'}"
+    return f"{value} {side} {quantity(found.parameter).format(end.error, 3)}"
 
 
-def _on_inside(end: EndFacts) -> str:
-    if end.inside is None:
-        return " No value near it was read without an error."
-    if end.inside == end.works:
-        return ""
-    value = _written(end.parameter, end.inside.value)
-    images = f"every bit of {end.inside.images} images"
-    return f" At {value}, {end.margin:.1f} % inside, it read {images}."
+def sentences(answers: Sequence[Limits]) -> list[str]:
+    """Write by which images the ends were confirmed, and what theory says."""
+    lines = []
+    for found in answers:
+        for each in (found.frequency, found.exposure):
+            lines += _on_range(found.decoder, each)
+    first = answers[0]
+    return [
+        *lines,
+        "Behind the sign + or - stands how far beyond an end the first value lies that fails.",
+        f"Each end was tried with {first.images} images that had not chosen it, which the "
+        "intervals count.",
+        f"Values between were tried in steps of {100.0 * (first.frequency.step - 1.0):.0f} %: a "
+        "narrower gap can be missed.",
+        *_by_theory([advice_of(found) for found in answers]),
+    ]
+
+
+def _on_range(decoder: str, found: WorkingRange) -> list[str]:
+    if found.failure is not None:
+        return [found.failure]
+    lines = [f"The {decoder} decoder, {quantity(found.parameter).label.lower()}:"]
+    for interval in found.intervals:
+        lines += [_on_end(found.parameter, end) for end in (interval.lowest, interval.highest)]
+    return lines
+
+
+def _on_end(parameter: str, end: RangeEnd) -> str:
+    text = f"  at {_written(parameter, end.value)} {_counted(end.works)}"
+    if end.fails is None:
+        text += "; beyond it was not searched"
+    else:
+        text += f", at {_written(parameter, end.fails.value)} {_counted(end.fails)}"
+    if end.inside is not None and end.inside != end.works:
+        value = _written(parameter, end.inside.value)
+        text += f"; at {value} every bit of {end.inside.images} images"
+    return text + "."
 
 
 def _written(parameter: str, value: float) -> str:
@@ -149,17 +188,19 @@ def _written(parameter: str, value: float) -> str:
 
 
 def _counted(trial: Trial) -> str:
-    return f"{trial.right} of {trial.sent} bits ({trial.low:.1f} to {trial.high:.1f} %)"
+    return f"{trial.rate:.3g} % in {trial.images} images ({trial.low:.1f} to {trial.high:.1f} %)"
 
 
-def _by_theory(advice: Advice) -> list[str]:
-    frequencies, white = advice.frequency.theory, advice.exposure.theory.saturation
+def _by_theory(answers: Sequence[Advice]) -> list[str]:
+    frequencies, white = answers[0].frequency.theory, answers[0].exposure.theory.saturation
     band = HERTZ.format(frequencies.band_model, _DIGITS)
     null = HERTZ.format(frequencies.null, _DIGITS)
     lines = [f"By theory the band model ends at {band} and an alternating pattern at {null};"]
-    if frequencies.two_packets is not None:
-        packets = HERTZ.format(frequencies.two_packets, _DIGITS)
-        lines.append(f"  below {packets} no two packets fit the picture;")
+    for advice in answers:
+        if advice.frequency.theory.two_packets is not None:
+            packets = HERTZ.format(advice.frequency.theory.two_packets, _DIGITS)
+            name = advice.limits.decoder
+            lines.append(f"  below {packets} no two packets fit, which the {name} decoder needs;")
     if white is not None and math.isfinite(white):
         exposure = SECOND.format(white, _DIGITS)
         lines.append(f"  from an exposure of {exposure} what is lit throughout is white.")

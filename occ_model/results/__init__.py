@@ -18,7 +18,7 @@ from occ_model.results.effect_costs import (
 )
 from occ_model.results.frame import Frame
 from occ_model.results.lamp import Lamp
-from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
+from occ_model.results.limits import Limits, RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.match import Alternative, ChipReading, Comparison, Match, Stripes
 from occ_model.results.most_bits import MostBits
 from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
@@ -70,6 +70,7 @@ __all__ = [
     "RangeEnd",
     "RateSettings",
     "RateWindow",
+    "ReadInterval",
     "Region",
     "RunHistogram",
     "Runs",

@@ -1,7 +1,9 @@
-"""The working range of a decoder: the limits between which it reads a scene."""
+"""The working range of a decoder: the intervals of a parameter in which it reads a scene."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
+from occ_model.results.bit_errors import FRAMES_A_SECOND, bits_a_second
 from occ_model.scene.scene import Scene
 
 
@@ -16,9 +18,11 @@ class Trial:
     right, sent
         Bits read rightly, and bits sent.
     low, high
-        Wilson's 95 % interval of the success rate, percent.
+        The 95 % interval of the success rate, percent, which counts images.
     images
-        Images that were read: fewer than asked for where the rate could not be reached any more.
+        Images that were tried: fewer than asked for where the rate could not be reached any more.
+    whole
+        Images of which every bit was read.
     """
 
     value: float
@@ -27,6 +31,7 @@ class Trial:
     low: float
     high: float
     images: int
+    whole: int
 
     @property
     def rate(self) -> float:
@@ -36,7 +41,9 @@ class Trial:
 
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
-    """One end of a working range.
+    """One end of an interval in which a decoder reads.
+
+    Its images have not chosen it: those that did are others.
 
     Parameters
     ----------
@@ -46,7 +53,7 @@ class RangeEnd:
         The first value beyond, at which it does not; None where it reads to the end of the search.
     inside
         A value a little further inside at which every bit of all images was read; None where there
-        is none near.
+        is none near, or it was not looked for.
     """
 
     works: Trial
@@ -59,14 +66,22 @@ class RangeEnd:
         return self.works.value
 
     @property
-    def width(self) -> float:
-        """Distance to the value beyond: the true end lies in between. 0 where there is none."""
+    def error(self) -> float:
+        """How far beyond the value the true end may lie, in SI units; 0 where the search ended."""
         return abs(self.fails.value - self.works.value) if self.fails else 0.0
 
 
 @dataclass(frozen=True, slots=True)
+class ReadInterval:
+    """Values of a parameter, from a lowest to a highest, at which a decoder reads."""
+
+    lowest: RangeEnd
+    highest: RangeEnd
+
+
+@dataclass(frozen=True, slots=True)
 class WorkingRange:
-    """The values of a parameter between which a decoder reads a scene, all others as they are.
+    """The values of a parameter at which a decoder reads a scene, all others as they are.
 
     Parameters
     ----------
@@ -74,9 +89,13 @@ class WorkingRange:
         Its name.
     searched
         The lowest and the highest value tried.
-    lowest, highest
-        The ends of the interval in which the decoder reads: the one that contains the scene's own
-        value, or is nearest to it. None where it reads nowhere.
+    step
+        Ratio of neighbouring values of the search: a gap or an interval narrower than that can be
+        missed.
+    own
+        All images at the scene's own value.
+    intervals
+        Where the decoder reads, rising; between them are gaps. Empty where it reads nowhere.
     failure
         None, or a sentence that says that it reads nowhere.
     best
@@ -85,10 +104,26 @@ class WorkingRange:
 
     parameter: str
     searched: tuple[float, float]
-    lowest: RangeEnd | None
-    highest: RangeEnd | None
+    step: float
+    own: Trial
+    intervals: tuple[ReadInterval, ...]
     failure: str | None = None
     best: Trial | None = None
+
+    @property
+    def lowest(self) -> RangeEnd | None:
+        """The lowest end of all; None where it reads nowhere."""
+        return self.intervals[0].lowest if self.intervals else None
+
+    @property
+    def highest(self) -> RangeEnd | None:
+        """The highest end of all, beyond any gaps; None where it reads nowhere."""
+        return self.intervals[-1].highest if self.intervals else None
+
+    @property
+    def gaps(self) -> tuple[tuple[RangeEnd, RangeEnd], ...]:
+        """For each gap the end before it and the end after it."""
+        return tuple((one.highest, other.lowest) for one, other in pairwise(self.intervals))
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +149,16 @@ class Limits:
     seed: int
     frequency: WorkingRange
     exposure: WorkingRange
+
+    def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
+        """Return the net bits a second at the scene's own frequency and exposure.
+
+        Each picture shows another payload, and counts where all its bits are read: repeats of a
+        payload within a picture count once.
+        """
+        own, camera = self.frequency.own, self.scene.camera
+        bits, readout_time = own.sent // own.images, camera.columns * camera.readout_time
+        return bits_a_second(own.whole / own.images, bits, frames_a_second, readout_time)
 
     @property
     def highest_frequency(self) -> float | None:

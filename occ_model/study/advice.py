@@ -17,7 +17,7 @@ def advice_of(limits: Limits) -> Advice:
     scene = limits.scene
     return Advice(
         limits,
-        RangeFacts(limits.frequency, _ends(limits.frequency), _frequencies(scene)),
+        RangeFacts(limits.frequency, _ends(limits.frequency), _frequencies(scene, limits.decoder)),
         RangeFacts(limits.exposure, _ends(limits.exposure), _exposures(scene)),
     )
 
@@ -34,11 +34,15 @@ def _ends(found: WorkingRange) -> tuple[EndFacts, ...]:
     )
 
 
-def _frequencies(scene: Scene) -> TheoryLimits:
+_TWO_HEADERS = ("threshold", "equalizer")
+"""The decoders whose last step looks for two headers; others read a single packet."""
+
+
+def _frequencies(scene: Scene, decoder: str) -> TheoryLimits:
     return TheoryLimits(
         band_model=theory.band_model_frequency(scene),
         null=theory.null_frequency(scene),
-        two_packets=theory.two_packets_frequency(scene),
+        two_packets=theory.two_packets_frequency(scene) if decoder in _TWO_HEADERS else None,
     )
 
 

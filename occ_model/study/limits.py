@@ -1,17 +1,19 @@
-"""The limits between which a decoder reads a scene: of switching frequency and exposure time.
+"""The limits between which decoders read a scene: of switching frequency and exposure time.
 
 Each is searched by itself, see :mod:`occ_model.study.working_range`, and does not depend on the
 other: two processes find the same answer in half of the time.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import wait
+from contextlib import ExitStack, suppress
 from functools import partial
 from numbers import Real
+from typing import TypeAlias
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
-from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results import Limits, RateSettings, SignalPath, WorkingRange
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.scene.argument_checks import check_count
@@ -38,8 +40,10 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> Limits:
     """Find the switching frequencies and the exposure times at which a decoder reads a scene.
 
-    Each answer is the interval that holds the scene's own value, or else the nearest by ratio. Its
-    ends are found by bisection; a gap narrower than a step of ``STEP`` can be missed.
+    Each answer is a list of intervals: success need not fall steadily, and beyond a null stripes
+    come back. A gap narrower than a step of ``STEP`` can be missed. The outermost ends and those of
+    the scene's own interval are found by bisection, and each end is confirmed by images that have
+    not chosen it.
 
     Parameters
     ----------
@@ -71,24 +75,73 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     ProjectionError
         The scene has no picture.
     """
+    (found,) = limits_of(
+        scene, (decoder,), rate=rate, images=images, seed=seed, tolerance=tolerance, force=force,
+        path=path, jobs=jobs, heartbeat=heartbeat, progress=progress,
+    )  # fmt: skip
+    return found
+
+
+def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
+    scene: Scene,
+    decoders: Sequence[str] = tuple(DECODERS),
+    *,
+    rate: float = 99.0,
+    images: int = 20,
+    seed: int = 1,
+    tolerance: float = TOLERANCE.default,
+    force: Mapping[str, bool] | None = None,
+    path: SignalPath = "auto",
+    jobs: int = 1,
+    heartbeat: Heartbeat = lambda: None,
+    progress: Callable[[float, str], object] = lambda _share, _what: None,
+    found: Callable[[Limits], object] = lambda _limits: None,
+) -> tuple[Limits, ...]:
+    """Find the limits of several decoders, as :func:`limits` does for each of them.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    decoders
+        Their names, by default all that are built in.
+    rate, images, seed, tolerance, force, path, jobs, heartbeat, progress
+        As for :func:`limits`.
+    found
+        Called with the limits of each decoder as soon as they are known.
+
+    Raises
+    ------
+    ParameterError, ProjectionError
+        As by :func:`limits`.
+    """
     check_scene(scene)
-    settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
-    check_rate(scene, settings)
     wanted = _checked(rate)
     check_count("jobs", jobs, 1, MOST_JOBS)
-    found = None
+    asked = []
+    for decoder in decoders:
+        settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
+        check_rate(scene, settings)
+        asked += [(scene, name, wanted, settings) for name in SEARCHED]
+    ranges: list[WorkingRange] = []
+    answers: list[Limits] = []
+
+    def take(working_range: WorkingRange) -> None:
+        """Take the ranges in the order in which they are asked for."""
+        ranges.append(working_range)
+        if len(ranges) % len(SEARCHED) == 0:
+            decoder = decoders[len(answers)]
+            pair = ranges[-len(SEARCHED) :]
+            answers.append(Limits(scene, decoder, wanted, images, seed, *pair))
+            found(answers[-1])
+
     if jobs > 1:
-        found = _search_apart(scene, wanted, settings, heartbeat, progress)
-    if found is None:
-        found = [
-            working_range(
-                scene, name, wanted, settings, heartbeat, partial(_report, progress, place)
-            )
-            for place, name in enumerate(SEARCHED)
-        ]
-    frequency, exposure = found
+        _search_apart(asked, heartbeat, progress, take)
+    for place in range(len(ranges), len(asked)):
+        report = partial(_report, progress, place, asked)
+        take(working_range(*asked[place], heartbeat, report))
     progress(1.0, "")
-    return Limits(scene, decoder, wanted, images, seed, frequency, exposure)
+    return tuple(answers)
 
 
 SEARCHED = ("switching_frequency", "exposure_time")
@@ -105,35 +158,30 @@ def search_along(
     return working_range(scene, name, rate, settings, heartbeat)
 
 
+_Asked: TypeAlias = tuple[Scene, str, float, RateSettings]
+
+
 def _search_apart(
-    scene: Scene,
-    rate: float,
-    settings: RateSettings,
+    asked: Sequence[_Asked],
     heartbeat: Heartbeat,
     progress: Callable[[float, str], object],
-) -> list[WorkingRange] | None:
-    """Search in a process for each parameter; None where processes cannot be had."""
+    take: Callable[[WorkingRange], object],
+) -> None:
+    """Search in two processes; what they cannot do, as where none can be had, is not taken."""
     from occ_model.parallel.process_pool import ProcessPool
 
     missing: tuple[type[Exception], ...] = (*NO_PROCESSES, *ProcessPool.lost_by)
-    workers = None
-    try:
-        workers = ProcessPool(len(SEARCHED), __name__)
-        futures = []
-        for counter, name in enumerate(SEARCHED):
-            job = Job(search_along, (scene, name, rate, settings), counter)
-            futures.append(workers.submit(job, 0, 1))
-        expected = len(SEARCHED) * expected_images(settings.images)
-        while wait(futures, timeout=_LOOK).not_done:
-            heartbeat()
-            read = sum(workers.counted(counter) for counter in range(len(SEARCHED)))
-            progress(min(read / expected, 0.99), _BOTH)
-        return [_value_of(future.result()) for future in futures]
-    except missing:
-        return None
-    finally:
-        if workers is not None:
-            workers.close()
+    with suppress(*missing), ExitStack() as stack:
+        workers = ProcessPool(2, __name__)
+        stack.callback(workers.close)
+        futures = [workers.submit(Job(search_along, each), 0, 1) for each in asked]
+        expected = len(asked) * expected_images(asked[0][-1].images)
+        for place, future in enumerate(futures):
+            while not future.done():
+                wait([future], timeout=_LOOK)
+                heartbeat()
+                progress(min(workers.counted(0) / expected, 0.99), _what(asked[place]))
+            take(_value_of(future.result()))
 
 
 def _value_of(result: JobResult) -> WorkingRange:
@@ -143,12 +191,15 @@ def _value_of(result: JobResult) -> WorkingRange:
     return found
 
 
-_BOTH = " and ".join(PARAMETERS[name].label.lower() for name in SEARCHED)
+def _what(asked: _Asked) -> str:
+    """Say what is searched."""
+    return f"{PARAMETERS[asked[1]].label.lower()}, {asked[-1].decoders[0]} decoder"
 
 
-def _report(progress: Callable[[float, str], object], place: int, share: float) -> None:
-    label = PARAMETERS[SEARCHED[place]].label.lower()
-    progress((place + share) / len(SEARCHED), label)
+def _report(
+    progress: Callable[[float, str], object], place: int, asked: Sequence[_Asked], share: float
+) -> None:
+    progress((place + share) / len(asked), _what(asked[place]))
 
 
 def _checked(rate: object) -> float:

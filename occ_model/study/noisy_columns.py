@@ -77,22 +77,23 @@ class NoisyColumns:
         The panel's pixels are enhanced, those beside it are not.
         """
         span = self._span
-        beside = self._beside(slice(region.first_column, region.last_column))
-        crossed = max(
-            0, min(region.last_row, span.last_row) - max(region.first_row, span.first_row)
-        )
-        mean, variance = beside[0], beside[1] ** 2 / region.rows
+        crossed = min(region.last_row, span.last_row) - max(region.first_row, span.first_row)
         first = max(region.first_column, span.first_column)
-        last = max(min(region.last_column, span.last_column), first)
-        if crossed and last > first:
-            panel, deviation = self._on_panel(slice(first, last))
-            seen, share = slice(first - region.first_column, last - region.first_column), 1.0
-            if crossed < region.rows:
+        last = min(region.last_column, span.last_column)
+        if crossed == region.rows and last - first == region.columns:
+            mean, deviation = self._on_panel(slice(first, last))
+            variance = deviation**2
+        else:
+            mean, deviation = self._beside(slice(region.first_column, region.last_column))
+            variance = deviation**2
+            if crossed > 0 and last > first:
+                panel, deviation = self._on_panel(slice(first, last))
+                seen = slice(first - region.first_column, last - region.first_column)
                 share = crossed / region.rows
-                panel = share * panel + (1.0 - share) * mean[seen]
-            mean[seen] = panel
-            variance[seen] = share * deviation**2 / region.rows + (1.0 - share) * variance[seen]
-        return np.asarray(mean + np.sqrt(variance) * random.standard_normal(len(mean)))
+                mean[seen] = share * panel + (1.0 - share) * mean[seen]
+                variance[seen] = share * deviation**2 + (1.0 - share) * variance[seen]
+        spread = np.sqrt(variance / region.rows)
+        return np.asarray(mean + spread * random.standard_normal(len(mean)))
 
     def _on_panel(self, columns: slice) -> tuple[FloatArray, FloatArray]:
         """Return mean and standard deviation of the panel's enhanced pixels in some columns."""
@@ -116,7 +117,7 @@ class NoisyColumns:
         levels = values[:1] if np.ptp(values) == 0.0 else values
         plain = Enhancement(levels, "none")
         mean, deviation = plain.moments(*self._distribution(levels))
-        return np.resize(mean, len(values)), np.resize(deviation, len(values))
+        return mean + np.zeros(len(values)), deviation + np.zeros(len(values))
 
     def plain_means(self, span: Region) -> FloatArray:
         """Return the expected means of some columns' pixels before enhancement and rounding.

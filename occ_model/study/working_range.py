@@ -1,32 +1,32 @@
 """Search for the values of one parameter at which a decoder reads a scene.
 
 The parameter is varied by itself, over the range of its slider, widened where the scene's own value
-lies outside. A coarse search tries values in steps of a factor ``STEP``, from that value outwards.
-Success need not fall steadily: at low frequencies too few packets fit the picture, and beyond a
-null the stripes come back. The answer is therefore one interval in which the coarse search saw no
-failure: the one that holds the scene's own value, or else the nearest by ratio. A gap narrower than
-a step can be missed. Each end is then found by bisection, to a factor ``NEAR``.
+lies outside. A coarse search tries values in steps of a factor ``STEP``. Success need not fall
+steadily: at low frequencies too few packets fit the picture, and beyond a null the stripes come
+back. The answer is therefore a list of intervals. A gap narrower than a step can be missed. The
+outermost ends, and those of the interval that holds the scene's own value or is nearest to it, are
+found by bisection to a factor ``NEAR``; other gaps are known to a step of the coarse search.
 
 Images are spent where the rate is in doubt. A value is given up as soon as too many bits are wrong
-for further images to mend, and believed after ``FEW_IMAGES`` that reach the rate; between the two
-it is tried further. The values reported, on both sides of each end, are tried with all images; an
-end that they refute is searched once more with all images at each value. No image of a value is
-simulated twice.
+for further images to mend, and believed after ``FEW_IMAGES`` that reach the rate. Values on both
+sides of an end are then tried with images of another seed, which have not chosen them; an end that
+these refute is moved. No image of a value is simulated twice.
 """
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from itertools import count
 
 import numpy as np
 
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import RangeEnd, RateSettings, SweepPoint, Trial, WorkingRange
+from occ_model.results import RangeEnd, RateSettings, ReadInterval, Trial, WorkingRange
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
+from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
-from occ_model.study.sweep.counts import rate_intervals
 
 STEP = 1.15
 """Ratio of neighbouring values in the first, coarse search."""
@@ -40,7 +40,7 @@ MARGIN = 1.01
 MOST_MARGINS = 5
 """How often that step is made until a value is found at which every bit is read."""
 
-FEW_IMAGES = 3
+FEW_IMAGES = 5
 """Images after which a value is believed to be read, until it is reported."""
 
 
@@ -52,7 +52,7 @@ def working_range(
     heartbeat: Heartbeat = lambda: None,
     progress: Callable[[float], object] = lambda _share: None,
 ) -> WorkingRange:
-    """Find the interval of values of a parameter at which a decoder reads a scene.
+    """Find the intervals of values of a parameter at which a decoder reads a scene.
 
     Parameters
     ----------
@@ -79,8 +79,8 @@ def working_range(
 
 def expected_images(images: int) -> int:
     """Return how many images a search usually reads, from which its progress is estimated."""
-    coarse = 15 * FEW_IMAGES + 10
-    ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(NEAR))) * 2 + 5 * images
+    coarse = 25 * FEW_IMAGES + 15 + images
+    ends = 2 * math.ceil(math.log2(math.log(STEP) / math.log(NEAR))) * FEW_IMAGES + 8 * images
     return coarse + ends
 
 
@@ -126,54 +126,61 @@ class _Search:
         low, high = parameter.slider
         self._low, self._high = min(low, self._own), max(high, self._own)
         self._values = self._coarse_values()
-        self._images: dict[float, _Images] = {}
-        self._coarse: dict[int, Trial] = {}
+        self._fresh = replace(settings, seed=_other_seed(settings.seed))
+        self._images: dict[tuple[float, int], _Images] = {}
+        self._refuted: set[int] = set()
         self._spent = 0
 
     def working_range(self) -> WorkingRange:
-        """Find the interval of values."""
+        """Find the intervals of values."""
         values = self._values
         searched = (values[0], values[-1])
-        while (interval := self._interval()) is not None:
-            for place in interval:
-                self._coarse[place] = self._sure(self._coarse[place])
-            if all(self._reads(self._coarse[place]) for place in interval):
+        own = self._whole(self._own, self._settings)
+        while True:
+            runs = self._runs()
+            intervals = [self._interval(run, runs) for run in runs]
+            found = tuple(interval for interval in intervals if interval is not None)
+            if len(found) == len(runs):
                 break
-        if interval is None:
-            best = self._whole(max(self._trials_in_order(), key=lambda trial: trial.rate))
-            self._progress(1.0)
-            failure = self._nowhere(searched, best)
-            return WorkingRange(self._name, searched, None, None, failure, best)
-        first, last = interval
-        below = self._trial(first - 1) if first > 0 else None
-        above = self._trial(last + 1) if last < len(values) - 1 else None
-        lowest = self._range_end(self._coarse[first], below)
-        highest = self._range_end(self._coarse[last], above)
         self._progress(1.0)
-        return WorkingRange(self._name, searched, lowest, highest)
+        if found:
+            return WorkingRange(self._name, searched, STEP, own, found)
+        best = max((self._try(value) for value in values), key=lambda trial: trial.rate)
+        best = self._whole(best.value, self._settings)
+        failure = self._nowhere(searched, best)
+        return WorkingRange(self._name, searched, STEP, own, (), failure, best)
 
-    def _trials_in_order(self) -> list[Trial]:
-        return [self._trial(place) for place in range(len(self._values))]
+    def _runs(self) -> list[tuple[int, int]]:
+        """Return the first and the last coarse value of each interval, by their places."""
+        runs: list[tuple[int, int]] = []
+        for place, value in enumerate(self._values):
+            if place in self._refuted or not self._reads(self._try(value)):
+                continue
+            if runs and runs[-1][1] == place - 1:
+                runs[-1] = (runs[-1][0], place)
+            else:
+                runs.append((place, place))
+        return runs
 
-    def _trial(self, place: int) -> Trial:
-        """Try a value of the coarse search, once."""
-        if place not in self._coarse:
-            self._coarse[place] = self._try(self._values[place])
-        return self._coarse[place]
-
-    def _interval(self) -> tuple[int, int] | None:
-        """Return the first and the last value of the interval that is read, by their places."""
-        places = range(len(self._values))
-        outwards = sorted(places, key=lambda at: abs(math.log(self._values[at] / self._own)))
-        nearest = next((at for at in outwards if self._reads(self._trial(at))), None)
-        if nearest is None:
+    def _interval(self, run: tuple[int, int], runs: list[tuple[int, int]]) -> ReadInterval | None:
+        """Return an interval; None where an end of it is refuted, which is noted."""
+        first, last = run
+        is_own = run == min(runs, key=self._away)
+        lowest = self._end(first, first - 1, is_own or run == runs[0])
+        highest = self._end(last, last + 1, is_own or run == runs[-1])
+        if lowest is None or highest is None:
             return None
-        first = last = nearest
-        while first > 0 and self._reads(self._trial(first - 1)):
-            first -= 1
-        while last < len(places) - 1 and self._reads(self._trial(last + 1)):
-            last += 1
-        return first, last
+        return ReadInterval(*(
+            replace(end, inside=None)
+            if end.inside and not lowest.value <= end.inside.value <= highest.value
+            else end
+            for end in (lowest, highest)
+        ))  # fmt: skip
+
+    def _away(self, run: tuple[int, int]) -> float:
+        """Return how far an interval is from the scene's own value, as a logarithm."""
+        low, high = (math.log(self._values[place] / self._own) for place in run)
+        return max(low, -high, 0.0)
 
     def _coarse_values(self) -> list[float]:
         """Give values in even ratios from the scene's own to both ends."""
@@ -188,74 +195,116 @@ class _Search:
         # Few digits, so that a value that is reported can be typed in again.
         return [*(float(f"{value:.5g}") for value in between.tolist()), end]
 
-    def _range_end(self, works: Trial, fails: Trial | None) -> RangeEnd:
+    def _end(self, place: int, beyond: int, is_wanted: bool) -> RangeEnd | None:
+        """Find an end of an interval; None where its last coarse value is refuted.
+
+        Parameters
+        ----------
+        place, beyond
+            The last coarse value that is read, and the first that is not, which may lie outside
+            the search.
+        is_wanted
+            Whether it is found by bisection.
+        """
+        works = first = self._values[place]
+        fails = outer = self._values[beyond] if 0 <= beyond < len(self._values) else None
+        if fails is not None and is_wanted:
+            works, fails = self._bisected(works, fails)
+        confirmed = self._confirmed(works, first)
+        if confirmed is None:
+            self._refuted.add(place)
+            return None
+        trial, failing = confirmed
+        if fails is not None and outer is not None and failing is None:
+            failing = self._failing(fails, outer)
+        inside = self._inside(trial, place - beyond if failing else 0) if is_wanted else None
+        return RangeEnd(trial, failing, inside)
+
+    def _bisected(self, works: float, fails: float) -> tuple[float, float]:
         """Bisect, by ratio, between a value that surely works and one that fails."""
-        believed, enough = works, FEW_IMAGES
-        while fails is not None:
-            middle = float(f"{math.sqrt(believed.value * fails.value):.5g}")
-            values = believed.value, fails.value
-            if max(values) / min(values) > NEAR and middle not in values:
-                trial = self._try(middle, enough)
-                believed, fails = (trial, fails) if self._reads(trial) else (believed, trial)
-                continue
-            believed = self._sure(believed)
-            if self._reads(believed):
-                break
+        first, enough = works, FEW_IMAGES
+        while True:
+            while max(works, fails) / min(works, fails) > NEAR:
+                middle = float(f"{math.sqrt(works * fails):.5g}")
+                if middle in (works, fails):
+                    break
+                reads = self._reads(self._try(middle, enough))
+                works, fails = (middle, fails) if reads else (works, middle)
+            if works == first or self._reads(self._try(works, self._settings.images)):
+                return works, fails
             # Few images mislead here: the rate falls slowly. Between sure values again, with all.
-            believed, fails, enough = works, believed, self._settings.images
-        works = believed
-        if fails is None:
-            return RangeEnd(works, None, self._inside(works, 0))
-        fails = self._whole(fails)
-        return RangeEnd(works, fails, self._inside(works, 1 if fails.value < works.value else -1))
+            works, fails, enough = first, works, self._settings.images
+
+    def _confirmed(self, works: float, inner: float) -> tuple[Trial, Trial | None] | None:
+        """Return the nearest value at which other images are read too, and the last refuted one."""
+        refuted, step = None, NEAR
+        while True:
+            trial = self._try(works, self._settings.images, self._fresh)
+            if self._reads(trial):
+                return trial, refuted and self._whole(refuted.value, self._fresh)
+            if works == inner:
+                return None
+            refuted = trial
+            works, step = _moved(works, inner, step), step * step
+
+    def _failing(self, fails: float, outer: float) -> Trial:
+        """Return the nearest value beyond an end that other images show to fail, too."""
+        step = NEAR
+        while True:
+            trial = self._whole(fails, self._fresh)
+            if not self._reads(trial):
+                return trial
+            if fails == outer:  # as likely to fail as not: by the images that chose it, it does
+                return self._whole(fails, self._settings)
+            fails, step = _moved(fails, outer, step), step * step
 
     def _inside(self, works: Trial, direction: int) -> Trial | None:
         """Find a value at which every bit of all images is read, in small steps from an end."""
-        value = works.value
+        value, images = works.value, self._settings.images
         for _ in range(MOST_MARGINS):
             value = float(f"{value * MARGIN**direction:.4g}")
-            trial = self._sure(works if value == works.value else self._try(value))
-            if trial.right == trial.sent and trial.images == self._settings.images:
+            if not self._low <= value <= self._high:
+                return None
+            trial = self._try(value, images, self._fresh)
+            if trial.right == trial.sent and trial.images == images:
                 return trial
             direction = direction or (1 if value <= self._low else -1)
         return None
 
-    def _sure(self, trial: Trial) -> Trial:
-        """Return a trial of all images, or of as many as make it sure that it fails."""
-        return self._try(trial.value, self._settings.images) if self._reads(trial) else trial
-
-    def _whole(self, trial: Trial) -> Trial:
+    def _whole(self, value: float, settings: RateSettings) -> Trial:
         """Return a trial of all images.
 
         A count that was ended by its own result would not have the interval that is stated.
         """
-        counts = list(self._images_at(trial.value))
-        return self._trial_of(trial.value, sum(counts), len(counts))
+        return self._trial_of(value, list(self._images_at(value, settings)))
 
-    def _try(self, value: float, enough: int = FEW_IMAGES) -> Trial:
+    def _try(
+        self, value: float, enough: int = FEW_IMAGES, settings: RateSettings | None = None
+    ) -> Trial:
         """Count right bits until the rate cannot be reached, or is reached by enough images."""
         images, bits = self._settings.images, self._scene.transmitter.payload_length
-        right = read = 0
-        for read, count_of_image in enumerate(self._images_at(value), 1):
-            right += count_of_image
-            most = right + (images - read) * bits
-            if 100.0 * most < self._rate * images * bits:
+        counts: list[int] = []
+        for right in self._images_at(value, settings or self._settings):
+            counts.append(right)
+            read, all_right = len(counts), sum(counts)
+            if 100.0 * (all_right + (images - read) * bits) < self._rate * images * bits:
                 break
-            if read >= enough and 100.0 * right >= self._rate * read * bits:
+            if read >= enough and 100.0 * all_right >= self._rate * read * bits:
                 break
-        return self._trial_of(value, right, read)
+        return self._trial_of(value, counts)
 
-    def _trial_of(self, value: float, right: int, images: int) -> Trial:
-        sent = images * self._scene.transmitter.payload_length
-        ((low, high),) = rate_intervals(SweepPoint(0, sent, (right,)))
-        return Trial(value, right, sent, low, high, images)
+    def _trial_of(self, value: float, counts: list[int]) -> Trial:
+        bits = self._scene.transmitter.payload_length
+        right, sent = sum(counts), len(counts) * bits
+        low, high = interval_of_pictures(right, sent, len(counts))
+        return Trial(value, right, sent, low, high, len(counts), counts.count(bits))
 
-    def _images_at(self, value: float) -> _Images:
-        if value not in self._images:
+    def _images_at(self, value: float, settings: RateSettings) -> _Images:
+        key = value, settings.seed
+        if key not in self._images:
             scene = self._scene.replace(**{self._name: value})
-            counts = right_bits_of_images(scene, self._settings, self._on_image)
-            self._images[value] = _Images(counts)
-        return self._images[value]
+            self._images[key] = _Images(right_bits_of_images(scene, settings, self._on_image))
+        return self._images[key]
 
     def _on_image(self) -> None:
         self._heartbeat()
@@ -272,3 +321,15 @@ class _Search:
             f"{self._parameter.label.lower()} from {write(searched[0])} to {write(searched[1])}; "
             f"the most it reads is {best.right} of {best.sent} bits, at {write(best.value)}."
         )
+
+
+def _moved(value: float, end: float, ratio: float) -> float:
+    """Move a value towards an end by a ratio, and no further than the end."""
+    moved = value * ratio if end > value else value / ratio
+    moved = float(f"{moved:.5g}")
+    return end if (moved - end) * (value - end) <= 0.0 else moved
+
+
+def _other_seed(seed: int) -> int:
+    """Return the seed of images that have nothing in common with those of a seed."""
+    return int(np.random.SeedSequence([seed, 1]).generate_state(1)[0])

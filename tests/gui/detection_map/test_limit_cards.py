@@ -28,7 +28,8 @@ def cards(qtbot: QtBot) -> LimitCards:
 def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
     """Give advice with this upper end of the frequencies."""
     limits = advice_on(scene).limits
-    found = replace(limits.frequency, highest=end, lowest=end and limits.frequency.lowest)
+    (interval,) = limits.frequency.intervals
+    found = replace(limits.frequency, intervals=(replace(interval, highest=end),) if end else ())
     return advice_of(replace(limits, frequency=found))
 
 
@@ -42,8 +43,10 @@ def test_a_card_states_what_the_page_of_advice_states(
     cards.show_advice(advice)
     card = cards.cards["threshold"]
     assert card.value.text() == "14.7 kHz (99 %)"
-    (sentence,) = [text for text in view.sentences() if "14.7 kHz" in text]
-    assert card.value.toolTip() == sentence
+    (sentence,) = [text for text in view.sentences() if text.startswith("The highest frequency")]
+    (bits,) = [text for text in view.sentences() if "bits a second" in text]
+    assert card.value.toolTip() == f"{sentence}\n{bits}"
+    assert card.range.toolTip() == "from 14.7 kHz"
     assert cards.cards["matched"].value.text() == ""
 
 

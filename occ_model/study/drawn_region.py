@@ -91,8 +91,8 @@ class BrightShares:
             In and beside the marked cells further pixels count.
         """
         span = self.span
-        top, bottom = _marked_ends(marked.any(axis=1), self.rows)
-        left, right = _marked_ends(marked.any(axis=0), len(self.around))
+        top, bottom = _marked_ends(np.any(marked, axis=1), self.rows)
+        left, right = _marked_ends(np.any(marked, axis=0), len(self.around))
         rows, seen = bottom.beyond - top.beyond, slice(left.beyond, right.beyond)
         dark_crossed = np.log1p(-np.minimum(self._crossed()[seen], _SURE))
         dark_around = np.log1p(-np.minimum(self.around[seen], _SURE))

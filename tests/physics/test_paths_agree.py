@@ -28,7 +28,7 @@ def test_both_paths_give_the_same_rates() -> None:
     assert probability > 0.01
     for pair in pairs:
         if not pair.is_in_doubt:
-            assert abs(pair.profile.mean() - pair.image.mean()) <= 0.1, pair
+            assert abs(pair.study.mean() - pair.image.mean()) <= 0.1, pair
 
 
 @pytest.mark.parametrize(

@@ -379,6 +379,7 @@ def test_no_text_of_an_exported_figure_is_cut_off_however_the_photo_is_shown(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     cut: dict[str, list[str]] = {}
+    mode = ""
     monkeypatch.setattr(
         drawing, "fit_texts", lambda figure: cut.setdefault(mode, []).extend(cut_off(figure))
     )

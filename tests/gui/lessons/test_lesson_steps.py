@@ -194,7 +194,9 @@ def test_the_answers_field_stays_where_it_is_whatever_the_check_says(qtbot: QtBo
         if sentence:
             given.show_checked(CheckedAnswer("40", "wrong", sentence))
         qtbot.waitUntil(lambda: given.sentence.isVisible() == bool(sentence))  # noqa: B023
-        page.layout().activate()
+        layout = page.layout()
+        assert layout is not None
+        layout.activate()
         qtbot.wait(1)
         places.append(given.field.mapTo(page, QPoint()))
         assert page.question.mapTo(page, QPoint()).y() >= 0

@@ -39,7 +39,7 @@ def match_of(scene: Scene, *reasons: str) -> Match:
 
 
 def trial(frequency: float, right: int) -> Trial:
-    return Trial(frequency, right, 100, float(right), float(right), 10)
+    return Trial(frequency, right, 100, float(right), float(right), 10, right // 10)
 
 
 @THEMES

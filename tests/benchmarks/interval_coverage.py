@@ -1,6 +1,6 @@
 """Print how many of the studies' 95 % intervals hold the true rate, at ten edges of working ranges.
 
-python tests/benchmarks/coverage.py --studies 40 --images 20
+python tests/benchmarks/interval_coverage.py --studies 40 --images 20
 
 Each study reads pictures of its own; the true rate is that of as many others as there are in all
 studies of an edge, twice.

@@ -15,6 +15,8 @@ from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.app.welcome import Welcome
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
@@ -33,7 +35,6 @@ from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
@@ -68,8 +69,9 @@ class Application(QObject):
         preferences: QSettings | None = None,
     ) -> None:
         super().__init__()
-        self.settings = SettingsStore(settings, {e.name: e.label for e in EFFECTS})
-        self.store = SceneStore(scene, self.settings)
+        workspace = Store(Workspace(scene, settings))
+        self.store = SceneStore(workspace, {e.name: e.label for e in EFFECTS})
+        self.settings = self.store.settings
         self.editor = SceneEditor(self.store)
         self.preferences = Preferences(preferences)
         # Simulates the first picture while the panes are created.
@@ -108,7 +110,7 @@ class Application(QObject):
         readers = (self.image, comparison, self.profile, self.decode, self.story)
         self.simulation.show_in([self.image, self.learning, self.accuracy], readers)
         self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
-        self.frame_rate = FrameRate()
+        self.frame_rate = FrameRate(workspace)
         self.detection_map = DetectionMapWiring(
             self.store, self.settings, self.detection, self.slider_strips, self.frame_rate
         )

@@ -270,7 +270,7 @@ def start(
     from occ_gui.app.application import Application
     from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector
-    from occ_gui.scene.settings_store import FIRST_SETTINGS
+    from occ_gui.core.workspace import FIRST_SETTINGS
     from occ_gui.widgets.icons import PROGRAM
     from occ_gui.window.theme import show_theme
 

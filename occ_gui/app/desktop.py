@@ -11,6 +11,7 @@ from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.learning_panes import LearningPanes
 from occ_gui.app.video_pane import VideoPane
+from occ_gui.core.workspace import Step
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.export.animation import AnimationExport
@@ -232,7 +233,7 @@ class Desktop(QObject):
             film=parts.video.path,
             preset=parts.presets.base_of(own.scene),
             pins=parts.learning.pins.kept,
-            history=parts.store.history((own.scene, own.settings.force)),
+            history=parts.store.store.history(Step(own.scene, dict(own.settings.force))),
         )
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:

@@ -116,7 +116,7 @@ class LearningPanes(QObject):
         self._snapshot: Snapshot | None = None
         self._brought = ""
         """The pane that a step has opened; empty for none."""
-        self.before = BeforeController(scenes, [profile, image.before])
+        self.before = BeforeController(scenes.store, [profile, image.before])
         self.pins = PinController(scenes, self, self._is_present)
         self._add_docks()
         self._connect_menus()

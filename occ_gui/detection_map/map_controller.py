@@ -10,11 +10,11 @@ from PySide6.QtCore import QObject
 
 from occ_gui.background.result_age import ResultAges
 from occ_gui.background.signals import JobChannel
+from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
 from occ_gui.detection_map.worker import left_out
 from occ_gui.scene.frame_rate import FrameRate
-from occ_gui.scene.gesture import NO_GESTURE
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.arrays import FloatArray
@@ -121,7 +121,7 @@ class DetectionMapController(QObject):
     pane
         Shows the map; nothing is measured before :meth:`set_seen`.
     frame_rate
-        The pictures a second; by default a store of its own.
+        The pictures a second.
     """
 
     def __init__(
@@ -130,12 +130,12 @@ class DetectionMapController(QObject):
         settings: SettingsStore,
         channel: JobChannel,
         pane: MapPane,
-        frame_rate: FrameRate | None = None,
+        frame_rate: FrameRate,
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
         self._channel, self._pane = channel, pane
-        self._frame_rate = frame_rate or FrameRate()
+        self._frame_rate = frame_rate
         self._frame_rate.changed.connect(self._show_bits)
         self._frame_rate.shown_changed.connect(self._show_bits)
         self._axes = FIRST_AXES

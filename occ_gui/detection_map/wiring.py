@@ -44,7 +44,7 @@ class DetectionMapWiring(QObject):
     strips
         Show success rates along the sliders.
     frame_rate
-        The pictures a second; by default a store of its own.
+        The pictures a second.
     """
 
     def __init__(
@@ -53,13 +53,13 @@ class DetectionMapWiring(QObject):
         settings: SettingsStore,
         pane: MapView,
         strips: SliderStrips,
-        frame_rate: FrameRate | None = None,
+        frame_rate: FrameRate,
     ) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
         self.queue = WorkQueue(5, lambda: new_workers())
         for_map, for_strips, for_advice, self.for_bench, for_most = self.queue.channels
-        self.frame_rate = frame_rate or FrameRate()
+        self.frame_rate = frame_rate
         self.map = DetectionMapController(scenes, settings, for_map, pane, self.frame_rate)
         self.slider_strips = SliderStripController(
             scenes, settings, for_strips, strips, strips.strips

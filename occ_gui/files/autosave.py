@@ -92,7 +92,7 @@ class Autosave(QObject):
         left_force = force if left.settings is None else left.settings.force
         self._store.put(crashed, self.tr("restoring of the last session"), force=left_force)
         if left.history is not None and (scene_wins or crashed == asked):
-            self._store.resume(left.history)
+            self._store.store.resume(left.history)
         if scene_wins and crashed != asked:
             self._store.put(asked, self.tr("opening of what was asked for"), force=force)
             message = self.tr(

@@ -5,9 +5,10 @@ import re
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
+from occ_gui.core.store import MOST_STEPS
 from occ_gui.photo.match_controller import MatchController
 from occ_gui.scene.gesture import new_gesture
-from occ_gui.scene.scene_store import MOST_STEPS, SceneStore
+from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.scene.parameters import PARAMETERS

@@ -9,8 +9,9 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+from occ_gui.core.step_history import History, StepChange
+from occ_gui.core.workspace import Step
 from occ_gui.files.preferences import text_of
-from occ_gui.scene.step_history import History, StepChange
 from occ_gui.simulation.snapshot import Pins, SimulationRequest
 from occ_model.results import Region
 from occ_model.scene.argument_checks import check_seed
@@ -111,10 +112,10 @@ def _history_record(history: History) -> dict[str, Any] | None:
         first += 1
     if first > history.done:
         return None
-    scene, force = [*history.states()][first] if first else (history.scene, history.force)
+    state = [*history.states()][first] if first else history.first
     return {
-        "scene": scene.to_toml(),
-        "force": dict(force),
+        "scene": state.scene.to_toml(),
+        "force": state.force,
         "steps": steps[first:],
         "done": history.done - first,
     }
@@ -163,8 +164,8 @@ def _history(values: Any) -> History | None:
             StepChange(str(title), dict(changed), _force(force))
             for title, changed, force in values["steps"]
         )
-        scene, force = Scene.from_toml(values["scene"]), _force(values["force"])
-        history = History(scene, force, steps, int(values["done"]))
+        first = Step(Scene.from_toml(values["scene"]), _force(values["force"]))
+        history = History(first, steps, int(values["done"]))
         states = [*history.states()]
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session_record import UserState
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
@@ -15,7 +16,6 @@ from occ_gui.photo.kept_photo import KeptPhoto
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.widgets.plain_text import LONGEST
 from occ_gui.widgets.plot import PACKETS_IN_VIEW
 from occ_model.errors import OccError, one_line

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Protocol
 
 from PySide6.QtCore import QObject
-from shiboken6 import isValid
 
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
@@ -19,29 +19,18 @@ class BeforePane(Protocol):
 
 
 class BeforeController(QObject):
-    """Detects the beginning of each step of the scene, and shows the results before it.
+    """Keeps the results from before each step of the scene, and shows them.
 
     A step is what one undo takes back, such as a whole drag of a slider; an undo is a step too.
-
-    Parameters
-    ----------
-    scenes
-        The scene and its undo steps.
-    panes
-        The panes that show the results before the step.
     """
 
-    def __init__(self, scenes: SceneStore, panes: Sequence[BeforePane]) -> None:
+    def __init__(self, store: Store, panes: Sequence[BeforePane]) -> None:
         super().__init__()
-        self._stack = scenes.undo_stack
         self._panes = panes
-        self._scene = self._previous = scenes.scene
         self._wanted: Scene | None = None
         self._shown: Snapshot | None = None
         self.before: Snapshot | None = None
-        self._top, self._count = self._stack.command(self._stack.index() - 1), self._stack.count()
-        scenes.changed.connect(self._follow_scene)
-        self._stack.indexChanged.connect(self._begin_step)
+        store.step_begun.connect(self._begin_step)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Keep the results that are shown now."""
@@ -53,21 +42,10 @@ class BeforeController(QObject):
                 self._show(snapshot)
             self._wanted = None
 
-    def _follow_scene(self, scene: Scene) -> None:
-        self._previous, self._scene = self._scene, scene
-
-    def _begin_step(self) -> None:
-        """Begin a step, unless the change was merged into the current one."""
-        if not isValid(self._stack):
-            return  # a stack that is deleted is cleared first, and emits its signal
-        top, count = self._stack.command(self._stack.index() - 1), self._stack.count()
-        # A gesture that returns to its first scene removes its step, but continues.
-        continues = top is self._top or count < self._count
-        self._top, self._count = top, count
-        if not continues:
-            self._wanted = self._previous
-            if self._shown is not None:
-                self._show(self._shown)
+    def _begin_step(self, left: Workspace) -> None:
+        self._wanted = left.scene
+        if self._shown is not None:
+            self._show(self._shown)
 
     def _show(self, snapshot: Snapshot) -> None:
         self.before = snapshot

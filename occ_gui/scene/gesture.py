@@ -4,8 +4,7 @@ from itertools import count
 
 from PySide6.QtCore import QElapsedTimer
 
-NO_GESTURE = -1
-"""The number of a change that is a step of its own."""
+from occ_gui.core.store import NO_GESTURE
 
 _PAUSE_MS = 700
 """A longer pause between two changes of a control ends a gesture."""

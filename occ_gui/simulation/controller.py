@@ -26,8 +26,9 @@ from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from occ_gui.background.latest_wins import LatestWins
 from occ_gui.background.result_age import ResultAges
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.draft_rows import DraftRows
 from occ_gui.simulation.jobs import (
     draft_of,

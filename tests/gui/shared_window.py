@@ -30,11 +30,11 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.picture.photo_overlay import MODES as OVERLAYS
 from occ_gui.picture.placement import Placement
-from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.window.modes.mode import MODES
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene

@@ -18,11 +18,12 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.app.story_wiring import story_menu
+from occ_gui.core.store import NO_GESTURE
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.picture.photo_overlay import MODES
-from occ_gui.scene.gesture import NO_GESTURE, new_gesture
-from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.scene.gesture import new_gesture
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.wiring import VideoWiring

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QTabWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.scene.settings_store import FIRST_SETTINGS
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.window.modes.mode import MODES
 from occ_model.scene.scene import Scene
 

@@ -8,6 +8,7 @@ from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
+from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -16,8 +17,7 @@ from occ_gui.accuracy import cost_measurement
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
 from occ_gui.background.cancellable import Cancelled
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import FIRST_SETTINGS, SettingsStore
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import SimulationRequest
 from occ_model.results import ACCURACY_PARTS, AccuracyPoint, Forecast, MeasuredCosts, TimeShares
@@ -66,7 +66,8 @@ class Bench:
         self._qtbot = qtbot
         self._allowed = threading.Semaphore(0)
         self.measured: list[SimulationRequest] = []
-        self.scenes, self.settings = SceneStore(scene), SettingsStore()
+        self.scenes = store_of(scene)
+        self.settings = self.scenes.settings
         self.simulation = SimulationController(self.scenes, self.settings)
         self.pane = RecordingPane()
         self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtCore import QPoint, QPointF, Qt
@@ -226,7 +227,7 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
 
 @pytest.fixture
 def held(qtbot: QtBot) -> tuple[SceneStore, SceneEditor, list[str]]:
-    store = SceneStore(Scene().replace(exposure_time=100e-6, iso=200.0))
+    store = store_of(Scene().replace(exposure_time=100e-6, iso=200.0))
     editor = SceneEditor(store)
     messages: list[str] = []
     editor.brightness.status_message.connect(messages.append)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from gui.stores import store_of
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -23,7 +24,6 @@ from occ_gui.bench.bench_table import cell_text
 from occ_gui.bench.bench_view import BenchView
 from occ_gui.detection_map.slider_strip_controller import RANKS
 from occ_gui.scene.frame_rate import FrameRate
-from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Job, JobResult, Stage
 from occ_model.results import BitErrors
@@ -42,7 +42,8 @@ class Measuring:
     """A bench of one decoder and few bits, whose jobs are done at once."""
 
     def __init__(self, qtbot: QtBot, scene: Scene, workers: InlineWorkers) -> None:
-        self.scenes, self.frame_rate = SceneStore(scene), FrameRate()
+        self.scenes = store_of(scene)
+        self.frame_rate = FrameRate(self.scenes.store)
         self.queue = WorkQueue(1, lambda: workers)
         self.pane = BenchView(("threshold",), ("threshold",))
         qtbot.addWidget(self.pane)

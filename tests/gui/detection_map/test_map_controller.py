@@ -7,17 +7,18 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.background.signals import WorkQueue
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.detection_map import map_controller as module
 from occ_gui.detection_map import map_schedule
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.rate_map import PointFacts, RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.scene.frame_rate import FrameRate
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
@@ -88,10 +89,15 @@ class Bench:
         self._qtbot = qtbot
         self.workers = workers
         self.queue = WorkQueue(1, lambda: workers)
-        self.scenes, self.settings = SceneStore(scene), SettingsStore()
+        self.scenes = store_of(scene)
+        self.settings = self.scenes.settings
         self.pane = RecordingPane()
         self.controller = DetectionMapController(
-            self.scenes, self.settings, self.queue.channels[0], self.pane
+            self.scenes,
+            self.settings,
+            self.queue.channels[0],
+            self.pane,
+            FrameRate(self.scenes.store),
         )
 
     def wait_until_idle(self) -> RateMap:
@@ -387,7 +393,7 @@ def test_only_rows_of_pictures_take_long(
 ) -> None:
     monkeypatch.setattr(module, "left_out", lambda *_: ("jpeg",))
     request = module.MapRequest(
-        small_scene, FREQUENCY, DISTANCE, SettingsStore().settings, with_image_effects
+        small_scene, FREQUENCY, DISTANCE, FIRST_SETTINGS, with_image_effects
     )
     told: list[int] = []
     request.stages(np.zeros(SHAPE, dtype=int), False, lambda: told.append(1))

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from gui.conftest import InlineWorkers, LazyWorkers
+from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import WorkQueue
@@ -12,8 +13,6 @@ from occ_gui.detection_map import worker
 from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.most_bits_controller import MostBitsController
 from occ_gui.scene.frame_rate import FrameRate
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.results import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, unvaried
@@ -97,7 +96,8 @@ class Bench:
     """The controller with a scene and a card."""
 
     def __init__(self, scene: Scene, card: MostBitsCard, workers: InlineWorkers) -> None:
-        self.scenes, self.frame_rate = SceneStore(scene, SettingsStore()), FrameRate()
+        self.scenes = store_of(scene)
+        self.frame_rate = FrameRate(self.scenes.store)
         self.card, self.workers = card, workers
         self.queue = WorkQueue(1, lambda: workers)
         (channel,) = self.queue.channels

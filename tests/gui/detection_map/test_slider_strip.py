@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QApplication, QSlider, QStyle, QStyleOptionSlider
@@ -23,8 +24,6 @@ from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.widgets.state_look import State
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -55,9 +54,9 @@ class Bench:
         self._qtbot = qtbot
         self.workers, self.strips = workers, RecordingStrips()
         self.queue = WorkQueue(1, lambda: workers)
-        self.scenes = SceneStore(scene)
+        self.scenes = store_of(scene)
         self.controller = SliderStripController(
-            self.scenes, SettingsStore(), self.queue.channels[0], self.strips, NAMES
+            self.scenes, self.scenes.settings, self.queue.channels[0], self.strips, NAMES
         )
 
     def wait_until_idle(self) -> dict[str, Shares]:

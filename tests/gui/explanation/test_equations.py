@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
@@ -13,7 +14,6 @@ from occ_gui.app.application import Application
 from occ_gui.explanation import equation_text
 from occ_gui.explanation.equation_controller import EquationController
 from occ_gui.explanation.equation_text import EquationText
-from occ_gui.scene.scene_store import SceneStore
 from occ_model.results.teaching import Equation
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
@@ -120,7 +120,7 @@ class Pane:
 
 
 def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene) -> None:
-    pane, store = Pane(), SceneStore(small_scene)
+    pane, store = Pane(), store_of(small_scene)
     controller = EquationController(store, pane)
     store.change(iso=200.0)
     assert pane.shown == []

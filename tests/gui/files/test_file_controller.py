@@ -6,13 +6,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from gui.stores import store_of
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.files.writing import PICTURE_ENDINGS
 from occ_model.scene.scene import Scene
@@ -22,7 +22,7 @@ class Bench:
     """A controller without a window, and what it says."""
 
     def __init__(self, scene: Scene) -> None:
-        self.store = SceneStore(scene)
+        self.store = store_of(scene)
         self.photos = PhotoController([])
         self.preferences = Preferences()
         self.shown: Snapshot | None = None

@@ -13,12 +13,12 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
+from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Session, UserState
 from occ_gui.lessons import lesson_controller
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.scene.settings_store import FIRST_SETTINGS
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import NAMES
 from occ_model.errors import SceneFileError

@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import MatchController
-from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import MatchError
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
@@ -54,7 +54,7 @@ class Bench:
         self.go_on.set()
         self.refusal: tuple[str, ...] = ()
         monkeypatch.setattr(occ, "match_photo", self._match)
-        self.store = SceneStore(scene)
+        self.store = store_of(scene)
         self.controller = MatchController(self.store, self)
         self.controller.matched.connect(self.used.append)
         self.controller.failed.connect(self.failures.append)

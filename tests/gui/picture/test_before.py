@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt
@@ -42,12 +43,12 @@ def pane() -> Pane:
 
 @pytest.fixture
 def store(small_scene: Scene) -> SceneStore:
-    return SceneStore(small_scene)
+    return store_of(small_scene)
 
 
 @pytest.fixture
 def before(store: SceneStore, pane: Pane) -> BeforeController:
-    return BeforeController(store, [pane])
+    return BeforeController(store.store, [pane])
 
 
 def test_a_gesture_keeps_what_was_shown_when_it_began(

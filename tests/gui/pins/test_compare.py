@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QTableWidget
@@ -14,7 +15,6 @@ from occ_gui.app.application import Application
 from occ_gui.pins.compare_view import CompareView
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.pins.pinned import Pinned
-from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.plot import PACKETS_IN_VIEW
@@ -40,7 +40,7 @@ def pane() -> Pane:
 
 @pytest.fixture
 def pins(small_scene: Scene, pane: Pane) -> PinController:
-    return PinController(SceneStore(small_scene), pane)
+    return PinController(store_of(small_scene), pane)
 
 
 def pin_two(pins: PinController, a: Snapshot, b: Snapshot) -> None:

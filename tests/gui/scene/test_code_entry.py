@@ -1,11 +1,11 @@
 """The code is shown as a number and as bits, and entered in either form."""
 
 import pytest
+from gui.stores import store_of
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from occ_gui.scene.code_entry import CodeEntry
-from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
 
@@ -14,7 +14,7 @@ class Bench:
 
     def __init__(self, qtbot: QtBot) -> None:
         self.entry = CodeEntry()
-        self.store = SceneStore(Scene().replace(code=718, bits=10))
+        self.store = store_of(Scene().replace(code=718, bits=10))
         self.told: list[tuple[str, int, int]] = []
         self.refused: list[str] = []
         self.entry.edited.connect(self._take)

@@ -4,6 +4,7 @@ from collections import Counter
 from typing import Any
 
 import pytest
+from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLabel, QLineEdit, QSlider, QWidget
 from pytestqt.qtbot import QtBot
@@ -98,7 +99,7 @@ def test_edits_and_refusals_of_every_part_are_passed_on(
     panel: ControlPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     told: list[object] = []
-    editor = SceneEditor(SceneStore(Scene()))
+    editor = SceneEditor(store_of())
     monkeypatch.setattr(SceneStore, "change", lambda _store, _gesture, **edit: told.extend(edit))
     panel.connect_editor(editor)
     editor.input_refused.connect(told.append)

@@ -1,13 +1,14 @@
 """The pictures a second that the panes of the detection map share."""
 
 import pytest
+from gui.stores import store_of
 
 from occ_gui.scene.frame_rate import FrameRate
 from occ_model.errors import ParameterError
 
 
 def test_only_another_rate_or_view_is_announced() -> None:
-    rate = FrameRate(30.0)
+    rate = FrameRate(store_of().store)
     told: list[object] = []
     rate.changed.connect(told.append)
     rate.shown_changed.connect(told.append)
@@ -21,7 +22,7 @@ def test_only_another_rate_or_view_is_announced() -> None:
 
 
 def test_a_rate_that_cannot_be_leaves_the_one_before() -> None:
-    rate = FrameRate(30.0)
+    rate = FrameRate(store_of().store)
     with pytest.raises(ParameterError):
         rate.change(-1.0)
     assert rate.value == 30.0

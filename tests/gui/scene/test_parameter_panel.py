@@ -1,6 +1,7 @@
 """A form of parameter rows."""
 
 import pytest
+from gui.stores import store_of
 from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
@@ -9,7 +10,6 @@ from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import CountRow, QuantityRow
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
 NAMES = ("distance", "bits", "readout_time")
@@ -72,7 +72,7 @@ def test_showing_a_scene_shows_its_values_and_tells_nothing(
 def test_a_row_does_not_receive_the_value_that_it_sent(
     panel: ParameterPanel, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    store = SceneStore(Scene())
+    store = store_of()
     store.changed.connect(panel.show_scene)
     panel.show_scene(store.scene)
     distance = panel.rows["distance"]

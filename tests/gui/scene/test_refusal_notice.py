@@ -1,6 +1,7 @@
 """A refused value has its sentence at its field, until it is mended."""
 
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QPalette
@@ -12,11 +13,9 @@ from occ_gui.app.application import Application
 from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.parameter_rows import PatternRow, QuantityRow, row_for
 from occ_gui.scene.refusal_notice import RefusalNotice
-from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.contrast import contrast
 from occ_gui.window.theme import palette_of
 from occ_model.scene.parameters import PARAMETERS, count
-from occ_model.scene.scene import Scene
 
 
 def reds(field: QWidget) -> int:
@@ -137,7 +136,7 @@ def test_what_the_scene_refuses_is_said_at_the_edited_field(
 
 
 def test_a_refused_change_names_the_parameters_at_fault() -> None:
-    store, at_fault = SceneStore(Scene()), []
+    store, at_fault = store_of(), []
     store.refused_for.connect(lambda _, names: at_fault.append(names))
     store.change(iso=200.0, distance=-1.0)
     store.change(bits=3)

@@ -3,16 +3,18 @@
 from typing import Any
 
 import pytest
+from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
-from occ_gui.scene.gesture import NO_GESTURE, new_gesture
+from occ_gui.core.store import NO_GESTURE
+from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
 
 
 @pytest.fixture
 def store(qapp: object, small_scene: Scene) -> SceneStore:
-    return SceneStore(small_scene)
+    return store_of(small_scene)
 
 
 @pytest.fixture

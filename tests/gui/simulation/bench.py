@@ -1,9 +1,8 @@
 """A store and a simulation controller on mock views."""
 
+from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_model.scene.scene import Scene
@@ -27,8 +26,8 @@ class Bench:
     """A store and a controller on two mock views."""
 
     def __init__(self, scene: Scene, qtbot: QtBot) -> None:
-        self.settings = SettingsStore()
-        self.store = SceneStore(scene, self.settings)
+        self.store = store_of(scene)
+        self.settings = self.store.settings
         self.views = (RecordingView(), RecordingView())
         self.controller = SimulationController(self.store, self.settings)
         self.controller.show_in(self.views, self.views)

@@ -5,6 +5,7 @@ from io import BytesIO
 from pathlib import Path
 
 import pytest
+from gui.stores import store_of
 from gui.user import User
 from PIL import Image
 from PySide6.QtWidgets import QFileDialog, QWidget
@@ -48,7 +49,7 @@ def png_of() -> Callable[[str], bytes]:
 
 @pytest.fixture
 def store() -> SceneStore:
-    return SceneStore(occ.load_preset("phone-68us").replace(switching_frequency=14.7e3))
+    return store_of(occ.load_preset("phone-68us").replace(switching_frequency=14.7e3))
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 import pytest
+from gui.stores import store_of
 from gui.video.conftest import ListedSource
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QWidget
@@ -23,7 +24,7 @@ Wait: TypeAlias = Callable[[], None]
 @pytest.fixture
 def scenes(film_scene: Scene) -> SceneStore:
     """Store the scene of the films."""
-    return SceneStore(film_scene)
+    return store_of(film_scene)
 
 
 @pytest.fixture

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QToolButton
@@ -17,7 +18,6 @@ from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, KNOWN, NOTE, PHOTO, VERDICT
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
-from occ_gui.scene.scene_store import SceneStore
 from occ_model.photo.many import match_photos
 from occ_model.photo.many.other_programs import stated_lines
 from occ_model.photo.many.row import MatchSettings
@@ -261,7 +261,7 @@ class Bench:
     def __init__(self, view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> None:
         self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
         monkeypatch.setattr(match_photos, "matched_rows", self._rows)
-        self.controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
+        self.controller = ManyPhotosController(store_of(), view, jobs=1)
         self.controller.show_files(PATHS)
 
     def _rows(
@@ -378,7 +378,7 @@ def test_a_failure_is_a_sentence_in_the_table(
         raise occ.MatchError("Nothing works.")
 
     monkeypatch.setattr(match_photos, "matched_rows", fail)
-    controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
+    controller = ManyPhotosController(store_of(), view, jobs=1)
     controller.show_files(PATHS)
     controller.start(MatchChoice(), PhotoReading())
     qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")
@@ -390,7 +390,7 @@ def test_real_photos_are_matched_from_the_window(
     view: ManyPhotosView, tmp_path: Path, qtbot: QtBot
 ) -> None:
     missing = tmp_path / "missing.jpg"
-    controller = ManyPhotosController(SceneStore(occ.Scene()), view, jobs=1)
+    controller = ManyPhotosController(store_of(), view, jobs=1)
     controller.show_files((missing, missing))
     with qtbot.waitSignal(controller.matched) as found:
         controller.start(MatchChoice(), PhotoReading())

@@ -29,9 +29,10 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 @cache
 def session_text() -> str:
     """A whole session file."""
+    from occ_gui.core.step_history import History, StepChange
+    from occ_gui.core.workspace import Step
     from occ_gui.files.session import SessionFile
     from occ_gui.files.session_record import Session
-    from occ_gui.scene.step_history import History, StepChange
     from occ_gui.simulation.snapshot import SimulationRequest
 
     settings = SimulationSettings(tolerance=0.5, force={"vignetting": False}, seed=3)
@@ -46,7 +47,7 @@ def session_text() -> str:
             region=Region(0, 9, 0, 9),
             preset="phone-68us",
             pins=(SimulationRequest(Scene(), settings, more=("sequence",)), None),
-            history=History(Scene(), {}, steps, done=1),
+            history=History(Step(Scene(), {}), steps, done=1),
         )
         file.write(session, in_use=True)
         file.close()

@@ -1,15 +1,11 @@
-"""History: the steps of the scene that can be undone or redone, by what each of them changes."""
+"""History: the steps that can be undone or redone, by what each of them changes."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
 
+from occ_gui.core.workspace import Step
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-
-State: TypeAlias = tuple[Scene, Mapping[str, bool]]
-"""What a step changes: the scene, and the effects forced on (True) or off (False) by hand."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,28 +17,27 @@ class StepChange:
     force: Mapping[str, bool]
 
     @classmethod
-    def between(cls, title: str, before: State, after: State) -> "StepChange":
+    def between(cls, title: str, before: Step, after: Step) -> "StepChange":
         """Note the step from one state to another."""
-        (old, _), (new, force) = before, after
+        old, new = before.scene, after.scene
         values = {
             name: new.value(name) for name in PARAMETERS if new.value(name) != old.value(name)
         }
-        return cls(title, values, dict(force))
+        return cls(title, values, after.force)
 
 
 @dataclass(frozen=True, slots=True)
 class History:
     """The state before the first step, the steps, and how many of them are done."""
 
-    scene: Scene
-    force: Mapping[str, bool]
+    first: Step
     steps: tuple[StepChange, ...] = ()
     done: int = 0
 
-    def states(self) -> Iterator[State]:
+    def states(self) -> Iterator[Step]:
         """Give the state before each step and that after the last; errors as `Scene.replace`."""
-        scene = self.scene
-        yield scene, self.force
+        scene = self.first.scene
+        yield self.first
         for step in self.steps:
             scene = scene.replace(**step.values)
-            yield scene, step.force
+            yield Step(scene, dict(step.force))

@@ -1,0 +1,1 @@
+"""The document of the window: what the user has set, with undo."""

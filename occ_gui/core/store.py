@@ -1,0 +1,163 @@
+"""Store: holds the workspace, tells who looks at a part of it, and keeps the steps to undo."""
+
+from collections.abc import Callable
+from typing import Generic, TypeVar
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QUndoCommand, QUndoStack
+
+from occ_gui.core.step_history import History, StepChange
+from occ_gui.core.workspace import Step, Workspace
+from occ_model.errors import OccError, one_line
+
+T = TypeVar("T")
+
+NO_GESTURE = -1
+"""The gesture of a change that is a step of its own."""
+
+MOST_STEPS = 500
+"""Steps that can be undone; each of them keeps two scenes in memory."""
+
+
+class Selection(QObject, Generic[T]):
+    """A part of the workspace, which tells when it differs."""
+
+    changed = Signal(object)
+    """The new value."""
+
+    def __init__(self, of: Callable[[Workspace], T], workspace: Workspace) -> None:
+        super().__init__()
+        self.of, self.value = of, of(workspace)
+
+
+class Store(QObject):
+    """Holds the workspace.
+
+    All hear of a change in the order in which they have selected, and of one change after the
+    other: what a listener changes in turn is told when the last one has heard of the change before.
+    """
+
+    step_begun = Signal(object)
+    """The workspace that a new step, an undo or a redo has left; emitted before it is told."""
+
+    def __init__(self, workspace: Workspace) -> None:
+        super().__init__()
+        self.workspace = workspace
+        self._told = workspace
+        self._left: Workspace | None = None
+        self._is_telling = self._is_resuming = False
+        self._selections: list[Selection[object]] = []
+        self.undo_stack = QUndoStack(self)
+        self.undo_stack.setUndoLimit(MOST_STEPS)
+        # Told when the stack has finished: a listener that edits in turn puts its step on top.
+        self.undo_stack.indexChanged.connect(self._on_index)
+
+    def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
+        """Look at a part of the workspace from now on."""
+        selection = Selection(of, self.workspace)
+        self._selections.append(selection)  # type: ignore[arg-type]  # it gives what it was given
+        return selection
+
+    def put(self, workspace: Workspace, title: str = "", gesture: int = NO_GESTURE) -> None:
+        """Replace the workspace; what can be undone is a step, changes of one gesture together."""
+        left, self.workspace = self.workspace, workspace
+        if workspace.step != left.step:
+            self._keep_step(left, title, gesture)
+        if self._is_telling:  # it is told when the last one has heard of the change before
+            return
+        self._is_telling = True
+        try:
+            while self._told is not self.workspace:
+                self._told = self.workspace
+                for selection in self._selections:
+                    value = selection.of(self.workspace)  # the present one, not that of the change
+                    if value != selection.value:
+                        selection.value = value
+                        selection.changed.emit(value)
+        finally:
+            self._is_telling = False
+
+    def _keep_step(self, left: Workspace, title: str, gesture: int) -> None:
+        before, after = left.step, self.workspace.step
+        last = self._last_step()
+        if last is None or gesture == NO_GESTURE or gesture != last.gesture:
+            self.undo_stack.push(_Command(self, before, after, title, gesture))
+            self.step_begun.emit(left)
+            return
+        # Not by QUndoCommand.mergeWith: PySide never frees a command that was merged.
+        last.after = after
+        if last.after == last.before:
+            last.setObsolete(True)  # a gesture that ends where it began is no step
+            self.undo_stack.undo()  # only removes the obsolete step
+
+    def _last_step(self) -> "_Command | None":
+        """Return the step that led to this workspace, None at a saved state or if none did."""
+        index = self.undo_stack.index()
+        if index == 0 or index != self.undo_stack.count() or self.undo_stack.isClean():
+            return None
+        step = self.undo_stack.command(index - 1)
+        return step if isinstance(step, _Command) else None
+
+    def _on_index(self) -> None:
+        left, self._left = self._left, None
+        if left is not None:  # an undo or a redo, which the stack has finished
+            self.step_begun.emit(left)
+            self.put(self.workspace)
+
+    def history(self, state: Step) -> History:
+        """Return the steps; where a state is not the present one, those alone that led to it."""
+        stack, present = self.undo_stack, self.undo_stack.index()
+        commands = (stack.command(place) for place in range(stack.count()))
+        steps = [command for command in commands if isinstance(command, _Command)]
+        first = steps[0].before if steps else self.workspace.step
+        states = [first, *(step.after for step in steps)]
+        done = next((place for place in range(present, -1, -1) if states[place] == state), None)
+        if done is None:
+            return History(state)
+        kept = steps if done == present else steps[:done]
+        return History(first, tuple(step.change for step in kept), done)
+
+    def resume(self, history: History) -> None:
+        """Have the steps of an earlier window, if they lead to the present state; else none."""
+        try:
+            states = [*history.states()]
+        except OccError:
+            return
+        if states[history.done] != self.workspace.step:
+            return
+        self._is_resuming = True
+        self.undo_stack.clear()
+        for step, before, after in zip(history.steps, states, states[1:], strict=False):
+            self.undo_stack.push(_Command(self, before, after, step.title, NO_GESTURE))
+        self.undo_stack.setIndex(history.done)
+        self._is_resuming = False
+
+    def _lay_over(self, step: Step) -> None:
+        if self._is_resuming:
+            return
+        if step != self.workspace.step:  # equal where a step that was made already is pushed
+            self._left, self.workspace = self.workspace, step.laid_over(self.workspace)
+
+
+class _Command(QUndoCommand):
+    """One step from a part of the workspace to another."""
+
+    def __init__(self, store: Store, before: Step, after: Step, title: str, gesture: int) -> None:
+        super().__init__(one_line(title).replace("&", "&&"))  # in a menu, & marks a shortcut
+        self._store, self._title = store, title
+        self.before, self.after = before, after
+        self.gesture = gesture
+        self._noted: tuple[Step, StepChange] | None = None
+
+    @property
+    def change(self) -> StepChange:
+        """What the step changes; noted once, as a session is written each second of a drag."""
+        if self._noted is None or self._noted[0] is not self.after:
+            self._noted = self.after, StepChange.between(self._title, self.before, self.after)
+        return self._noted[1]
+
+    def redo(self) -> None:
+        self._store._lay_over(self.after)
+
+    def undo(self) -> None:
+        self._store._lay_over(self.before)

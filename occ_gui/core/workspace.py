@@ -1,0 +1,47 @@
+"""Workspace: all that the user has set, as one value; nothing that was computed, and no pixels."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Self
+
+from occ_model.results.sweep_request import Shown
+from occ_model.scene.recording import FRAME_RATE
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+FIRST_SETTINGS = SimulationSettings(noise="reused")
+"""The first settings of the window, with noise that is fast enough for sliders."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """The part of a workspace that a step of the undo stack changes.
+
+    The tolerance is not undone: it says how exactly a scene is simulated, not what the scene is.
+    """
+
+    scene: Scene
+    force: dict[str, bool]
+
+    def laid_over(self, workspace: "Workspace") -> "Workspace":
+        """Give a workspace that has this part, and else is as before."""
+        return replace(workspace, scene=self.scene).with_force(self.force)
+
+
+@dataclass(frozen=True, slots=True)
+class Workspace:
+    """What the user has set: the scene, the settings of its simulation, and what panes show."""
+
+    scene: Scene
+    settings: SimulationSettings = FIRST_SETTINGS
+    frame_rate: float = FRAME_RATE.default
+    shown: Shown = "rate"
+
+    @property
+    def step(self) -> Step:
+        """The part that can be undone."""
+        return Step(self.scene, dict(self.settings.force))
+
+    def with_force(self, force: Mapping[str, bool]) -> Self:
+        """Give a workspace in which exactly these effects are switched by hand."""
+        return replace(self, settings=replace(self.settings, force=dict(force)))

@@ -1,0 +1,126 @@
+"""The workspace changes in one place, in steps that are undone without what was set meanwhile."""
+
+from dataclasses import replace
+
+import pytest
+
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_model.scene.scene import Scene
+
+
+@pytest.fixture
+def store(qapp: object) -> Store:
+    return Store(Workspace(Scene()))
+
+
+def put_iso(store: Store, iso: float, gesture: int = -1) -> None:
+    scene = store.workspace.scene.replace(iso=iso)
+    store.put(replace(store.workspace, scene=scene), f"iso {iso:g}", gesture)
+
+
+def iso(store: Store) -> float:
+    return store.workspace.scene.camera.iso
+
+
+def test_who_looks_at_a_part_hears_of_its_changes_alone(store: Store) -> None:
+    rates: list[object] = []
+    rate = store.select(lambda workspace: workspace.frame_rate)
+    rate.changed.connect(rates.append)
+    put_iso(store, 200.0)
+    store.put(replace(store.workspace, frame_rate=24.0))
+    store.put(replace(store.workspace, frame_rate=24.0))
+    assert (rates, rate.value) == ([24.0], 24.0)
+
+
+def test_undoing_a_step_leaves_what_was_set_after_it(store: Store) -> None:
+    first = iso(store)
+    put_iso(store, 200.0)
+    settings = replace(store.workspace.settings, tolerance=7.0)
+    store.put(replace(store.workspace, frame_rate=24.0, settings=settings))
+    assert store.undo_stack.count() == 1
+    store.put(store.workspace.with_force({"jpeg": True}), "jpeg")
+    for _ in range(2):
+        store.undo_stack.undo()
+    assert store.workspace == Workspace(Scene(), settings, 24.0)
+    assert iso(store) == first
+
+
+def test_a_listener_that_edits_in_turn_puts_its_step_above_the_one_it_heard_of(
+    store: Store,
+) -> None:
+    first = iso(store)
+    scene = store.select(lambda workspace: workspace.scene)
+    scene.changed.connect(lambda _: put_iso(store, 300.0) if iso(store) == 200.0 else None)
+    put_iso(store, 200.0)
+    assert [store.undo_stack.text(at) for at in range(2)] == ["iso 200", "iso 300"]
+    scenes = []
+    scene.changed.disconnect()
+    for _ in range(2):
+        store.undo_stack.undo()
+        scenes.append(iso(store))
+    assert scenes == [200.0, first]
+
+
+def test_an_edit_in_answer_to_an_undo_is_a_step_above_what_is_left(store: Store) -> None:
+    first = iso(store)
+    put_iso(store, 200.0)
+    scene = store.select(lambda workspace: workspace.scene)
+    scene.changed.connect(lambda _: put_iso(store, 300.0) if iso(store) == first else None)
+    store.undo_stack.undo()
+    assert (iso(store), store.undo_stack.count(), store.undo_stack.index()) == (300.0, 1, 1)
+    scene.changed.disconnect()
+    store.undo_stack.undo()
+    assert iso(store) == first
+
+
+@pytest.mark.parametrize("is_undo", [False, True])
+def test_listeners_hear_of_changes_in_their_order_and_last_of_the_present_one(
+    store: Store, is_undo: bool
+) -> None:
+    if is_undo:
+        put_iso(store, 200.0)
+        put_iso(store, 900.0)
+    scene, other = (store.select(lambda workspace: workspace.scene) for _ in range(2))
+    heard: list[float] = []
+    late: list[float] = []
+    scene.changed.connect(lambda _: put_iso(store, 300.0) if iso(store) == 200.0 else None)
+    scene.changed.connect(lambda scene: heard.append(scene.camera.iso))
+    other.changed.connect(lambda scene: late.append(scene.camera.iso))
+    if is_undo:
+        store.undo_stack.undo()
+    else:
+        put_iso(store, 200.0)
+    assert heard == [200.0, 300.0]
+    assert late == [300.0]  # it looks at what is, and hears nothing twice
+
+
+def test_a_step_says_what_it_has_left_before_anybody_hears_of_it(store: Store) -> None:
+    first, told = iso(store), []
+    store.step_begun.connect(lambda left: told.append(("left", left.scene.camera.iso)))
+    store.select(lambda workspace: workspace.scene).changed.connect(
+        lambda scene: told.append(("now", scene.camera.iso))
+    )
+    for value in (200.0, 300.0):  # one gesture, one step
+        put_iso(store, value, gesture=1)
+    store.undo_stack.undo()
+    store.put(replace(store.workspace, frame_rate=24.0))
+    store.undo_stack.redo()
+    assert told == [
+        ("left", first), ("now", 200.0), ("now", 300.0),
+        ("left", 300.0), ("now", first), ("left", first), ("now", 300.0),
+    ]  # fmt: skip
+
+
+def test_a_listener_that_fails_keeps_nobody_from_hearing_later_changes(
+    store: Store, capfd: pytest.CaptureFixture[str]
+) -> None:
+    heard: list[object] = []
+    rate = store.select(lambda workspace: workspace.frame_rate)
+    rate.changed.connect(heard.append)
+    failing = store.select(lambda workspace: 1 / (workspace.frame_rate - 24.0))
+    with pytest.raises(ZeroDivisionError):
+        store.put(replace(store.workspace, frame_rate=24.0))
+    store.put(replace(store.workspace, frame_rate=25.0))
+    assert heard == [24.0, 25.0]
+    assert failing.value == 1.0

@@ -1,0 +1,11 @@
+"""Stores for tests of what stands between them and a pane."""
+
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_gui.scene.scene_store import SceneStore
+from occ_model.scene.scene import Scene
+
+
+def store_of(scene: Scene | None = None) -> SceneStore:
+    """Make a store of a scene, with the first settings."""
+    return SceneStore(Store(Workspace(Scene() if scene is None else scene)))

@@ -6,8 +6,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
-from occ_gui.background.cancellable import Cancellable
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
@@ -98,14 +97,14 @@ class AccuracyController(QObject):
         self._snapshot: Snapshot | None = None
         self._idle_timer = QTimer(self, singleShot=True)
         self._idle_timer.timeout.connect(self._start)
-        self.runner: Cancellable[SimulationRequest, None] = Cancellable(
-            CostMeasurement(), "accuracy study"
+        self.runner: Task[SimulationRequest, None] = Task(
+            CostMeasurement(), "accuracy study", impatient=True
         )
         self.runner.reported.connect(self._show)
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
-        self.forecasts: LatestWins[ForecastRequest, _Predicted] = LatestWins(
-            _predict, "forecast of costs"
+        self.forecasts: Task[ForecastRequest, _Predicted] = Task(
+            lambda request, _: _predict(request), "forecast of costs"
         )
         self.forecasts.finished.connect(self._show_forecast)
         for store in (scenes, settings):
@@ -116,7 +115,7 @@ class AccuracyController(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether nothing is being measured or about to be."""
-        busy = self._idle_timer.isActive() or self.runner.is_running
+        busy = self._idle_timer.isActive() or not self.runner.is_idle
         return not busy and self.forecasts.is_idle
 
     def _request(self) -> SimulationRequest:
@@ -130,7 +129,7 @@ class AccuracyController(QObject):
             self._wait_until_idle()
             return
         self._idle_timer.stop()
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self._pane.show_study_outdated()
 
@@ -153,20 +152,20 @@ class AccuracyController(QObject):
             return
         times = TimeShares.of(snapshot.frame)
         costs = MeasuredCosts(times) if self._costs is None else self._costs.of(request, times)
-        self.forecasts.submit(ForecastRequest(request, costs))
+        self.forecasts.ask(ForecastRequest(request, costs))
 
     def _show_forecast(self, found: _Predicted) -> None:
         self._pane.show_forecast(found.request, found.expected)
 
     def _wait_until_idle(self) -> None:
-        if self._seen and not self.runner.is_running and self._done is None:
+        if self._seen and self.runner.is_idle and self._done is None:
             self._idle_timer.start(IDLE_MS)
 
     def _start(self) -> None:
         if not self._simulation.runner.is_idle:
             return  # it starts again when the simulation is idle
         self._count = 0
-        self.runner.start(self._request())
+        self.runner.ask(self._request())
         self._pane.show_study_begun()
 
     def _show(self, found: SceneCosts | Measured) -> None:

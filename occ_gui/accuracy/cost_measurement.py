@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from time import perf_counter
 
-from occ_gui.background.cancellable import Report
+from occ_gui.background.task import Report
 from occ_gui.simulation.snapshot import SimulationRequest
 from occ_model.effects.plan import plan_with
 from occ_model.results import AccuracyPoint, EffectDifference, MeasuredCosts, TimeShares

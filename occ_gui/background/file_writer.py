@@ -6,7 +6,7 @@ from typing import Generic
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable, Report, Request
+from occ_gui.background.task import Report, Request, Task
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import one_line
 
@@ -37,7 +37,7 @@ class FileWriter(QObject, Generic[Request]):
     ) -> None:
         super().__init__()
         self._bar, self._given_up = bar, given_up
-        self.runner: Cancellable[Request, Path] = Cancellable(write, name)
+        self.runner: Task[Request, Path] = Task(write, name, impatient=True)
         self.runner.reported.connect(bar.show_progress)
         self.runner.finished.connect(self._finish)
         self.runner.failed.connect(self._fail)
@@ -46,16 +46,16 @@ class FileWriter(QObject, Generic[Request]):
     @property
     def is_idle(self) -> bool:
         """Whether nothing is being written."""
-        return not self.runner.is_running
+        return self.runner.is_idle
 
     def start(self, request: Request) -> None:
         """Begin to write."""
         self._bar.begin()
-        self.runner.start(request)
+        self.runner.ask(request)
 
     def cancel(self) -> None:
         """Give up; nothing is written."""
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self._bar.end()
             self.status_message.emit(self._given_up)

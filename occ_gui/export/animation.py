@@ -6,8 +6,8 @@ from pathlib import Path
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.background.cancellable import Report
 from occ_gui.background.file_writer import FileWriter
+from occ_gui.background.task import Report
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore

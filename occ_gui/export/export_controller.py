@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction, QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_gui.export.figures import Figures, NothingToDraw
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Preferences
@@ -69,7 +69,7 @@ class ExportController(QObject):
         self._waiting: deque[ExportJob] = deque()
         self._left_out = ""
         # A function that looks export up at each call: tests replace it.
-        self.runner: LatestWins[ExportJob, Exported] = LatestWins(lambda job: export(job), "export")
+        self.runner: Task[ExportJob, Exported] = Task(lambda request, _: export(request), "export")
         self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
         self.runner.idle.connect(self._go_on)
@@ -174,7 +174,7 @@ class ExportController(QObject):
 
     def _go_on(self) -> None:
         if self._waiting and self.runner.is_idle:
-            self.runner.submit(self._waiting.popleft())
+            self.runner.ask(self._waiting.popleft())
 
     def _report(self, done: Exported) -> None:
         job = done.job

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_model.results import Match
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.scene.scene import Scene
@@ -47,7 +47,9 @@ class LessonAnswers(QObject):
         self._given: dict[tuple[str, int], tuple[CheckedAnswer, Scene, MatchedPhoto]] = {}
         self._waiting: list[_Asked] = []
         """What is being checked, and after it what is to be checked: none of it is forgotten."""
-        self.runner: LatestWins[_Asked, tuple[_Asked, CheckedAnswer]] = LatestWins(_check, "lesson")
+        self.runner: Task[_Asked, tuple[_Asked, CheckedAnswer]] = Task(
+            lambda request, _: _check(request), "lesson"
+        )
         self.runner.finished.connect(self._keep)
         self.runner.failed.connect(self._keep_failure)
         self.runner.idle.connect(self._check_next)
@@ -93,7 +95,7 @@ class LessonAnswers(QObject):
 
     def _check_next(self) -> None:
         if self._waiting:
-            self.runner.submit(self._waiting[0])
+            self.runner.ask(self._waiting[0])
 
     def _keep_failure(self, sentence: str) -> None:
         asked = self._waiting[0]

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_gui.files.preferences import Preferences
 from occ_model.errors import one_line
 from occ_model.results.lessons import AnsweredStep, Lesson
@@ -42,7 +42,7 @@ class LessonReports(QObject):
     def __init__(self, window: QWidget | None, preferences: Preferences) -> None:
         super().__init__()
         self._window, self._preferences = window, preferences
-        self.runner: LatestWins[_Job, Path] = LatestWins(_write, "lesson report")
+        self.runner: Task[_Job, Path] = Task(lambda request, _: _write(request), "lesson report")
         self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
 
@@ -73,7 +73,7 @@ class LessonReports(QObject):
     def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
         """Write the report of a lesson to a file."""
         self.status_message.emit(self.tr("Drawing…"))
-        self.runner.submit(_Job(path, lesson, tuple(steps), author))
+        self.runner.ask(_Job(path, lesson, tuple(steps), author))
 
     def _report(self, path: Path) -> None:
         self._preferences.visit_export(path)

@@ -6,7 +6,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject
 
 import occ_model as occ
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
 from occ_model.results import ChipReading, Lamp, Region
@@ -52,7 +52,9 @@ class ChipController(QObject):
         super().__init__()
         self._pane = pane
         self._wanted: Request | None = None
-        self.runner: LatestWins[Request, ReadPhoto] = LatestWins(read, "reading of chips")
+        self.runner: Task[Request, ReadPhoto] = Task(
+            lambda request, _: read(request), "reading of chips"
+        )
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(self._show_none)
 
@@ -69,7 +71,7 @@ class ChipController(QObject):
         self._wanted = request
         self._pane.show_chips(None)
         if request is not None:
-            self.runner.submit(request)
+            self.runner.ask(request)
 
     def _take(self, found: ReadPhoto) -> None:
         if found.request is self._wanted:  # not of one that was closed meanwhile

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 from PySide6.QtCore import QObject
 
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_gui.picture.placement import Placement, PlacementStore
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Reading
@@ -70,8 +70,8 @@ class ComparisonController(QObject):
         self._stripes: Stripes | None = None
         self._sentence = ""
         self._enhanced, self._is_shown = False, True
-        self.runner: LatestWins[tuple[Photo, Lamp | Region | None], StripeSearch] = LatestWins(
-            search_stripes, "search for stripes"
+        self.runner: Task[tuple[Photo, Lamp | Region | None], StripeSearch] = Task(
+            lambda request, _: search_stripes(request), "search for stripes"
         )
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(self._show_failure)
@@ -101,7 +101,7 @@ class ComparisonController(QObject):
     def _search(self) -> None:
         self._stripes, self._sentence = None, ""
         if self._photo is not None:
-            self.runner.submit((self._photo, self._region))
+            self.runner.ask((self._photo, self._region))
 
     def show_match(self, match: Match) -> None:
         """Use the stripes of a match, whose levels are those of the fit."""

@@ -6,7 +6,7 @@ from typing import NamedTuple, Protocol, Self
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.task import Report, Task
 from occ_gui.photo.kept_photo import KeptRegion
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo
@@ -64,8 +64,8 @@ class LampController(QObject):
         self.lamps: tuple[Lamp, ...] = ()
         self.chosen: int | None = None
         self.by_hand: Region | None = None
-        self.runner: Cancellable[Photo, tuple[Photo, tuple[Lamp, ...]]] = Cancellable(
-            _find, "search for lamps"
+        self.runner: Task[Photo, tuple[Photo, tuple[Lamp, ...]]] = Task(
+            _find, "search for lamps", impatient=True
         )
         self.runner.finished.connect(self._take)
         self.runner.failed.connect(self._fail)
@@ -96,7 +96,7 @@ class LampController(QObject):
     def show_photo(self, photo: Photo | None) -> None:
         """Search this photo in place of the previous one, or none."""
         self._photo = photo
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self.searching.emit(False)
         if photo is None:
@@ -114,7 +114,7 @@ class LampController(QObject):
         """Find the lamps of the open photo."""
         if self._photo is not None:
             self.searching.emit(True)
-            self.runner.start(self._photo)
+            self.runner.ask(self._photo)
 
     def choose(self, index: int) -> None:
         """Match this lamp."""

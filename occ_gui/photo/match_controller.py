@@ -6,7 +6,7 @@ from typing import Protocol
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable
+from occ_gui.background.task import Task
 from occ_gui.photo.assumption import is_certain
 from occ_gui.photo.kept_photo import KeptMatch
 from occ_gui.photo.match_choice import MatchChoice
@@ -112,8 +112,8 @@ class MatchController(QObject):
         self._known = self._asked_known = ""
         self._certain: Mapping[str, float] = {}
         self.match: Match | None = None
-        self.runner: Cancellable[MatchRequest, Match | Refusal] = Cancellable(
-            match, "match of the photo"
+        self.runner: Task[MatchRequest, Match | Refusal] = Task(
+            match, "match of the photo", impatient=True
         )
         self.runner.reported.connect(pane.show_progress)
         self.runner.finished.connect(self._take)
@@ -179,11 +179,11 @@ class MatchController(QObject):
 
         (self._asked_known,) = (name for name in ESTIMATES if name != choice.estimate)
         self._pane.show_match_begun()
-        self.runner.start(request)
+        self.runner.ask(request)
 
     def take_over(self, found: Match) -> None:
         """Show a match of the whole photo that the table has found, as if it were made here."""
-        if self.runner.is_running or self._photo is None:
+        if not self.runner.is_idle or self._photo is None:
             return
         from occ_model.photo.match import ESTIMATES
 
@@ -204,7 +204,7 @@ class MatchController(QObject):
 
     def cancel(self) -> None:
         """Cancel the running match."""
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self._pane.show_match_cancelled()
 

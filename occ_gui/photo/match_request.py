@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import occ_model as occ
-from occ_gui.background.cancellable import Report
+from occ_gui.background.task import Report
 from occ_gui.photo.match_choice import MatchChoice
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo

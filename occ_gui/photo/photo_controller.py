@@ -8,7 +8,7 @@ from typing import Protocol
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.task import Report, Task
 from occ_model.photo.reading.load import CHANNELS, Photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 
@@ -79,8 +79,8 @@ class PhotoController(QObject):
         self.photo: Photo | None = None
         """The photo that is shown, None if none is open."""
         self.reading = PhotoReading()
-        self.runner: Cancellable[tuple[Path, PhotoReading], Photo] = Cancellable(
-            _read, "reading of the photo"
+        self.runner: Task[tuple[Path, PhotoReading], Photo] = Task(
+            _read, "reading of the photo", impatient=True
         )
         self.runner.reported.connect(self.progressed.emit)
         self.runner.finished.connect(self._show)
@@ -94,17 +94,17 @@ class PhotoController(QObject):
     @property
     def awaited(self) -> Path | None:
         """The path of the photo that is being read, None if none is."""
-        return self._wanted if self.runner.is_running else None
+        return self._wanted if not self.runner.is_idle else None
 
     def open(self, path: Path) -> None:
         """Read a photo and show it."""
         self._wanted = path
-        self.runner.start((path, self.reading))
+        self.runner.ask((path, self.reading))
         self.begun.emit()
 
     def cancel(self) -> None:
         """Cancel the reading; the previous photo stays."""
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self._wanted = self.path
             self.ended.emit()

@@ -133,9 +133,10 @@ class PhotoWiring(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether no work is running in the background."""
-        runs = (self.photos.runner, self.matching.runner, self.many.runner, self.lamps.runner)
-        newest = (self.comparison.runner, self.chips.runner)
-        return all(run.is_idle for run in newest) and not any(run.is_running for run in runs)
+        parts = (
+            self.photos, self.matching, self.many, self.lamps, self.comparison, self.chips
+        )  # fmt: skip
+        return all(part.runner.is_idle for part in parts)
 
     def kept(self) -> KeptPhoto | None:
         """Return the open photo with all that is known of it; None if none is open."""

@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.task import Report, Task
 from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
 from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.gesture import new_gesture
@@ -76,7 +76,7 @@ class PinController(QObject):
         self._snapshot: Snapshot | None = None
         self.pinned = Pinned()
         self._restored: dict[str, SimulationRequest] = {}
-        self._runner: Cancellable[dict[str, SimulationRequest], None] | None = None
+        self._runner: Task[dict[str, SimulationRequest], None] | None = None
 
     @property
     def kept(self) -> Pins:
@@ -100,11 +100,11 @@ class PinController(QObject):
     def _begin_restoring(self) -> None:
         if not self._restored or self._runner is not None:
             return
-        self._runner = runner = Cancellable(_simulate_all, "comparison")
+        self._runner = runner = Task(_simulate_all, "comparison", impatient=True)
         runner.reported.connect(self._take_restored)
         runner.finished.connect(self._end_restoring)
         runner.failed.connect(self._end_restoring)
-        runner.start(dict(self._restored))
+        runner.ask(dict(self._restored))
 
     def _take_restored(self, result: tuple[str, Snapshot]) -> None:
         name, snapshot = result

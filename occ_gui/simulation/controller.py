@@ -18,14 +18,13 @@ A reading is never replaced by one of an earlier scene. ``failed`` says why a sc
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from threading import Event
 from time import perf_counter
 from typing import Protocol
 
-from PySide6.QtCore import QObject, Qt, QTimer, Signal
+from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.latest_wins import LatestWins
 from occ_gui.background.result_age import ResultAges
+from occ_gui.background.task import Reporter, Task
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -56,7 +55,6 @@ _REST = 0.05
 
 _LONGEST_PAINT = 0.1
 """Seconds for which work waits at most until the window has painted what it has been given."""
-
 
 _LOOK, _MOST_LOOKS = 0.005, 20
 """Seconds between two looks whether the exact picture may begin, and the most looks."""
@@ -112,10 +110,7 @@ class SimulationController(QObject):
     """
 
     picture_ready = Signal(object)
-    """The Picture of a scene, before it is decoded; emitted once the event loop runs.
-
-    The Reading that it may have is shown first, before anything is painted.
-    """
+    """The Picture of a scene, before it is decoded; a Reading that it has is shown already."""
 
     reading_shown = Signal(object)
     """The Reading that the panes show from now on; a Snapshot where it is the picture's."""
@@ -132,9 +127,6 @@ class SimulationController(QObject):
     submitted = Signal()
     """The scene or a setting has changed: results of the last request are outdated."""
 
-    _rendered = Signal(object)
-    _read_early = Signal(object)
-
     def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
         super().__init__()
         self._scenes = scenes
@@ -147,14 +139,8 @@ class SimulationController(QObject):
         self._draft_rows = DraftRows()
         self._more: tuple[str, ...] = ()
         self._others_first: Callable[[], bool] = lambda: False
-        self._is_painted = Event()
-        # Emitted on the simulation's thread, received on the window's.
-        self._rendered.connect(self.picture_ready, Qt.ConnectionType.QueuedConnection)
-        self.picture_ready.connect(self._show_with_picture)
-        self._read_early.connect(self._show_early, Qt.ConnectionType.QueuedConnection)
-        self.runner: LatestWins[SimulationRequest, Snapshot] = LatestWins(
-            self._simulate, "simulation"
-        )
+        self.runner: Task[SimulationRequest, Snapshot] = Task(self._simulate, "simulation")
+        self.runner.reported.connect(self._show_early)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         self.runner.failed_for.connect(self.failed_for)
@@ -162,7 +148,7 @@ class SimulationController(QObject):
             store.changed.connect(self._submit)
         self.ages = ResultAges(self._request())
         # Only the picture: the panes are not there yet, and it is not late at the start.
-        self.runner.submit(self.ages.present)
+        self.runner.ask(self.ages.present)
 
     @property
     def is_idle(self) -> bool:
@@ -210,7 +196,7 @@ class SimulationController(QObject):
         self._more = () if decoder in QUICK_DECODERS else (decoder,)
         read = self._read
         if self._more and (read is None or decoder not in {r.decoder for r in read.results}):
-            self.runner.submit(self._request())
+            self.runner.ask(self._request())
 
     def _request(self) -> SimulationRequest:
         scene = self._scenes.scene
@@ -222,10 +208,10 @@ class SimulationController(QObject):
         if request == self.ages.present:  # one step has changed both stores
             return
         self.ages.begin(request)
-        self.runner.submit(request)
+        self.runner.ask(request)
         self.submitted.emit()
 
-    def _simulate(self, request: SimulationRequest) -> Snapshot:
+    def _simulate(self, request: SimulationRequest, report: Reporter) -> Snapshot:
         begun = perf_counter()
         planned = plan_scene(request.scene, request.settings)  # once for all that follows
         reading = reading_by_profile(request, planned)
@@ -235,53 +221,36 @@ class SimulationController(QObject):
         if draft is not None:
             reading = reading or reading_of_draft(request, draft)
             self._draft_rows.took(perf_counter() - begun)
-            self._is_painted.clear()
-            self._rendered.emit(Picture.of(draft, request.whose, request, reading))
-            self._wait_for_paint()
-            reading, heartbeat = None, self.runner.give_way
-            self.runner.give_way(self.ages.rest(_REST))
-            self._wait_for_others()
+            report(Picture.of(draft, request.whose, request, reading))
+            report.wait_for_paint(_LONGEST_PAINT)
+            reading, heartbeat = None, report.give_way
+            report.give_way(self.ages.rest(_REST))
+            self._wait_for_others(report)
         elif reading is not None and not is_soon(planned):
-            self._read_early.emit(reading)
+            report(reading)
             reading = None
         frame = render_with(request.scene, request.settings, heartbeat=heartbeat, planned=planned)
         if reading is not None:
             reading = replace(reading, has_picture=True)
-        self._is_painted.clear()
-        self._rendered.emit(Picture.of(frame, request.whose, request, reading))
-        self._wait_for_paint()
+        report(Picture.of(frame, request.whose, request, reading))
+        report.wait_for_paint(_LONGEST_PAINT)
         if reading is not None:
-            self.runner.give_way()  # the scene's verdict is there: a later scene comes first
+            report.give_way()  # the scene's verdict is there: a later scene comes first
         return snapshot_of(request, frame)
 
-    def _wait_for_others(self) -> None:
+    def _wait_for_others(self, report: Reporter) -> None:
         """Leave both cores to short work for a while, unless a newer request comes."""
         for _ in range(_MOST_LOOKS):
             if not self._others_first():
                 return
-            self.runner.give_way(_LOOK)
+            report.give_way(_LOOK)
 
-    def _wait_for_paint(self) -> None:
-        """Go on when the window has painted what it was given.
-
-        Painting needs the interpreter, the memory and a core, as what follows does: side by side
-        both take twice as long, and what the user waits for is the picture.
-        """
-        self._is_painted.wait(_LONGEST_PAINT)
-
-    def _show_with_picture(self, picture: Picture) -> None:
-        self._show_early(picture.reading)
-        # After the paint that this has asked for, and that which panes ask for in their next turn.
-        QTimer.singleShot(0, self, self._await_paint)
-
-    def _await_paint(self) -> None:
-        QTimer.singleShot(0, self, self._is_painted.set)
-
-    def _show_early(self, reading: Reading | None) -> None:
-        if self.runner.is_stopped or reading is None:  # the panes may be gone
-            return
-        if self._is_news(reading):
+    def _show_early(self, part: Picture | Reading) -> None:
+        reading = part.reading if isinstance(part, Picture) else part
+        if reading is not None and self._is_news(reading):
             self._show_reading(reading)
+        if isinstance(part, Picture):
+            self.picture_ready.emit(part)
 
     def _show(self, snapshot: Snapshot) -> None:
         for view in self._views:
@@ -309,6 +278,5 @@ class SimulationController(QObject):
 
     def stop(self) -> None:
         """Stop simulating; no picture or snapshot arrives from now on."""
-        self._is_painted.set()
         self.runner.stop()
         self.blockSignals(True)

@@ -5,7 +5,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
@@ -51,8 +51,12 @@ class TransmitterController(QObject):
         stored = preferences.recall(_BOARD)
         self._board = stored if stored in BOARDS else DEFAULT_BOARD
         self.dialog: TransmitterDialog | None = None
-        self.drawing: LatestWins[Transmission, Drawn] = LatestWins(draw_wiring, "wiring")
-        self.saving: LatestWins[SaveJob, Saved] = LatestWins(save_files, "transmitter files")
+        self.drawing: Task[Transmission, Drawn] = Task(
+            lambda request, _: draw_wiring(request), "wiring"
+        )
+        self.saving: Task[SaveJob, Saved] = Task(
+            lambda request, _: save_files(request), "transmitter files"
+        )
         self.drawing.finished.connect(self._show_wiring)
         self.drawing.failed.connect(self._show_drawing_failure)
         self.saving.finished.connect(self._report)
@@ -100,7 +104,7 @@ class TransmitterController(QObject):
             return
         facts = " ".join(frequency_lines(self._sent))
         self.dialog.show_sent(facts, differs=not self._sent.timing.is_as_asked)
-        self.drawing.submit(self._sent)
+        self.drawing.ask(self._sent)
 
     def _show_wiring(self, drawn: Drawn) -> None:
         # That of an earlier scene or board is not shown.
@@ -126,7 +130,7 @@ class TransmitterController(QObject):
         """Write the files into a new folder."""
         if self._sent is not None:
             self._say(self.tr("Writing…"))
-            self.saving.submit(SaveJob(self._sent, parent))
+            self.saving.ask(SaveJob(self._sent, parent))
 
     def _report(self, saved: Saved) -> None:
         self._preferences.visit(saved.folder)

@@ -5,8 +5,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 import occ_model as occ
-from occ_gui.background.cancellable import Cancellable, Report
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Report, Task
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
 from occ_gui.video.player import FilmPlayer
@@ -59,13 +58,13 @@ class FilmController(QObject):
         self._is_seen = False
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
-        self.opener: Cancellable[tuple[Path, str], Video] = Cancellable(
-            _open, "opening of the film"
+        self.opener: Task[tuple[Path, str], Video] = Task(
+            _open, "opening of the film", impatient=True
         )
         self.opener.finished.connect(self.put)
         self.opener.failed.connect(self.failed)
-        self.loader: LatestWins[FrameRequest, ShownFrame] = LatestWins(
-            shown_frame, "reading of a frame"
+        self.loader: Task[FrameRequest, ShownFrame] = Task(
+            lambda request, _: shown_frame(request), "reading of a frame"
         )
         self.loader.finished.connect(self.frame_shown)
         self.loader.failed.connect(self.frame_failed)
@@ -78,7 +77,7 @@ class FilmController(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether the film is open and its frame shown."""
-        return not self.opener.is_running and self.loader.is_idle
+        return self.opener.is_idle and self.loader.is_idle
 
     @property
     def count(self) -> int:
@@ -123,7 +122,7 @@ class FilmController(QObject):
         axis
             What of its pictures the shutter scanned, one of SCAN_AXES.
         """
-        self.opener.start((path, axis))
+        self.opener.ask((path, axis))
 
     def put(self, film: Video | None, is_live: bool = False) -> None:
         """Show this film from its first frame, or only the simulated one."""
@@ -148,7 +147,7 @@ class FilmController(QObject):
         if not self._is_seen or (self.is_live and self.last_live is None):
             return
         is_fast = self.player.is_playing or self.is_live
-        self.loader.submit(
+        self.loader.ask(
             FrameRequest(
                 film=self.film,
                 live=self.last_live,

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.task import Report, Task
 from occ_gui.video.camera import CameraDevice, CameraSource, find_cameras
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.frame_source import FrameSource
@@ -55,8 +55,8 @@ class LiveController(QObject):
         self._films, self._readings, self._scene = films, readings, scene
         self.video: LiveVideo | None = None
         """The film of the camera that is filming."""
-        self.finder: Cancellable[None, tuple[CameraDevice, ...]] = Cancellable(
-            _find, "search for cameras"
+        self.finder: Task[None, tuple[CameraDevice, ...]] = Task(
+            _find, "search for cameras", impatient=True
         )
         self.finder.finished.connect(self.devices_found)
         self.finder.failed.connect(self.ended)
@@ -74,8 +74,8 @@ class LiveController(QObject):
 
     def find(self) -> None:
         """Look for cameras."""
-        if not self.finder.is_running:
-            self.finder.start(None)
+        if self.finder.is_idle:
+            self.finder.ask(None)
 
     def start_camera(self, device: CameraDevice) -> None:
         """Read what a camera sees."""

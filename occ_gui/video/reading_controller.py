@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable
+from occ_gui.background.task import Task
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.reading_jobs import ReadingRequest, read_film
 from occ_model.results.video import Video
@@ -24,8 +24,8 @@ class ReadingController(QObject):
         """What has been read so far."""
         self._request: ReadingRequest | None = None
         self._is_done = False
-        self.runner: Cancellable[ReadingRequest, FilmReading] = Cancellable(
-            read_film, "reading of the film"
+        self.runner: Task[ReadingRequest, FilmReading] = Task(
+            read_film, "reading of the film", impatient=True
         )
         self.runner.reported.connect(self._on_report)
         self.runner.finished.connect(self._on_end)
@@ -34,7 +34,7 @@ class ReadingController(QObject):
     @property
     def is_running(self) -> bool:
         """Whether the film is being read."""
-        return self.runner.is_running
+        return not self.runner.is_idle
 
     @property
     def is_done(self) -> bool:
@@ -50,12 +50,12 @@ class ReadingController(QObject):
         """Read a film for a scene, from its first frame."""
         self._request, self._is_done = ReadingRequest(film, scene, is_live), False
         self.reading = FilmReading.nothing()
-        self.runner.start(self._request)
+        self.runner.ask(self._request)
         self.changed.emit()
 
     def cancel(self) -> None:
         """Leave it at what has been read."""
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self.changed.emit()
 

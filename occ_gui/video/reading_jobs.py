@@ -7,7 +7,7 @@ from time import monotonic
 import numpy as np
 
 import occ_model as occ
-from occ_gui.background.cancellable import Report
+from occ_gui.background.task import Report
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.marks import Marks, MarkState
 from occ_gui.video.reading_words import figures_of, sentences_of

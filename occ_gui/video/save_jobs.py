@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import occ_model as occ
-from occ_gui.background.cancellable import Report
+from occ_gui.background.task import Report
 from occ_model.results.video import Video
 
 

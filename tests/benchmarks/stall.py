@@ -95,7 +95,7 @@ def _watch(application: "Application", seconds: float) -> _Found:
 
     def move() -> None:
         found.mapping.append(not application.detection_map.map.is_idle)
-        found.studying.append(application.study.runner.is_running)
+        found.studying.append(not application.study.runner.is_idle)
         past = perf_counter() - start
         cycle, place = divmod(past, _CYCLE_S)
         held = place < _DRAG_S

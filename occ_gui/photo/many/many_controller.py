@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.task import Report, Task
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_request import known_scene
@@ -88,8 +88,8 @@ class ManyPhotosController(QObject):
         self.table: PhotoTable | None = None
         self.reading: PhotoReading | None = None
         """How the photos of the table were read; None before they are matched."""
-        self.runner: Cancellable[ManyRequest, PhotoTable] = Cancellable(
-            match_all, "match of several photos"
+        self.runner: Task[ManyRequest, PhotoTable] = Task(
+            match_all, "match of several photos", impatient=True
         )
         self.runner.reported.connect(self._take_row)
         self.runner.finished.connect(self._take)
@@ -130,7 +130,7 @@ class ManyPhotosController(QObject):
         self._settings = settings
         self._done, self.table, self.reading = 0, None, reading
         self._view.show_begun(choice.estimate, scene)
-        self.runner.start(ManyRequest(self._paths, settings, self._jobs))
+        self.runner.ask(ManyRequest(self._paths, settings, self._jobs))
 
     def _match_again(self, place: int) -> None:
         """Match the photo whose known value was given; before all are matched, only with them."""
@@ -141,11 +141,11 @@ class ManyPhotosController(QObject):
         self._settings = settings = replace(settings, known=known)
         self._done, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)
-        self.runner.start(ManyRequest(self._paths, settings, self._jobs, table.rows, place))
+        self.runner.ask(ManyRequest(self._paths, settings, self._jobs, table.rows, place))
 
     def cancel(self) -> None:
         """Cancel the work; the rows that are done stay."""
-        if self.runner.is_running:
+        if not self.runner.is_idle:
             self.runner.cancel()
             self._view.show_ended()
 

@@ -133,15 +133,15 @@ def test_both_ends_of_the_slider_are_the_bare_model_and_the_exact_one(
 def test_a_move_of_the_slider_is_answered_before_the_picture_is(
     qtbot: QtBot, in_front: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    submit = in_front.simulation.runner.submit
-    monkeypatch.setattr(in_front.simulation.runner, "submit", lambda _request: None)
+    ask = in_front.simulation.runner.ask
+    monkeypatch.setattr(in_front.simulation.runner, "ask", lambda _request: None)
     slider = in_front.accuracy.tolerance.slider
     slider.setValue(slider.minimum())
     summary = in_front.accuracy.summary
     qtbot.waitUntil(lambda: "Switches out: " in summary.toolTip())
     assert summary.toolTip().startswith("Next: ")
     assert row(in_front, "sensor-noise").pending is False
-    submit(in_front.simulation.ages.present)
+    ask(in_front.simulation.ages.present)
     qtbot.waitUntil(lambda: summary.toolTip().startswith("This picture: "))
     assert row(in_front, "sensor-noise").pending is None
 
@@ -200,7 +200,7 @@ def test_the_study_runs_in_front_and_ends_when_the_scene_changes(
     qtbot.waitUntil(lambda: " of " in title.toolTip())
     application.store.change(iso=200.0)
     assert title.toolTip().endswith("stopped")
-    assert not application.study.runner.is_running
+    assert application.study.runner.is_idle
     qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"))
     qtbot.waitUntil(lambda: application.study.is_idle)
 
@@ -210,14 +210,14 @@ def test_behind_another_pane_no_study_is_made(
 ) -> None:
     monkeypatch.setattr(controller, "IDLE_MS", 1)
     application.window.bring_to_front("accuracy")
-    qtbot.waitUntil(lambda: application.study.runner.is_running)
+    qtbot.waitUntil(lambda: not application.study.runner.is_idle)
     application.window.modes.switch("explore")
     qtbot.waitUntil(lambda: application.study.is_idle)
     application.store.change(iso=200.0)
     qtbot.waitUntil(lambda: application.is_idle)
     qtbot.wait(50)
     assert application.study.is_idle
-    assert not application.study.runner.is_running
+    assert application.study.runner.is_idle
 
 
 def test_nothing_is_drawn_of_a_pane_that_is_not_seen(

@@ -16,7 +16,7 @@ from occ_gui.accuracy import controller as module
 from occ_gui.accuracy import cost_measurement
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCosts
-from occ_gui.background.cancellable import Cancelled
+from occ_gui.background.task import Superseded
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import SimulationRequest
@@ -133,7 +133,7 @@ def test_a_change_cancels_the_study_and_the_next_is_of_it(bench: Bench, what: st
         bench.scenes.change(iso=200.0)
     else:
         bench.settings.set_tolerance(2.0)
-    assert not bench.controller.runner.is_running
+    assert bench.controller.runner.is_idle
     assert bench.pane.received[-1] == "outdated"
     bench.allow(1 + TOTAL)
     bench.wait_until_idle()
@@ -162,7 +162,7 @@ def test_measured_points_are_not_measured_again_when_shown_again(bench: Bench) -
     bench.wait_for("finished")
     bench.controller.set_seen(False)
     bench.controller.set_seen(True)
-    assert not bench.controller.runner.is_running
+    assert bench.controller.runner.is_idle
     bench.wait_until_idle()
     assert bench.pane.received[-1] == "finished"
 
@@ -244,9 +244,9 @@ def test_cancelled_work_ends_within_the_simulation_of_a_picture(tiny: Simulation
     def report(something: object) -> None:
         reports.append(something)
         if len(reports) == 3:
-            raise Cancelled
+            raise Superseded
 
-    with pytest.raises(Cancelled):
+    with pytest.raises(Superseded):
         CostMeasurement()(tiny, report)
     assert reports == [None] * 3  # before anything was measured as a whole
 

@@ -10,10 +10,10 @@ from gui.user import User
 from PySide6.QtCore import Qt
 
 from occ_gui.app.application import Application
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Task
 from occ_gui.picture.averaged_image import AveragedImage
 
-MOST_FUNCTIONS = 12
+MOST_FUNCTIONS = 15
 
 
 class CallPath:
@@ -46,7 +46,7 @@ class CallPath:
 
 
 @pytest.mark.parametrize("is_first_move", [True, False])
-def test_a_slider_reaches_the_pixel_in_at_most_twelve_functions(
+def test_a_slider_reaches_the_pixel_in_at_most_fifteen_functions(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, is_first_move: bool
 ) -> None:
     slider = application.controls.main_rows()["exposure_time"].slider
@@ -55,10 +55,10 @@ def test_a_slider_reaches_the_pixel_in_at_most_twelve_functions(
         slider.setValue(400)
         user.wait_until_idle()
     path = CallPath(monkeypatch)
-    path.watch(LatestWins, "submit")
+    path.watch(Task, "ask")
     path.watch(AveragedImage, "set_image")
-    application.simulation._rendered.connect(
-        lambda _picture: path.note(sys._getframe(1)), Qt.ConnectionType.DirectConnection
+    application.simulation.runner._worker.reported.connect(
+        lambda _run, _picture: path.note(sys._getframe(1)), Qt.ConnectionType.DirectConnection
     )
     seen = application.store.scene
     slider.setValue(410)

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.background.cancellable import Cancellable, Report
+from occ_gui.background.task import Report, Task
 
 PATIENCE_S = 10.0
 
@@ -24,7 +24,7 @@ class Bench:
         self.made: list[object] = []
         self.items: list[object] = []
         self.ends: list[str] = []
-        self.runner: Cancellable[str, None] = Cancellable(self._work, "test of the runner")
+        self.runner: Task[str, None] = Task(self._work, "test of the runner", impatient=True)
         self.runner.reported.connect(self.items.append)
         self.runner.finished.connect(lambda _: self.ends.append("finished"))
         self.runner.failed.connect(self.ends.append)
@@ -60,36 +60,36 @@ def bench(qtbot: QtBot) -> Iterator[Bench]:
 
 
 def test_items_arrive_in_order_each_as_it_comes_and_then_the_end(bench: Bench) -> None:
-    bench.runner.start("a")
+    bench.runner.ask("a")
     bench.allow()
     bench.wait_for(1)
-    assert bench.runner.is_running
+    assert not bench.runner.is_idle
     assert bench.ends == []
     bench.allow(2)
     bench.wait_for_end()
     assert bench.items == ["a 0", "a 1", "a 2"]
     assert bench.ends == ["finished"]
-    assert not bench.runner.is_running
+    assert bench.runner.is_idle
 
 
 def test_work_runs_on_one_other_thread(bench: Bench) -> None:
     bench.allow(6)
     for request in ("a", "b"):
         bench.ends.clear()
-        bench.runner.start(request)
+        bench.runner.ask(request)
         bench.wait_for_end()
     assert len(bench.threads) == 1
     assert threading.get_ident() not in bench.threads
 
 
 def test_a_cancelled_run_ends_at_its_current_item(bench: Bench, qtbot: QtBot) -> None:
-    bench.runner.start("a")
+    bench.runner.ask("a")
     bench.allow()
     bench.wait_for(1)
     bench.runner.cancel()
-    assert not bench.runner.is_running
+    assert bench.runner.is_idle
     bench.allow(5)
-    bench.runner.start("b")
+    bench.runner.ask("b")
     bench.wait_for_end()
     assert bench.items == ["a 0", "b 0", "b 1", "b 2"]
     assert bench.ends == ["finished"]
@@ -98,7 +98,7 @@ def test_a_cancelled_run_ends_at_its_current_item(bench: Bench, qtbot: QtBot) ->
 
 def test_an_item_in_flight_when_cancelled_is_not_delivered(bench: Bench) -> None:
     bench.allow(3)
-    bench.runner.start("a")
+    bench.runner.ask("a")
     while len(bench.made) < 3:  # without letting the window receive anything
         bench.at_work.wait(PATIENCE_S)
     bench.runner.cancel()
@@ -107,9 +107,9 @@ def test_an_item_in_flight_when_cancelled_is_not_delivered(bench: Bench) -> None
 
 
 def test_a_newer_start_cancels_the_older(bench: Bench) -> None:
-    bench.runner.start("a")
+    bench.runner.ask("a")
     assert bench.at_work.wait(PATIENCE_S)
-    bench.runner.start("b")
+    bench.runner.ask("b")
     bench.allow(4)
     bench.wait_for_end()
     assert bench.items == ["b 0", "b 1", "b 2"]
@@ -127,25 +127,25 @@ def test_an_error_is_a_sentence_after_the_items_before_it(
     bench: Bench, request_: str, sentence: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     bench.allow(2)
-    bench.runner.start(request_)
+    bench.runner.ask(request_)
     bench.wait_for_end()
     assert bench.items == [f"{request_} 0"]
     assert bench.ends == [sentence]
     assert ("Traceback" in caplog.text) == (request_ == "mistake")
-    assert not bench.runner.is_running
+    assert bench.runner.is_idle
 
 
 def test_an_error_of_a_cancelled_run_does_not_arrive(bench: Bench) -> None:
-    bench.runner.start("mistake")
+    bench.runner.ask("mistake")
     assert bench.at_work.wait(PATIENCE_S)
-    bench.runner.start("b")
+    bench.runner.ask("b")
     bench.allow(5)
     bench.wait_for_end()
     assert bench.ends == ["finished"]
 
 
 def test_stopping_waits_for_the_item_and_delivers_nothing(bench: Bench) -> None:
-    bench.runner.start("a")
+    bench.runner.ask("a")
     assert bench.at_work.wait(PATIENCE_S)
     release = threading.Timer(0.05, bench.allow)
     release.start()

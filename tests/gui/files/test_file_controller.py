@@ -234,7 +234,7 @@ def test_a_cancelled_dialog_does_nothing(
     ):
         ask_user()
     assert bench.status_message == []
-    assert not bench.photos.runner.is_running
+    assert bench.photos.runner.is_idle
     assert bench.store.scene == small_scene
 
 

@@ -71,7 +71,7 @@ class Bench:
 
     def start(self, **choice: Any) -> None:
         self.controller.start(MatchChoice(**choice))
-        self._qtbot.waitUntil(lambda: not self.controller.runner.is_running)
+        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
 
     def show_match_begun(self) -> None:
         self.events.append("begun")
@@ -195,7 +195,7 @@ def test_another_region_ends_the_match_and_puts_a_refusal_away(bench: Bench) -> 
     bench.controller.set_region(PARTS[0])
     bench.go_on.set()
     assert bench.events[-2:] == ["cancelled", ()]
-    assert not bench.controller.runner.is_running
+    assert bench.controller.runner.is_idle
 
 
 def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:

@@ -47,7 +47,7 @@ class Bench:
 
     def wait_until_idle(self) -> None:
         self.go_on.set()
-        self._qtbot.waitUntil(lambda: not self.controller.runner.is_running)
+        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
 
     def open(self, path: Path) -> None:
         self.controller.open(path)
@@ -136,7 +136,7 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
     bench.controller.ended.connect(lambda: ended.append(True))
     bench.open_and_hold(other_file)
     bench.controller.cancel()
-    assert not bench.controller.runner.is_running
+    assert bench.controller.runner.is_idle
     assert ended == [True]
     bench.go_on.set()
     bench.controller.scan_along("lines")

@@ -179,7 +179,7 @@ def test_while_the_scene_changes_only_drafts_are_made(
         if iso is not None:
             bench.store.change(iso=iso)
 
-    bench.controller._rendered.connect(change_again, Qt.ConnectionType.BlockingQueuedConnection)
+    bench.controller.picture_ready.connect(change_again)  # the work waits for its paint
     bench.store.change(iso=90.0)
     bench.store.change(iso=100.0)
     bench.wait_until_idle()
@@ -199,7 +199,7 @@ def test_a_picture_under_way_gives_way_to_a_newer_scene(
     def note_and_change(scene: Scene, *arguments: Any, **named: Any) -> Any:
         begun.append(scene)
         if len(begun) == 1:
-            bench.controller.runner.submit(SimulationRequest(scene.replace(iso=300.0), SETTINGS))
+            bench.controller.runner.ask(SimulationRequest(scene.replace(iso=300.0), SETTINGS))
         return render_with(scene, *arguments, **named)
 
     monkeypatch.setattr(controller, "render_with", note_and_change)

@@ -267,7 +267,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
         image.simulation.box.viewRange(),
         application.photos.reading,
         application.desktop.theme.theme,
-        application.photo_wiring.matching.runner.is_running,
+        not application.photo_wiring.matching.runner.is_idle,
         window.windowTitle(),
         window.saveState().toBase64().data(),
         QGuiApplication.clipboard().image().size(),

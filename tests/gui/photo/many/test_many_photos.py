@@ -367,7 +367,7 @@ def test_cancelling_ends_the_work_and_keeps_the_rows(
 def test_other_files_cancel_the_work_on_the_first(bench: Bench, view: ManyPhotosView) -> None:
     bench.start()
     bench.controller.show_files(PATHS[:2])
-    assert not bench.controller.runner.is_running
+    assert bench.controller.runner.is_idle
     assert view.rows.paths == PATHS[:2]
 
 

@@ -1,14 +1,15 @@
-"""The newest request wins, and every finished result is shown."""
+"""The newest request wins, and every finished result of patient work is shown."""
 
 import threading
 from collections.abc import Callable, Iterator
 
 import pytest
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.background.latest_wins import LatestWins
+from occ_gui.background.task import Reporter, Task
 
 PATIENCE_S = 10.0
 
@@ -25,17 +26,17 @@ class Bench:
         self.results: list[object] = []
         self.result_threads: set[int] = set()
         self.failures: list[str] = []
-        self.runner: LatestWins[object, object] = LatestWins(self._work, "test of the runner")
+        self.runner: Task[object, object] = Task(self._work, "test of the runner")
         self.runner.finished.connect(self._note_result)
         self.runner.failed.connect(self.failures.append)
 
-    def _work(self, request: object) -> object:
+    def _work(self, request: object, report: Reporter) -> object:
         self.worked_on.append(request)
         self.work_threads.add(threading.get_ident())
         self.begun.set()
         assert self.go_on.wait(PATIENCE_S)
         if request == "gives way":
-            self.runner.give_way()
+            report.give_way()
         if isinstance(request, Exception):
             raise request
         return f"result of {request}"
@@ -44,11 +45,11 @@ class Bench:
         self.results.append(result)
         self.result_threads.add(threading.get_ident())
 
-    def submit_and_hold(self, request: object) -> None:
+    def ask_and_hold(self, request: object) -> None:
         """Ask for a result and come back while it is at work."""
         self.begun.clear()
         self.go_on.clear()
-        self.runner.submit(request)
+        self.runner.ask(request)
         assert self.begun.wait(PATIENCE_S)
 
 
@@ -74,9 +75,9 @@ def finish(qtbot: QtBot, bench: Bench) -> Callable[[], None]:
 def test_the_first_and_last_of_a_burst_are_computed_and_shown(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
-    bench.submit_and_hold(1)
+    bench.ask_and_hold(1)
     for request in (2, 3, 4, 5):
-        bench.runner.submit(request)
+        bench.runner.ask(request)
     finish()
     assert bench.worked_on == [1, 5]
     assert bench.results == ["result of 1", "result of 5"]
@@ -85,7 +86,7 @@ def test_the_first_and_last_of_a_burst_are_computed_and_shown(
 def test_requests_one_after_the_other_are_all_computed(bench: Bench, qtbot: QtBot) -> None:
     for request in (1, 2, 3):
         with qtbot.waitSignal(bench.runner.idle):
-            bench.runner.submit(request)
+            bench.runner.ask(request)
     assert bench.results == ["result of 1", "result of 2", "result of 3"]
 
 
@@ -93,8 +94,8 @@ def test_a_request_made_by_who_is_shown_a_result_is_computed(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
     again = iter(["follow-up"])
-    bench.runner.finished.connect(lambda _: [bench.runner.submit(r) for r in again])
-    bench.submit_and_hold("first")
+    bench.runner.finished.connect(lambda _: [bench.runner.ask(r) for r in again])
+    bench.ask_and_hold("first")
     finish()
     assert bench.results == ["result of first", "result of follow-up"]
 
@@ -102,8 +103,8 @@ def test_a_request_made_by_who_is_shown_a_result_is_computed(
 def test_work_runs_on_another_thread_and_results_on_the_windows(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
-    bench.submit_and_hold(1)
-    bench.runner.submit(2)
+    bench.ask_and_hold(1)
+    bench.runner.ask(2)
     finish()
     window_thread = threading.get_ident()
     assert len(bench.work_threads) == 1
@@ -112,7 +113,7 @@ def test_work_runs_on_another_thread_and_results_on_the_windows(
 
 
 def test_a_refusal_arrives_as_its_sentence(bench: Bench, finish: Callable[[], None]) -> None:
-    bench.submit_and_hold(occ.ProjectionError("The panel is behind the camera."))
+    bench.ask_and_hold(occ.ProjectionError("The panel is behind the camera."))
     finish()
     assert bench.failures == ["The panel is behind the camera."]
     assert bench.results == []
@@ -133,8 +134,8 @@ def test_an_internal_error_is_a_sentence_and_the_runner_goes_on(
     expected: str,
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    bench.submit_and_hold(mistake)
-    bench.runner.submit("next")
+    bench.ask_and_hold(mistake)
+    bench.runner.ask("next")
     finish()
     assert bench.failures == [expected]
     assert bench.results == ["result of next"]
@@ -145,9 +146,9 @@ def test_the_runner_is_idle_when_nothing_runs_or_waits(
     bench: Bench, qtbot: QtBot, finish: Callable[[], None]
 ) -> None:
     assert bench.runner.is_idle
-    bench.submit_and_hold(1)
+    bench.ask_and_hold(1)
     assert not bench.runner.is_idle
-    bench.runner.submit(2)
+    bench.runner.ask(2)
     idle_after: list[int] = []
     bench.runner.idle.connect(lambda: idle_after.append(len(bench.results)))
     finish()
@@ -156,8 +157,8 @@ def test_the_runner_is_idle_when_nothing_runs_or_waits(
 
 
 def test_stopping_waits_for_running_work_and_drops_the_rest(bench: Bench) -> None:
-    bench.submit_and_hold(1)
-    bench.runner.submit(2)
+    bench.ask_and_hold(1)
+    bench.runner.ask(2)
     release = threading.Timer(0.05, bench.go_on.set)
     release.start()
     bench.runner.stop()
@@ -167,14 +168,14 @@ def test_stopping_waits_for_running_work_and_drops_the_rest(bench: Bench) -> Non
 
 def test_stopping_twice_is_as_good_as_once(bench: Bench, qtbot: QtBot) -> None:
     with qtbot.waitSignal(bench.runner.idle):
-        bench.runner.submit(1)
+        bench.runner.ask(1)
     bench.runner.stop()
     bench.runner.stop()
     assert bench.worked_on == [1]
 
 
 def test_nothing_arrives_after_stopping(bench: Bench) -> None:
-    bench.submit_and_hold(1)
+    bench.ask_and_hold(1)
     bench.go_on.set()
     bench.runner.stop()
     QApplication.processEvents()
@@ -185,25 +186,66 @@ def test_nothing_arrives_after_stopping(bench: Bench) -> None:
 def test_work_that_gives_way_ends_without_a_result(
     bench: Bench, finish: Callable[[], None]
 ) -> None:
-    bench.submit_and_hold("gives way")
-    bench.runner.submit("newer")
+    bench.ask_and_hold("gives way")
+    bench.runner.ask("newer")
     finish()
     assert bench.worked_on == ["gives way", "newer"]
     assert (bench.results, bench.failures) == (["result of newer"], [])
 
 
 def test_work_gives_way_to_a_newer_request_only(bench: Bench, finish: Callable[[], None]) -> None:
-    bench.submit_and_hold("older")
-    bench.runner.submit("gives way")
+    bench.ask_and_hold("older")
+    bench.runner.ask("gives way")
     finish()
     assert bench.results == ["result of older", "result of gives way"]
 
 
 def test_work_that_gives_way_ends_when_it_is_stopped(bench: Bench) -> None:
-    bench.submit_and_hold("gives way")
+    bench.ask_and_hold("gives way")
     stopping = threading.Thread(target=bench.runner.stop)
     stopping.start()
     bench.go_on.set()
     stopping.join(PATIENCE_S)
     QApplication.processEvents()
     assert bench.results == []
+
+
+def test_what_is_asked_after_stopping_is_not_done(bench: Bench, qtbot: QtBot) -> None:
+    bench.runner.stop()
+    bench.runner.ask(1)
+    qtbot.wait(20)
+    assert bench.runner.is_idle
+    assert bench.worked_on == []
+
+
+def test_cancelled_work_goes_on_unseen_and_the_next_begins_after_it(
+    bench: Bench, finish: Callable[[], None]
+) -> None:
+    bench.ask_and_hold(1)
+    bench.runner.ask(2)
+    bench.runner.cancel()
+    assert bench.runner.is_idle
+    bench.runner.ask(3)
+    finish()
+    assert bench.worked_on == [1, 3]
+    assert bench.results == ["result of 3"]
+
+
+def test_work_waits_until_what_it_has_reported_is_painted(qtbot: QtBot) -> None:
+    order: list[str] = []
+
+    def work(_request: None, report: Reporter) -> None:
+        report("a part")
+        report.wait_for_paint(PATIENCE_S)
+        order.append("goes on")
+
+    def paint_soon(part: str) -> None:
+        order.append(part)
+        QTimer.singleShot(0, lambda: order.append("painted"))
+
+    task: Task[None, None] = Task(work, "test of the paint")
+    task.reported.connect(paint_soon)
+    with qtbot.waitSignal(task.idle):
+        task.ask(None)
+    task.stop()
+    assert order == ["a part", "painted", "goes on"]

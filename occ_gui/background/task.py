@@ -1,0 +1,196 @@
+"""Task: one kind of work off the window's thread, done for the newest request."""
+
+from collections.abc import Callable
+from threading import Event
+from typing import Any, Generic, TypeAlias, TypeVar
+
+from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
+
+from occ_gui.background.failure import sentence_of
+from occ_gui.background.worker_thread import WorkerThread
+from occ_model.errors import OccError
+
+Request = TypeVar("Request")
+Result = TypeVar("Result")
+
+
+Report: TypeAlias = Callable[[Any], None]
+"""Takes a part of the result, the share of the work that is done, or None, which is not given on;
+ends work that is not wanted by raising an exception."""
+
+
+class Superseded(Exception):  # noqa: N818 - no error: nobody waits for it any more
+    """Ends work whose result is not needed any more; nothing is told of it."""
+
+
+class _Run:
+    """A request that is worked on, and what the window lets its work know."""
+
+    def __init__(self, request: Any) -> None:
+        self.request = request
+        self.is_wanted = True
+        self.newer, self.painted = Event(), Event()
+
+    def abandon(self) -> None:
+        self.is_wanted = False
+        self.newer.set()
+        self.painted.set()
+
+
+class Reporter:
+    """What work tells and asks while it goes on, on its own thread."""
+
+    def __init__(self, worker: "_Worker", run: _Run) -> None:
+        self._worker, self._run = worker, run
+
+    def __call__(self, part: Any = None) -> None:
+        """Give a part of the result, or the share that is done; end work that is not wanted."""
+        if not self._run.is_wanted:
+            raise Superseded
+        if part is not None:
+            self._worker.reported.emit(self._run, part)
+
+    def give_way(self, seconds: float = 0.0) -> None:
+        """End the work if a newer request waits, or comes within some seconds."""
+        if self._run.newer.wait(seconds):
+            raise Superseded
+
+    def wait_for_paint(self, seconds: float) -> None:
+        """Go on when the window has painted what it was given, or after some seconds.
+
+        Painting needs the interpreter, the memory and a core, as what follows does: side by side
+        both take twice as long, and what the user waits for is the picture.
+        """
+        self._run.painted.clear()
+        self._worker.paint_awaited.emit(self._run)
+        self._run.painted.wait(seconds)
+
+
+class Task(QObject, Generic[Request, Result]):
+    """Runs a function on a thread of its own, for one request at a time.
+
+    A request that comes while another is at work waits; a newer one takes its place. The running
+    one goes on, and its result is shown: ended at every move of a slider, it would show nothing
+    until the slider stops. That of an impatient task ends at its next report instead. The function
+    takes a request and a :class:`Reporter`, and must not touch a widget; the name is for the log.
+    """
+
+    reported = Signal(object)
+    """What the work has reported."""
+
+    finished = Signal(object)
+    """A result."""
+
+    failed = Signal(str)
+    """A sentence that says why there is none."""
+
+    failed_for = Signal(str, object)
+    """The same, and the names of the parameters that it is about."""
+
+    idle = Signal()
+    """Nothing is at work or waiting any more."""
+
+    _begun = Signal(object)
+
+    def __init__(
+        self, work: Callable[[Request, Reporter], Result], name: str, impatient: bool = False
+    ) -> None:
+        super().__init__()
+        self._is_impatient, self._is_stopped = impatient, False
+        self._running: _Run | None = None
+        self._waiting: _Run | None = None
+        self._worker = _Worker(work, name)
+        self._thread = WorkerThread(self._worker, name)
+        queued = Qt.ConnectionType.QueuedConnection
+        self._begun.connect(self._worker.run, queued)
+        self._worker.reported.connect(self._on_report, queued)
+        self._worker.paint_awaited.connect(self._on_paint_awaited, queued)
+        self._worker.ended.connect(self._on_end, queued)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing comes any more of what was asked."""
+        running = self._running
+        return self._waiting is None and (running is None or not running.is_wanted)
+
+    def ask(self, request: Request) -> None:
+        """Work on a request; one that still waits is forgotten."""
+        if self._is_stopped:
+            return
+        self._waiting = _Run(request)
+        if self._running is None:
+            self._begin()
+        elif self._is_impatient:
+            self._running.abandon()
+        else:
+            self._running.newer.set()
+
+    def cancel(self) -> None:
+        """Let nothing come any more of what was asked; work ends at its next report."""
+        self._waiting = None
+        if self._running is not None:
+            self._running.abandon()
+
+    def stop(self) -> None:
+        """Cancel, and wait for the end of the thread; nothing is done any more."""
+        self._is_stopped = True
+        self.cancel()
+        self._thread.end()
+
+    def _begin(self) -> None:
+        self._running, self._waiting = self._waiting, None
+        self._thread.begin()
+        self._begun.emit(self._running)
+
+    @Slot(object, object)
+    def _on_report(self, run: _Run, part: Any) -> None:
+        if run.is_wanted:
+            self.reported.emit(part)
+
+    @Slot(object)
+    def _on_paint_awaited(self, run: _Run) -> None:
+        # After the paint that the report has asked for, and that which panes ask for in their
+        # next turn.
+        QTimer.singleShot(0, self, lambda: QTimer.singleShot(0, self, run.painted.set))
+
+    @Slot(object, object, str, object)
+    def _on_end(self, run: _Run, result: Any, failure: str, parameters: tuple[str, ...]) -> None:
+        self._running = None
+        # The next request goes to work before this result is drawn: both cores are then busy.
+        if self._waiting is not None:
+            self._begin()
+        if not run.is_wanted:
+            return
+        if failure:
+            self.failed.emit(failure)
+            self.failed_for.emit(failure, parameters)
+        elif not isinstance(result, Superseded):
+            self.finished.emit(result)
+        if self.is_idle:
+            self.idle.emit()
+
+
+class _Worker(QObject):
+    """The part that lives on the other thread."""
+
+    reported = Signal(object, object)
+    paint_awaited = Signal(object)
+    ended = Signal(object, object, str, object)
+
+    def __init__(self, work: Callable[[Any, Reporter], Any], name: str) -> None:
+        super().__init__()
+        self._work, self._name = work, name
+
+    @Slot(object)
+    def run(self, run: _Run) -> None:
+        result, failure = None, ""
+        parameters: tuple[str, ...] = ()
+        try:
+            if run.is_wanted:
+                result = self._work(run.request, Reporter(self, run))
+        except Superseded as reason:
+            result = reason
+        except Exception as error:  # noqa: BLE001 - the window must outlive any error
+            failure = sentence_of(error, self._name, run.request)
+            parameters = error.parameters if isinstance(error, OccError) else ()
+        self.ended.emit(run, result, failure, parameters)

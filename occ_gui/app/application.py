@@ -1,15 +1,16 @@
 """Application: creates stores, controllers, panes and window, and connects them."""
 
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QObject, QSettings, Qt
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.app.about import show_about
-from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.desktop import Desktop
-from occ_gui.app.learning_panes import LearningPanes
+from occ_gui.app.features import features
+from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
@@ -27,7 +28,9 @@ from occ_gui.files.preset_controller import PresetController
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.wiring import PhotoWiring
+from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.image_view import ImageView
+from occ_gui.pins.pin_controller import PinController
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.forced_effects import forced_text
@@ -35,6 +38,9 @@ from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import Board
+from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
@@ -97,33 +103,21 @@ class Application(QObject):
         self.files = FileController(
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
-        self.learning = LearningPanes(
-            self.window, self.store, self.photo_wiring, self.image, self.profile,
-            controls=self.controls, preferences=self.preferences,
-        )  # fmt: skip
-        self.video = VideoPane(
-            self.window, self.store, self.files.ask_for_film, self.files.ask_to_save_film
-        )
         self.simulation.picture_ready.connect(self.image.show_picture)
-        # The profile follows what is drawn in it: the results before, and the comparison.
-        comparison = self.photo_wiring.comparison
-        readers = (self.image, comparison, self.profile, self.decode, self.story)
-        self.simulation.show_in([self.image, self.learning, self.accuracy], readers)
         self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
         self.frame_rate = FrameRate(workspace)
         self.detection_map = DetectionMapWiring(
             self.store, self.settings, self.detection, self.slider_strips, self.frame_rate
         )
         self.simulation.let_first(lambda: self.detection_map.map.is_first_answer_awaited)
-        self.bench = BenchDock(
-            self.window, self.store, self.frame_rate, self.detection_map.for_bench
-        )
+        self._declare_panes(workspace)
+        self._show_results()
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
         self.outdated.mark_picture(self.image.simulation)
         tell_story(self)
         self.outdated.mark_readings(self.profile, self.decode)
         self.outdated.mark_results(*self.accuracy.of_scene)
-        self.learning.exposure_made.connect(self.outdated.mark_results)
+        self.shell.made.connect(self._on_made)
         # Before the session is written.
         self.window.closing.connect(self._begin_to_end)
         self.desktop = Desktop(self)
@@ -135,6 +129,25 @@ class Application(QObject):
         self._connect_menus()
         self._connect_slider_strips()
         self._show_first(scene, settings)
+
+    def _declare_panes(self, workspace: Store) -> None:
+        self.before = BeforeController(workspace, [self.profile, self.image.before])
+        self.pins = PinController(self.store, self.present.is_present)
+        self.board = Board()
+        self.shell = Shell(self.window, workspace, self.board)
+        self.lessons = LessonsInWindow(self.window, self.shell, self.photo_wiring)
+        self.video = VideoPane(
+            self.window, self.shell, self.files.ask_for_film, self.files.ask_to_save_film
+        )
+        for feature in features(self):
+            self.shell.add(feature)
+
+    def _show_results(self) -> None:
+        # The profile follows what is drawn in it: the results before, and the comparison.
+        comparison = self.photo_wiring.comparison
+        readers = (self.image, comparison, self.profile, self.decode, self.story)
+        views = (self.image, self.before, self.pins, self.board, self.accuracy)
+        self.simulation.show_in(views, readers)
 
     def _show_first(self, scene: Scene, settings: SimulationSettings) -> None:
         self._list_presets()
@@ -151,7 +164,9 @@ class Application(QObject):
         self.messages.follow(self.accuracy, self.photo)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
-        self.learning.lesson_begun.connect(self.presets.keep_base)
+        self.lessons.begun.connect(self.presets.keep_base)
+        self.window.actions_by_name["lessons"].triggered.connect(self._show_lessons)
+        self.pins.both_pinned.connect(self._show_comparison)
         self.store.changed.connect(self._show_scene)
         self.store.refused.connect(self._refuse)
         self.store.refused_for.connect(self.messages.show_refusal_for)
@@ -163,10 +178,11 @@ class Application(QObject):
         labels = (label for bar in banners for label in (bar.sentence, bar.wrapped))
         self.window.leave_messages_to(*labels, self.photo.refusal.reasons)
         self.simulation.failed_for.connect(self.messages.show_failure)
-        self.simulation.failed.connect(self.learning.pins.give_up)
+        self.simulation.failed.connect(self.pins.give_up)
         for speaker in (self.presets, self.files, self.present, self.video):
             speaker.status_message.connect(self.window.say)
-        self.learning.status_message.connect(self.messages.show_note)
+        for noted in (self.lessons, self.pins):
+            noted.status_message.connect(self.messages.show_note)
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
@@ -246,8 +262,8 @@ class Application(QObject):
     def is_idle(self) -> bool:
         """Whether all requested results are shown."""
         parts = (
-            self.simulation, self.outdated, self.photo_wiring, self.desktop, self.learning,
-            self.video,
+            self.simulation, self.outdated, self.photo_wiring, self.desktop, self.pins,
+            self.shell,
         )  # fmt: skip
         return all(part.is_idle for part in parts)
 
@@ -265,6 +281,15 @@ class Application(QObject):
         """
         self._match_next, self._front_next = match, front
         self.photos.open(path)
+
+    def _on_made(self, _name: str, pane: Pane[Any]) -> None:
+        self.outdated.mark_results(*pane.of_picture)
+
+    def _show_lessons(self) -> None:
+        self.window.bring_to_front("lessons")
+
+    def _show_comparison(self) -> None:
+        self.window.bring_to_front("compare")
 
     def _show_several(self, paths: list[Path]) -> None:
         self.photo_wiring.many.show_files(paths)
@@ -360,7 +385,7 @@ class Application(QObject):
             self.window.say(self.tr("{who} is waited for.").format(who=who))
             self.window.repaint()
         self.simulation.stop()  # of the scene that is restored no picture is needed
-        self.learning.end_lesson()
+        self.lessons.end()
 
     def stop(self) -> None:
         """Stop all work in the background."""
@@ -368,6 +393,6 @@ class Application(QObject):
         self.study.stop()
         self.photo_wiring.stop()
         self.detection_map.stop()
-        self.learning.stop()
-        self.video.stop()
+        self.pins.stop()
+        self.shell.stop()
         self.desktop.stop()

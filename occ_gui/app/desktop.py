@@ -7,9 +7,8 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.app.bench_pane import BenchDock
 from occ_gui.app.error_reports import ErrorReports
-from occ_gui.app.learning_panes import LearningPanes
+from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.core.workspace import Step
 from occ_gui.decoding.decode_view import DecodeView
@@ -28,12 +27,14 @@ from occ_gui.help.help_menu import HelpMenu
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
+from occ_gui.pins.pin_controller import PinController
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.window.command_palette import CommandPalette, commands_of, shortcuts_of
@@ -46,12 +47,14 @@ from occ_gui.window.text_size import TextSize
 from occ_gui.window.theme import ThemeController
 from occ_model.photo.reading.load import Photo
 from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
 
 if TYPE_CHECKING:
+    from occ_gui.bench.pane import BenchPane
     from occ_gui.transmitter.transmitter_controller import TransmitterController
 
 _THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
@@ -71,9 +74,10 @@ class Parts(Protocol):
     files: FileController
     photo_wiring: PhotoWiring
     detection_map: DetectionMapWiring
-    bench: BenchDock
     frame_rate: FrameRate
-    learning: LearningPanes
+    lessons: LessonsInWindow
+    pins: PinController
+    shell: Shell
     video: VideoPane
     simulation: SimulationController
     present: PresentResults
@@ -113,7 +117,7 @@ class Desktop(QObject):
         )
         self.figures.describe_photo_by(parts.photo_wiring.verdict.about)
         self.figures.add_map(lambda: parts.detection_map.map.full, parts.frame_rate)
-        self.figures.add_bench(lambda: parts.bench.full, parts.frame_rate)
+        self.figures.add_bench(lambda: _measured(parts.shell), parts.frame_rate)
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)
         self.export = ExportController(
@@ -136,7 +140,7 @@ class Desktop(QObject):
         for changed in (
             parts.photo_wiring.lamps.region_changed,
             parts.video.film_changed,
-            parts.learning.pins.changed,
+            parts.pins.changed,
         ):
             changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
@@ -222,7 +226,7 @@ class Desktop(QObject):
     def session(self) -> Session:
         """Return what the user is working on; what a lesson shows in its place is not kept."""
         parts = self._parts
-        aside = parts.learning.users_own()
+        aside = parts.lessons.users_own()
         own = aside or UserState(parts.store.scene, parts.settings.settings, self._photo)
         return Session(
             scene=own.scene,
@@ -232,7 +236,7 @@ class Desktop(QObject):
             region=None if aside else parts.photo_wiring.lamps.rectangle,
             film=parts.video.path,
             preset=parts.presets.base_of(own.scene),
-            pins=parts.learning.pins.kept,
+            pins=parts.pins.kept,
             history=parts.store.store.history(Step(own.scene, dict(own.settings.force))),
         )
 
@@ -262,7 +266,7 @@ class Desktop(QObject):
                 self._parts.image.choose_picture(whose)
             self.brightness.switch(preferences.recall(_HOLD) == _YES)
             left = file.crashed or session
-            self._parts.learning.pins.restore(left.pins)
+            self._parts.pins.restore(left.pins)
             if left.scene is not None:
                 self._parts.presets.resume(left.scene, left.preset)
         self.autosave.resume(file, session, scene_wins)
@@ -312,7 +316,7 @@ class Desktop(QObject):
 
     def _keep_view(self) -> None:
         """Store how the window looks, unless a lesson has its own panes in it."""
-        if self._parts.learning.users_own() is None:
+        if self._parts.lessons.users_own() is None:
             self.layout.keep()
             self._parts.preferences.keep(_OVERLAY, self._parts.image.mode.key())
             self._parts.preferences.keep(_PICTURE, self._parts.image.whose)
@@ -328,3 +332,9 @@ class Desktop(QObject):
         if self.transmitter is not None:
             self.transmitter.stop()
         self.error_reports.remove()
+
+
+def _measured(shell: Shell) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
+    """Give what the bench has measured; None while some points are missing."""
+    pane: BenchPane | None = shell.made_pane("bench")
+    return None if pane is None else pane.controller.full

@@ -1,11 +1,11 @@
 """Connections of the story: what feeds it, and what its choices change in other panes."""
 
-from typing import Protocol
+from typing import Any, Protocol
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt
 from PySide6.QtWidgets import QMenu
 
-from occ_gui.app.learning_panes import LearningPanes
+from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.explanation.exposure_controller import ExposureController
@@ -14,6 +14,7 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
+from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.story.story_view import StoryView
@@ -31,7 +32,8 @@ class Parts(Protocol):
     image: ImageView
     profile: ProfileView
     decode: DecodeView
-    learning: LearningPanes
+    lessons: LessonsInWindow
+    shell: Shell
     photo: PhotoView
     photos: PhotoController
 
@@ -54,10 +56,15 @@ def tell_story(parts: Parts) -> None:
     image.picture_chosen.connect(story.choose_picture)
     story.picture_chosen.connect(image.choose_picture)
     _link_profiles(story, parts.profile)
-    parts.learning.columns_held.connect(story.hold_columns)
+    parts.lessons.columns_held.connect(story.hold_columns)
     _tell_verdicts_apart(parts)
     crosshair = story.rows.crosshair
-    parts.learning.exposure_chooser_made.connect(lambda made: _share_column(crosshair, made))
+
+    def share(name: str, pane: Any) -> None:
+        if name == "equations":
+            _share_column(crosshair, pane.exposure)
+
+    parts.shell.made.connect(share)
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     asked = _WholePictureWhileAsked(story)
@@ -104,7 +111,7 @@ def _tell_verdicts_apart(parts: Parts) -> None:
     naming = _SimulationNaming(parts)
     parts.window.modes.changed.connect(naming.show)
     parts.photos.opened.connect(naming.show)
-    parts.learning.photo_explained.connect(naming.note_step)
+    parts.lessons.photo_explained.connect(naming.note_step)
     story.verdict.changed.connect(
         lambda: photo.show_simulation(story.verdict.state, story.verdict.heading)
     )

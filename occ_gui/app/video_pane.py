@@ -1,48 +1,33 @@
-"""Pane of the films: made when it is first shown, with the film that was to be opened."""
+"""Films in the window: opened when their pane is first shown."""
 
 from collections.abc import Callable, Mapping
-from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QDockWidget, QWidget
 
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.widgets.lazy_pane import LazyPane, PaneContent
+from occ_gui.shell.shell import Shell
 
 if TYPE_CHECKING:
     from occ_gui.video.wiring import VideoWiring
 
 
-class DockWindow(Protocol):
-    """A window that panes can be added to."""
+class PaneWindow(Protocol):
+    """A window that shows panes."""
 
     @property
     def actions_by_name(self) -> Mapping[str, QAction]:
         """The menu entries, by name."""
-
-    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
-        """Add a pane before the window is shown."""
 
     def bring_to_front(self, name: str) -> None:
         """Show a pane in front of those that share its place."""
 
 
 class VideoPane(QObject):
-    """The dock of the films; nothing of them is loaded before it is first shown.
+    """What opens, saves and closes films; a film waits for the first look at its pane.
 
-    Parameters
-    ----------
-    window
-        The window that the dock is added to.
-    scenes
-        The store of the scene.
-    ask_for_film
-        Lets the user choose a film.
-    ask_to_save
-        Lets the user choose where to write the simulated film.
+    ``ask_for_film`` lets the user choose a film, ``ask_to_save`` where to write the simulated one.
     """
 
     status_message = Signal(str)
@@ -53,44 +38,45 @@ class VideoPane(QObject):
 
     def __init__(
         self,
-        window: DockWindow,
-        scenes: SceneStore,
+        window: PaneWindow,
+        shell: Shell,
         ask_for_film: Callable[[], None],
         ask_to_save: Callable[[], None],
     ) -> None:
         super().__init__()
-        self._window, self._scenes = window, scenes
+        self._window, self._shell = window, shell
         self._ask_for_film, self._ask_to_save = ask_for_film, ask_to_save
         self._later: Path | None = None
-        pane = LazyPane(self._make)
-        dock = window.add_pane("video", self.tr("Video"), pane)
-        dock.visibilityChanged.connect(pane.set_seen)
+        shell.made.connect(self._connect)
         window.actions_by_name["open_film"].triggered.connect(ask_for_film)
         window.actions_by_name["close_film"].triggered.connect(self.close)
 
-    @cached_property
-    def wiring(self) -> "VideoWiring":
-        """The pane with its controllers."""
-        from occ_gui.video.wiring import VideoWiring
-
-        wiring = VideoWiring(self._scenes)
-        wiring.open_asked.connect(self._ask_for_film)
-        wiring.save_asked.connect(self._ask_to_save)
-        wiring.status_message.connect(self.status_message)
-        wiring.film_changed.connect(self._on_film)
-        return wiring
-
-    def _make(self) -> PaneContent:
-        wiring = self.wiring
+    def _connect(self, name: str, pane: Any) -> None:
+        if name != "video":
+            return
+        pane.open_asked.connect(self._ask_for_film)
+        pane.save_asked.connect(self._ask_to_save)
+        pane.status_message.connect(self.status_message)
+        pane.film_changed.connect(self._on_film)
         if self._later is not None:
-            wiring.open(self._later)
+            pane.open(self._later)
             self._later = None
-        return wiring.view, wiring.set_seen
+
+    @property
+    def wiring(self) -> "VideoWiring":
+        """The pane, which is made if it has never been seen."""
+        pane: VideoWiring = self._shell.pane("video")
+        return pane
+
+    @property
+    def _made(self) -> "VideoWiring | None":
+        pane: VideoWiring | None = self._shell.made_pane("video")
+        return pane
 
     @property
     def path(self) -> Path | None:
         """The film that is open, or will be when the pane is first shown."""
-        return self.wiring.path if "wiring" in vars(self) else self._later
+        return self._later if self._made is None else self._made.path
 
     def open(self, path: Path) -> None:
         """Open a film in front."""
@@ -99,10 +85,10 @@ class VideoPane(QObject):
 
     def keep(self, path: Path) -> None:
         """Open a film, as soon as the pane is shown."""
-        if "wiring" in vars(self):
-            self.wiring.open(path)
-        else:
+        if self._made is None:
             self._later = path
+        else:
+            self._made.open(path)
 
     def save(self, path: Path) -> None:
         """Write the simulated film to a file."""
@@ -110,19 +96,9 @@ class VideoPane(QObject):
 
     def close(self) -> None:
         """Close the film."""
-        if "wiring" in vars(self):
-            self.wiring.close()
+        if self._made is not None:
+            self._made.close()
 
     def _on_film(self, path: Path | None) -> None:
         self._window.actions_by_name["close_film"].setEnabled(path is not None)
         self.film_changed.emit(path)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether the frame is shown and the film read."""
-        return "wiring" not in vars(self) or self.wiring.is_idle
-
-    def stop(self) -> None:
-        """Stop all work in the background, and release the camera."""
-        if "wiring" in vars(self):
-            self.wiring.stop()

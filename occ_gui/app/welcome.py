@@ -53,7 +53,7 @@ class Welcome(QObject):
         application.window.modes.switch(_MODES[door])
         if door == "learn":
             application.window.bring_to_front("lessons")
-            application.learning.lessons.controller.begin_first()
+            application.shell.pane("lessons").controller.begin_first()
         elif door == "photo":
             application.files.ask_for_photo()
 

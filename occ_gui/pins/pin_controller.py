@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from typing import Protocol
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -31,13 +30,6 @@ _LONGEST_PAYLOAD = 24
 _NAMES = ("A", "B")
 
 
-class ComparePane(Protocol):
-    """A pane that shows the differences of two states."""
-
-    def show_pinned(self, pinned: Pinned) -> None:
-        """Show these two states in place of the previous ones."""
-
-
 class PinController(QObject):
     """Keeps up to two states, A and B.
 
@@ -47,8 +39,6 @@ class PinController(QObject):
     ----------
     scenes
         The scene, which a return to A or B replaces.
-    pane
-        The pane that shows the differences.
     is_present
         Returns whether results are those of the present scene and settings.
     """
@@ -65,14 +55,12 @@ class PinController(QObject):
     def __init__(
         self,
         scenes: SceneStore,
-        pane: ComparePane,
         is_present: Callable[[Snapshot], bool] = lambda _snapshot: True,
     ) -> None:
         super().__init__()
         self._is_present = is_present
         self._waiting = ""
         self._scenes = scenes
-        self._pane = pane
         self._snapshot: Snapshot | None = None
         self.pinned = Pinned()
         self._restored: dict[str, SimulationRequest] = {}
@@ -183,7 +171,6 @@ class PinController(QObject):
             inputs = tuple(self._differing_inputs(a, b))
             outputs = tuple(self._differing_outputs(a, b))
         self.pinned = Pinned(a, b, inputs, outputs)
-        self._pane.show_pinned(self.pinned)
         self.changed.emit()
 
     def _differing_inputs(self, a: Pin, b: Pin) -> list[ComparedRow]:

@@ -38,6 +38,10 @@ class PresentResults(QObject):
         simulation.snapshot_shown.connect(self._on_snapshot)
         simulation.failed.connect(self._on_failure)
 
+    def is_present(self, snapshot: Snapshot) -> bool:
+        """Return whether results are those of the present scene and settings."""
+        return snapshot.request == self._ages.present
+
     def ask(self, use: Use) -> None:
         """Use the results of the present scene: at once, or when they are shown."""
         self._waiting.append(use)
@@ -49,7 +53,7 @@ class PresentResults(QObject):
     def _serve(self) -> bool:
         """Give the latest results to all who wait, if they are those of the present scene."""
         snapshot = self.latest
-        if snapshot is None or snapshot.request != self._ages.present:
+        if snapshot is None or not self.is_present(snapshot):
             return False
         waiting, self._waiting = self._waiting, []
         for use in waiting:

@@ -3,10 +3,11 @@
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import Signal
 
 from occ_gui.background.file_writer import FileWriter
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
@@ -22,7 +23,7 @@ _USUAL_RATE = 30.0
 """Frames a second where a film does not say how many."""
 
 
-class VideoWiring(QObject):
+class VideoWiring(Pane[None]):
     """The pane of the films with its controllers.
 
     Parameters
@@ -44,10 +45,11 @@ class VideoWiring(QObject):
     """The path of the film that is open now, None where none is."""
 
     def __init__(self, scenes: SceneStore) -> None:
-        super().__init__()
+        view = VideoView()
+        super().__init__(view)
         self._scenes = scenes
         self._is_frame_missing = False
-        self.view = VideoView()
+        self.view = view
         self.films = FilmController(scenes, self.view.form)
         self.readings = ReadingController()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)

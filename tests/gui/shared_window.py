@@ -84,9 +84,9 @@ def end(application: Application, before: Sequence[QWidget]) -> None:
 
 def forget_lessons(application: Application) -> None:
     """Leave the lesson, and forget what has been done of any, which no user can."""
-    if "lessons" not in vars(application.learning):
+    if application.shell.made_pane("lessons") is None:
         return
-    lessons = application.learning.lessons
+    lessons = application.shell.pane("lessons")
     lessons.controller.leave()
     lessons.controller._places.clear()
     lessons.controller._done.clear()
@@ -107,7 +107,7 @@ def state_of(application: Application) -> list[object]:
         application.photo.form.certain_values,
         application.preferences.files,
         application.video.path,
-        (application.learning.pins.pinned.a, application.learning.pins.pinned.b),
+        (application.pins.pinned.a, application.pins.pinned.b),
         application.image.mode.key(),
         application.desktop.theme.theme,
         window.modes.mode,
@@ -235,7 +235,7 @@ class SharedWindow:
         kept.photo_wiring.placements.reset()
         kept.photo_wiring.placements.suggest(Placement())
         kept.video.close()
-        kept.learning.pins.clear()
+        kept.pins.clear()
         kept.preferences.clear()
         kept.store.put(scene, "first scene", force={})
         kept.settings.restore(FIRST_SETTINGS)

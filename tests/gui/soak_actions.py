@@ -386,7 +386,7 @@ class Monkey:
         self._trigger("clear_pins")
 
     def _guide(self) -> LessonView:
-        guide = self._application.learning.lessons_pane
+        guide = self._application.shell.pane("lessons").view
         if not guide.list.choices:
             self._trigger("lessons")
             self._qtbot.waitUntil(lambda: bool(guide.list.choices))

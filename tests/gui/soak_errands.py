@@ -178,7 +178,7 @@ class Errands:
             form.saving.cancel.click()
 
     def write_a_report(self) -> None:
-        guide = self._application.learning.lessons_pane
+        guide = self._application.shell.pane("lessons").view
         if not guide.list.choices:
             self._trigger("lessons")
             self._qtbot.waitUntil(lambda: bool(guide.list.choices))

@@ -30,6 +30,7 @@ MAY_COMPUTE = (
     "jobs",
     "match_request",
     "measurement",
+    "pane",
     "report",
     "schedule",
     "sweep_table",

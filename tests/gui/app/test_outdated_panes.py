@@ -89,7 +89,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int
 ) -> None:
     application.window.bring_to_front("equations")
-    application.learning.explanation.set_seen(True)
+    application.shell.pane("equations").set_seen(True)
     assert [mark.parentWidget() for mark in marks(application)] == [
         application.image.simulation,
         application.story.rows.stripes,
@@ -97,7 +97,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
         application.profile,
         application.decode,
         *application.accuracy.of_scene,
-        application.learning.explanation.pane.exposure,
+        application.shell.pane("equations").pane.exposure,
     ]
     assert all(mark.isHidden() for mark in marks(application))
     application.store.change(iso=60.0, jpeg_quality=jpeg)

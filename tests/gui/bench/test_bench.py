@@ -191,7 +191,7 @@ def test_the_bench_is_exported_with_its_own_setting(
     qtbot.waitUntil(lambda: bool(said))
     assert "not complete" in said[-1]
     application.window.bring_to_front("bench")
-    qtbot.waitUntil(lambda: "wiring" in vars(application.bench))
+    qtbot.waitUntil(lambda: application.shell.made_pane("bench") is not None)
     request = BenchRequest(decoders=("threshold",), exposures=(1.0,), decibels=(), bits=64)
     found = request, tuple(measure_bench_point(request, request.points[0]))
     full: Callable[[], object] = lambda: found  # noqa: E731

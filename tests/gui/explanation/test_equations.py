@@ -140,7 +140,7 @@ def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene)
 def test_what_is_typed_arrives_in_the_equations(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
-    text = application.learning.explanation.pane.equations
+    text = application.shell.pane("equations").pane.equations
     user.enter("exposure_time", "90 us")
     assert "90 µs" not in text.toPlainText()  # nobody sees it
     application.window.bring_to_front("equations")

@@ -219,7 +219,7 @@ def move_mouse(application: Application, column: float) -> None:
 @pytest.fixture
 def seen(application: Application, qtbot: QtBot) -> Application:
     application.window.bring_to_front("equations")
-    pane = application.learning.explanation.pane
+    pane = application.shell.pane("equations").pane
     qtbot.waitUntil(lambda: bool(pane.exposure.sentence.text()))
     return application
 
@@ -227,7 +227,7 @@ def seen(application: Application, qtbot: QtBot) -> Application:
 def test_mouse_click_and_keys_over_the_profile_choose_a_column(
     seen: Application, qtbot: QtBot
 ) -> None:
-    exposure, plot = seen.learning.explanation.pane.exposure, seen.profile.plot
+    exposure, plot = seen.shell.pane("equations").pane.exposure, seen.profile.plot
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
     there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
@@ -240,7 +240,7 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(
     qtbot.keyClick(plot, Qt.Key.Key_Right)
     assert exposure.column.value() == column + 1
     assert exposure.sentence.text().startswith(f"Column {column + 1}:")
-    assert seen.learning.explanation.picker.marker.value() == column + 1
+    assert seen.shell.pane("equations").picker.marker.value() == column + 1
     qtbot.keyClick(plot, Qt.Key.Key_PageUp)
     assert exposure.column.value() == column + 11
     qtbot.keyClick(plot, Qt.Key.Key_PageDown)
@@ -250,7 +250,7 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(
 
 
 def test_a_number_typed_chooses_and_holds_a_column(seen: Application, qtbot: QtBot) -> None:
-    exposure = seen.learning.explanation.pane.exposure
+    exposure = seen.shell.pane("equations").pane.exposure
     exposure.column.selectAll()
     qtbot.keyClicks(exposure.column, "1100")
     qtbot.keyClick(exposure.column, Qt.Key.Key_Return)
@@ -263,27 +263,27 @@ def test_a_number_typed_chooses_and_holds_a_column(seen: Application, qtbot: QtB
 def test_the_profiles_mark_stays_while_the_exposure_is_visible(
     seen: Application, qtbot: QtBot
 ) -> None:
-    picker: ColumnPicker = seen.learning.explanation.picker
+    picker: ColumnPicker = seen.shell.pane("equations").picker
     assert picker.marker.isVisible()
     docks = seen.window.docks
     seen.window.tabifyDockWidget(docks["equations"], docks["decode"])
     seen.window.bring_to_front("decode")
     qtbot.waitUntil(lambda: not picker.marker.isVisible())
-    messages = seen.learning.explanation.pane.exposure.sentence.text()
+    messages = seen.shell.pane("equations").pane.exposure.sentence.text()
     move_mouse(seen, seen.profile.plot.getViewBox().viewRange()[0][0] + 50.0)
     qtbot.keyClick(seen.profile.plot, Qt.Key.Key_Right)
-    assert seen.learning.explanation.pane.exposure.sentence.text() == messages
+    assert seen.shell.pane("equations").pane.exposure.sentence.text() == messages
 
 
 def test_the_exposure_follows_the_scene(seen: Application, user: User) -> None:
-    exposure = seen.learning.explanation.pane.exposure
+    exposure = seen.shell.pane("equations").pane.exposure
     user.enter("exposure_time", "136 us")
     assert "136 µs exposure" in exposure.sentence.text()
     level = seen.profile.simulation.getOriginalDataset()[1]
-    column = seen.learning.explanation.pane.exposure.column.value()
+    column = seen.shell.pane("equations").pane.exposure.column.value()
     assert (
         f"{level[column]:.1f} grey levels"
-        in seen.learning.explanation.pane.exposure.sentence.text()
+        in seen.shell.pane("equations").pane.exposure.sentence.text()
     )
     assert np.isfinite(level).all()
 

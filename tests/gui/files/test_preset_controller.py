@@ -235,7 +235,7 @@ def test_a_changed_preset_is_named_until_another_scene_comes(
 def test_a_preset_is_named_again_after_a_lesson(application: Application, user: User) -> None:
     preset = application.controls.preset
     application.window.bring_to_front("lessons")
-    lessons = application.learning.lessons.controller
+    lessons = application.shell.pane("lessons").controller
     application.presets.load("phone-68us")
     for pattern, named in (
         ("", "Phone, 68 µs"),
@@ -246,6 +246,6 @@ def test_a_preset_is_named_again_after_a_lesson(application: Application, user: 
         lessons.begin_first()
         application.store.change(code=3)
         application.presets.load("phone-136us")
-        application.learning.end_lesson()
+        application.lessons.end()
         assert (preset.currentText() or preset.placeholderText()) == named
     user.wait_until_idle()

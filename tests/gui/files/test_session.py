@@ -270,7 +270,7 @@ def kill(
 
 def comparison(application: Application) -> list[list[str]]:
     """Read the table of what differs between A and B, without how long they took."""
-    table = application.learning.compare.table
+    table = application.shell.pane("compare").view.table
     cells = [
         [item.text() if (item := table.item(row, column)) else "" for column in range(3)]
         for row in range(table.rowCount())

@@ -28,7 +28,7 @@ from occ_model.teaching.lessons import lessons
 def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
     """Open the lessons by the menu."""
     user.choose("&Lessons")
-    guide = application.learning.lessons_pane
+    guide = application.shell.pane("lessons").view
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
     return guide
 
@@ -98,7 +98,7 @@ def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
     guide.step.reveal.click()
     assert "18.2 columns" in guide.step.equation.toPlainText()
     assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
-    learning = application.learning.lessons
+    learning = application.shell.pane("lessons")
     lesson = learning.controller.lesson_under_way
     assert lesson is not None
     (first, *others) = learning.answers.all_of(lesson)
@@ -250,7 +250,7 @@ def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     guide.list.choices[0].click()
     rows = application.controls.panels["Main"].rows
     assert guide.step.control.text() == "Change: Readout time"
-    assert application.learning.lessons.spotlight.is_on
+    assert application.shell.pane("lessons").spotlight.is_on
     assert rows["readout_time"].graphicsEffect() is None
     assert rows["iso"].graphicsEffect() is not None
     qtbot.waitUntil(lambda: not rows["readout_time"].visibleRegion().isEmpty())
@@ -264,7 +264,7 @@ def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
     user.enter("readout_time", "20 µs")
     assert application.store.scene.camera.readout_time == 20e-6
     guide.step.all.click()
-    assert not application.learning.lessons.spotlight.is_on
+    assert not application.shell.pane("lessons").spotlight.is_on
     assert rows["iso"].graphicsEffect() is None
     assert all(row.isEnabled() for row in rows.values())
     assert told.endswith(field.toolTip())
@@ -321,7 +321,7 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     user.wait_until_idle()
     assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
     assert user.message == "Saved report.pdf"
-    assert application.learning.lessons.reports.author == "Ada $x_1$"
+    assert application.shell.pane("lessons").reports.author == "Ada $x_1$"
 
 
 def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
@@ -368,7 +368,7 @@ def test_a_teachers_lesson_is_listed_and_a_bad_one_is_named(
     (tmp_path / "bad.toml").write_text(f'title = "Bad"\n[[stop]]\n{step}', encoding="utf-8")
     monkeypatch.setenv("OCC_LESSONS", str(tmp_path))
     user.choose("&Lessons")
-    guide = application.learning.lessons_pane
+    guide = application.shell.pane("lessons").view
     assert any(choice.text().startswith("Mine") for choice in guide.list.choices)
     assert "bad is no lesson: line 2: a lesson has no key 'stop'" in guide.list.problems.text()
 
@@ -404,7 +404,7 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
     assert application.window.modes.mode == "lessons"
     assert guide.isVisible()
     assert application.photo.isVisible()
-    lessons = application.learning.lessons
+    lessons = application.shell.pane("lessons")
     assert lessons.controller.lesson_under_way is not None
     given = lessons.answers.all_of(lessons.controller.lesson_under_way)
     assert given[3].match is application.photo_wiring.matching.match

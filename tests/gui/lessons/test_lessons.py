@@ -31,7 +31,7 @@ from occ_model.teaching.lessons import lessons
 def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
     """Open the lessons by the menu."""
     user.choose("&Lessons")
-    guide = application.learning.lessons_pane
+    guide = application.shell.pane("lessons").view
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
     return guide
 
@@ -205,7 +205,7 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
 
     monkeypatch.setattr(lesson_controller, "lessons", fail)
     user.choose("&Lessons")
-    guide = application.learning.lessons_pane
+    guide = application.shell.pane("lessons").view
     qtbot.waitUntil(lambda: "<song>" in guide.list.message.text())
     assert guide.list.choices == []
 
@@ -358,7 +358,7 @@ def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that
     assert before[0] is not None
     assert before[3]
     user.choose("&Lessons")
-    guide = application.learning.lessons_pane
+    guide = application.shell.pane("lessons").view
     qtbot.waitUntil(lambda: bool(guide.list.choices))
     guide.list.choices[5].click()
     guide.step.next.click()

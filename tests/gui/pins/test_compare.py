@@ -23,24 +23,9 @@ from occ_model.scene.scene import Scene
 SnapshotOf = Callable[..., Snapshot]
 
 
-class Pane:
-    """Notes what it is shown."""
-
-    def __init__(self) -> None:
-        self.pinned = Pinned()
-
-    def show_pinned(self, pinned: Pinned) -> None:
-        self.pinned = pinned
-
-
 @pytest.fixture
-def pane() -> Pane:
-    return Pane()
-
-
-@pytest.fixture
-def pins(small_scene: Scene, pane: Pane) -> PinController:
-    return PinController(store_of(small_scene), pane)
+def pins(qapp: object, small_scene: Scene) -> PinController:
+    return PinController(store_of(small_scene))
 
 
 def pin_two(pins: PinController, a: Snapshot, b: Snapshot) -> None:
@@ -58,60 +43,60 @@ def outputs(pinned: Pinned) -> dict[str, tuple[str, str]]:
 
 
 def test_only_inputs_that_differ_are_listed_in_units_of_display(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(exposure_time=136e-6, distance=1.5))
-    assert inputs(pane.pinned) == {
+    assert inputs(pins.pinned) == {
         "Exposure time": ("68 µs", "136 µs"),
         "Distance": ("1.2 m", "1.5 m"),
     }
-    assert all("Allowed" in row.meaning for row in pane.pinned.inputs)
+    assert all("Allowed" in row.meaning for row in pins.pinned.inputs)
 
 
 def test_values_that_look_alike_are_written_with_all_digits(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(distance=1.2000000001))
-    a, b = inputs(pane.pinned)["Distance"]
+    a, b = inputs(pins.pinned)["Distance"]
     assert a != b
 
 
 def test_an_empty_pattern_and_another_tolerance_are_worded(
-    pins: PinController, pane: Pane, snapshot_of: SnapshotOf, bare_snapshot_of: SnapshotOf
+    pins: PinController, snapshot_of: SnapshotOf, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, snapshot_of(), bare_snapshot_of(pattern="10"))
-    found = inputs(pane.pinned)
+    found = inputs(pins.pinned)
     assert found["Raw chip pattern"] == ("none", "10")
     assert found["Tolerance"][1].startswith("inf")
 
 
 def test_the_outputs_are_those_of_the_two_states(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     a, b = bare_snapshot_of(), bare_snapshot_of(exposure_time=136e-6, switching_frequency=16e3)
     pin_two(pins, a, b)
-    found = outputs(pane.pinned)
+    found = outputs(pins.pinned)
     swings = tuple(f"{np.ptp(s.frame.profile):.1f} grey levels" for s in (a, b))
     assert found["Contrast"] == swings
     assert found["Columns a chip"] == ("12.50 columns", "7.81 columns")
     assert found["Exposure"] == ("0.680 chips", "2.176 chips")
     assert found["Decoder “threshold”"] == ("code 718, right", b.decoded.failure)
     assert "Effects simulated" not in found  # none in both
-    assert all(row.meaning for row in pane.pinned.outputs)
+    assert all(row.meaning for row in pins.pinned.outputs)
 
 
 def test_the_effects_named_are_those_that_the_plan_includes(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf, snapshot_of: SnapshotOf
+    pins: PinController, bare_snapshot_of: SnapshotOf, snapshot_of: SnapshotOf
 ) -> None:
     none, some = bare_snapshot_of(), snapshot_of()
     included = [d.label for d in some.frame.plan.decisions if d.included]
     assert 0 < len(included) < len(some.frame.plan.decisions)
     pin_two(pins, none, some)
-    assert outputs(pane.pinned)["Effects simulated"] == ("none", ", ".join(included))
+    assert outputs(pins.pinned)["Effects simulated"] == ("none", ", ".join(included))
 
 
 def test_a_decoder_that_read_only_one_of_them_is_compared_with_none(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     once = bare_snapshot_of()
     asked = replace(once.request, more=("sequence",))
@@ -119,27 +104,25 @@ def test_a_decoder_that_read_only_one_of_them_is_compared_with_none(
     for a, b, texts in ((once, twice, ("not read", "code 718, right")),
                         (twice, once, ("code 718, right", "not read"))):  # fmt: skip
         pin_two(pins, a, b)
-        found = outputs(pane.pinned)
+        found = outputs(pins.pinned)
         assert found["Decoder “sequence”"] == texts
         assert "Decoder “threshold”" not in found  # the same in both
 
 
 def test_the_same_state_twice_has_no_differing_inputs(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     snapshot = bare_snapshot_of()
     pin_two(pins, snapshot, snapshot)
-    assert (pane.pinned.inputs, pane.pinned.outputs) == ((), ())
+    assert (pins.pinned.inputs, pins.pinned.outputs) == ((), ())
 
 
-def test_a_pin_holds_no_picture(
-    pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
-) -> None:
+def test_a_pin_holds_no_picture(pins: PinController, bare_snapshot_of: SnapshotOf) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of())
-    assert pane.pinned.a is not None
+    assert pins.pinned.a is not None
     assert not any(
         isinstance(value, np.ndarray) and value.ndim > 1
-        for value in (getattr(pane.pinned.a, name) for name in pane.pinned.a.__slots__)
+        for value in (getattr(pins.pinned.a, name) for name in pins.pinned.a.__slots__)
     )
 
 
@@ -171,25 +154,25 @@ def texts(table: QTableWidget) -> list[list[str]]:
 
 
 def test_the_view_requests_what_is_missing_then_lists_and_draws(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     assert "press Pin A" in view.hint.text()
     assert not view.table.isVisible()
     assert not view.returns["A"].isEnabled()
     pins.show_snapshot(bare_snapshot_of())
     pins.pin("A")
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     assert view.hint.text().startswith("A is kept.")
     assert "press Pin B" in view.hint.text()
     assert view.returns["A"].isEnabled()
     pins.show_snapshot(bare_snapshot_of(iso=200.0))
     pins.pin("B")
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     assert not view.hint.isVisible()
     listed = texts(view.table)
     assert listed[:2] == [["Inputs"], ["ISO speed", "100", "200"]]
     assert ["Outputs"] in listed
-    for name, pin in (("A", pane.pinned.a), ("B", pane.pinned.b)):
+    for name, pin in (("A", pins.pinned.a), ("B", pins.pinned.b)):
         assert pin is not None
         assert np.array_equal(view.curves[name].getOriginalDataset()[1], pin.profile)
     view.show_pinned(Pinned())
@@ -198,11 +181,11 @@ def test_the_view_requests_what_is_missing_then_lists_and_draws(
 
 
 def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(switching_frequency=16e3, iso=200.0))
-    view.show_pinned(pane.pinned)
-    both = [pin for pin in (pane.pinned.a, pane.pinned.b) if pin is not None]
+    view.show_pinned(pins.pinned)
+    both = [pin for pin in (pins.pinned.a, pins.pinned.b) if pin is not None]
     (first, last), (low, high) = view.plot.getViewBox().viewRange()
     starts = [pin.first_column for pin in both]
     ends = [pin.first_column + PACKETS_IN_VIEW * pin.packet_columns for pin in both]
@@ -218,14 +201,13 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
 def test_the_plot_ends_with_the_longer_profile_where_no_packet_does(
     view: CompareView,
     pins: PinController,
-    pane: Pane,
     bare_snapshot_of: SnapshotOf,
     columns: tuple[int, int],
 ) -> None:
     # At 1 kHz a packet is far longer than the picture.
     a, b = (bare_snapshot_of(switching_frequency=1e3, columns=count) for count in columns)
     pin_two(pins, a, b)
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     first, last = view.plot.getViewBox().viewRange()[0]
     margin = (last - first) * 0.01 / 1.02
     assert last - margin == pytest.approx(max(columns) - 1, abs=0.1)
@@ -233,12 +215,12 @@ def test_the_plot_ends_with_the_longer_profile_where_no_packet_does(
 
 @pytest.mark.parametrize("kept", ["A", "B"])
 def test_one_state_alone_is_named_and_the_other_asked_for(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf, kept: str
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf, kept: str
 ) -> None:
     missing = "B" if kept == "A" else "A"
     pins.show_snapshot(bare_snapshot_of())
     pins.pin(kept)
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     assert view.hint.text().startswith(f"{kept} is kept.")
     assert f"press Pin {missing}" in view.hint.text()
     entries = view.legend.findChildren(QLabel)
@@ -248,10 +230,10 @@ def test_one_state_alone_is_named_and_the_other_asked_for(
 
 
 def test_a_row_tells_its_meaning_and_a_cell_its_whole_text(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     tips = [view.table.item(1, column) for column in range(3)]
     what, a, b = (item.toolTip() if item is not None else "" for item in tips)
     assert "Allowed" in what
@@ -259,19 +241,19 @@ def test_a_row_tells_its_meaning_and_a_cell_its_whole_text(
 
 
 def test_both_states_have_columns_of_one_width(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     assert view.table.columnWidth(1) == pytest.approx(view.table.columnWidth(2), abs=1)
 
 
 def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
-    view: CompareView, pins: PinController, pane: Pane, bare_snapshot_of: SnapshotOf
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     view.set_seen(False)
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pane.pinned)
+    view.show_pinned(pins.pinned)
     assert view.table.rowCount() == 0
     view.set_seen(True)
     assert view.table.rowCount() > 0
@@ -280,7 +262,7 @@ def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
 def test_states_are_pinned_compared_and_restored_in_one_step(
     qtbot: QtBot, application: Application, user: User, small_scene: Scene
 ) -> None:
-    window, compare = application.window, application.learning.compare
+    window, compare = application.window, application.shell.pane("compare").view
     both = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
     window.activateWindow()
     qtbot.waitActive(window)
@@ -300,13 +282,13 @@ def test_states_are_pinned_compared_and_restored_in_one_step(
     user.choose("&Undo")
     assert application.store.scene.camera.iso == 200.0
     compare.clear.click()
-    assert application.learning.pins.pinned.a is None
+    assert application.pins.pinned.a is None
 
 
 def test_effects_forced_by_hand_are_compared_and_returned_to(
     application: Application, user: User
 ) -> None:
-    pins = application.learning.pins
+    pins = application.pins
     application.store.force("jpeg", True)
     user.wait_until_idle()
     pins.pin("A")
@@ -325,7 +307,7 @@ def test_effects_forced_by_hand_are_compared_and_returned_to(
 def test_a_pin_waits_for_the_results_of_the_present_scene(
     application: Application, user: User
 ) -> None:
-    pins = application.learning.pins
+    pins = application.pins
     application.store.change(iso=200.0)
     pins.pin("A")
     assert pins.pinned.a is None
@@ -337,7 +319,7 @@ def test_a_pin_waits_for_the_results_of_the_present_scene(
 
 
 def test_a_scene_without_a_picture_is_not_pinned(application: Application, user: User) -> None:
-    pins = application.learning.pins
+    pins = application.pins
     application.store.change(distance=0.1, yaw=1.2)
     pins.pin("A")
     user.wait_until_idle()

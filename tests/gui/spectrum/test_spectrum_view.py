@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.spectrum.controller import SpectrumController
+from occ_gui.spectrum.pane import SpectrumPane
 from occ_gui.spectrum.spectrum_view import SpectrumView
 
 
@@ -23,9 +23,7 @@ def view(qtbot: QtBot) -> SpectrumView:
 
 
 def measured(view: SpectrumView, snapshot: Snapshot) -> None:
-    controller = SpectrumController(view)
-    controller.set_seen(True)
-    controller.show_snapshot(snapshot)
+    SpectrumPane(view).show_part(snapshot)
 
 
 def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
@@ -52,8 +50,8 @@ def test_the_pane_follows_the_simulation_while_it_is_seen(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
     application.window.bring_to_front("spectrum")
-    qtbot.waitUntil(lambda: application.learning.spectrum.isVisible())
-    view = application.learning.spectrum
+    qtbot.waitUntil(lambda: application.shell.pane("spectrum").view.isVisible())
+    view = application.shell.pane("spectrum").view
     user.wait_until_idle()
     before = view.spectrum.accessibleDescription()
     application.store.change(exposure_time=100e-6)

@@ -45,8 +45,8 @@ def states(pane: VideoWiring) -> list[int]:
 
 @pytest.mark.own_window
 def test_nothing_of_films_is_loaded_before_the_mode_is_shown(application: Application) -> None:
-    assert "wiring" not in vars(application.video)
-    assert application.video.is_idle
+    assert application.shell.made_pane("video") is None
+    assert application.shell.is_idle
 
 
 def test_a_film_is_opened_read_and_seen_beside_the_simulation(
@@ -141,7 +141,7 @@ def test_a_kept_film_is_opened_when_the_mode_is_first_shown(
 ) -> None:
     application.video.keep(film_file)
     assert application.video.path == film_file
-    assert "wiring" not in vars(application.video)
+    assert application.shell.made_pane("video") is None
     application.window.modes.switch("video")
     user.wait_until_idle()
     assert application.video.wiring.path == film_file

@@ -30,7 +30,7 @@ def test_the_first_door_begins_the_first_lesson(
     doors.doors["learn"].click()
     user.wait_until_idle()
     assert application.window.modes.mode == "lessons"
-    place = application.learning.lessons_pane.step.place.text()
+    place = application.shell.pane("lessons").view.step.place.text()
     assert place == "What is a rolling shutter? · step 1 of 3"
     assert application.welcome.dialog is None
 

@@ -191,15 +191,15 @@ def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
 def test_explaining_and_comparing_panes_are_whole_at_any_size(
     qtbot: QtBot, application: Application, user: User, size: QSize
 ) -> None:
-    window, learning = application.window, application.learning
+    window, pins = application.window, application.pins
     window.resize(size)
     for changes in STATES[:2]:
-        learning.pins.pin("A")
+        pins.pin("A")
         window.bring_to_front("equations")
         window.bring_to_front("compare")
         application.store.change(**changes)
         user.wait_until_idle()
-        learning.pins.pin("B")
+        pins.pin("B")
         application.image.before.chosen.setChecked(True)
         assert_faultless(qtbot, window, changes)
         assert axis_labels_cut_off(window) == []
@@ -207,11 +207,11 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
     window.bring_to_front("lessons")
     assert_faultless(qtbot, window, "list of lessons")
     for place in (0, 2):
-        learning.lessons_pane.list.choices[place].click()
-        learning.lessons_pane.step.reveal.click()
+        application.shell.pane("lessons").view.list.choices[place].click()
+        application.shell.pane("lessons").view.step.reveal.click()
         user.wait_until_idle()
         assert_faultless(qtbot, window, "answer")
-        learning.lessons_pane.step.all.click()
+        application.shell.pane("lessons").view.step.all.click()
     assert window.size() == size
 
 
@@ -228,7 +228,7 @@ def test_no_mode_and_no_step_of_a_lesson_needs_a_larger_window_than_the_least_sc
         needed = window.minimumSizeHint()
         assert needed.boundedTo(least) == needed, mode
     user.choose("&Lessons")
-    guide, found = application.learning.lessons_pane, lessons().lessons
+    guide, found = application.shell.pane("lessons").view, lessons().lessons
     qtbot.waitUntil(lambda: bool(guide.list.choices))
     for place, lesson in enumerate(found):
         guide.list.choices[place].click()
@@ -250,7 +250,7 @@ def test_a_lesson_has_the_height_of_the_window_beside_what_it_shows_below(
     window = application.window
     window.resize(1280, 800)
     user.choose("&Lessons")
-    guide, docks = application.learning.lessons_pane, window.docks
+    guide, docks = application.shell.pane("lessons").view, window.docks
     qtbot.waitUntil(lambda: bool(guide.list.choices))
     (place,) = (i for i, each in enumerate(lessons().lessons) if each.steps[0].pane == "accuracy")
     guide.list.choices[place].click()

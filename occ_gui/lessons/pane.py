@@ -1,6 +1,6 @@
 """Connects the lessons with their pane, the controls, the equations and the report."""
 
-from PySide6.QtCore import QObject, QUrl, Signal
+from PySide6.QtCore import QUrl, Signal
 from PySide6.QtGui import QDesktopServices
 
 from occ_gui.explanation.equation_controller import EquationController
@@ -13,12 +13,13 @@ from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.spotlight import Spotlight
+from occ_gui.shell.feature import Pane
 from occ_model.errors import OccError
 from occ_model.results.lessons import Lesson
 from occ_model.teaching.lessons import begin_lessons_folder
 
 
-class LessonWiring(QObject):
+class LessonPane(Pane[None]):
     """The lessons and all that they move.
 
     Parameters
@@ -46,7 +47,8 @@ class LessonWiring(QObject):
         controls: ControlPanel,
         preferences: Preferences,
     ) -> None:
-        super().__init__()
+        super().__init__(pane)
+        self.view = pane
         self.answers = LessonAnswers()
         self.controller = LessonController(scenes, photos, pane, self.answers)
         self.reports = LessonReports(pane, preferences)
@@ -62,6 +64,10 @@ class LessonWiring(QObject):
         pane.list.folder_asked.connect(self.open_folder)
         for speaker in (self.controller, self.reports):
             speaker.status_message.connect(self.status_message)
+
+    def set_seen(self, seen: bool) -> None:
+        """Explain the step that is seen."""
+        self.controller.set_seen(seen)
 
     @property
     def is_idle(self) -> bool:

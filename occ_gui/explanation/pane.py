@@ -1,6 +1,6 @@
-"""Explanation of the stripes: the pane, its controllers and their connections."""
+"""The pane of the equations: it explains the scene, and the exposure of a column."""
 
-from PySide6.QtCore import QObject, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from occ_gui.explanation.column_picker import ColumnPicker
@@ -9,6 +9,7 @@ from occ_gui.explanation.equation_text import EquationText
 from occ_gui.explanation.exposure_controller import ExposureController
 from occ_gui.explanation.exposure_plot import ExposurePlot
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.plot import Plot
 
@@ -30,7 +31,7 @@ class ExplanationView(QWidget):
         layout.addWidget(panes)
 
 
-class ExplanationWiring(QObject):
+class ExplanationPane(Pane[Snapshot]):
     """Connects the equations of the scene, and the exposure of the column under the mouse.
 
     Parameters
@@ -42,8 +43,9 @@ class ExplanationWiring(QObject):
     """
 
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
-        super().__init__()
-        self.pane = ExplanationView()
+        pane = ExplanationView()
+        super().__init__(pane)
+        self.pane = pane
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, self.pane.equations)
         exposure = self.exposure = ExposureController(self.pane.exposure, self.picker)
@@ -59,6 +61,11 @@ class ExplanationWiring(QObject):
         self._equations.set_seen(seen)
         self.exposure.set_seen(seen)
 
-    def show_snapshot(self, snapshot: Snapshot) -> None:
+    def show_part(self, part: Snapshot) -> None:
         """Explain these results in place of the previous ones."""
-        self.exposure.show_snapshot(snapshot)
+        self.exposure.show_snapshot(part)
+
+    @property
+    def of_picture(self) -> tuple[QWidget, ...]:
+        """The exposure tells the level of a column in the picture; the equations need none."""
+        return (self.pane.exposure,)

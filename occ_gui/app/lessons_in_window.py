@@ -1,0 +1,98 @@
+"""Lessons in the window: what their steps show and do there, beside their own pane."""
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QAction
+
+from occ_gui.files.session_record import UserState
+from occ_gui.photo.wiring import PhotoWiring
+from occ_gui.shell.shell import Shell
+
+_ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match": "match"}
+"""The menu entries that the buttons of lessons stand for."""
+
+
+class PaneWindow(Protocol):
+    """A window that shows panes."""
+
+    @property
+    def actions_by_name(self) -> Mapping[str, QAction]:
+        """The menu entries, by name."""
+
+    def bring_to_front(self, name: str) -> None:
+        """Show a pane in front of those that share its place."""
+
+    def bring_into_view(self, name: str) -> None:
+        """Show a pane in front, unless what it shows is seen already."""
+
+    def put_away(self, name: str) -> None:
+        """Hide a pane that the present mode does not show by itself."""
+
+    def is_put_away(self, name: str) -> bool:
+        """Return whether a pane is hidden."""
+
+
+class LessonsInWindow(QObject):
+    """Connects the lessons with the window, once their pane is made."""
+
+    status_message = Signal(str)
+    """The outcome of an action, shown until the scene changes."""
+
+    begun = Signal()
+    """A lesson is about to replace what the user is working on."""
+
+    columns_held = Signal(object)
+    """How many columns a lesson keeps in view; None for as many as usual."""
+
+    photo_explained = Signal(bool)
+    """Whether the step of a lesson that is shown is about the photo."""
+
+    def __init__(self, window: PaneWindow, shell: Shell, photos: PhotoWiring) -> None:
+        super().__init__()
+        self._window, self._shell, self._photos = window, shell, photos
+        self._brought = ""
+        """The pane that a step has opened; empty for none."""
+        shell.made.connect(self._connect)
+
+    def _connect(self, name: str, pane: Any) -> None:
+        if name != "lessons":
+            return
+        pane.status_message.connect(self.status_message)
+        lessons = pane.controller
+        lessons.pane_wanted.connect(self._show_pane_of_step)
+        lessons.begun.connect(self.begun)
+        lessons.columns_held.connect(self.columns_held)
+        lessons.action_wanted.connect(self._do)
+        lessons.use_match(lambda: self._photos.matching.match)
+        lessons.frequency_told.connect(self._photos.begin_form)
+        lessons.keep_photos_by(self._photos.kept, self._photos.give_back)
+
+    def _do(self, action: str) -> None:
+        """Do what a step of a lesson has a button for: an entry of the menus."""
+        self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
+
+    def _show_pane_of_step(self, name: str) -> None:
+        """Show the pane that a step refers to, in place of the one that an earlier step opened."""
+        if self._brought not in {"", name}:  # beside it the next one might need a larger screen
+            self._window.put_away(self._brought)
+            self._brought = ""
+        if name:
+            is_new = self._window.is_put_away(name)
+            self._window.bring_into_view(name)
+            if is_new and not self._window.is_put_away(name):
+                self._brought = name
+        self.photo_explained.emit(name == "photo")
+
+    def users_own(self) -> UserState | None:
+        """Return what the user was working on, if a lesson is under way."""
+        pane = self._shell.made_pane("lessons")
+        own: UserState | None = None if pane is None else pane.controller.users_own()
+        return own
+
+    def end(self) -> None:
+        """Restore what the user was working on, if a lesson is under way."""
+        pane = self._shell.made_pane("lessons")
+        if pane is not None:
+            pane.end()

@@ -1,0 +1,59 @@
+"""Feature: all that the window has to know of a pane."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Generic, TypeVar
+
+from PySide6.QtCore import QObject
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.core.workspace import Workspace
+from occ_gui.shell.results import Results
+
+Part = TypeVar("Part")
+
+
+class Pane(QObject, Generic[Part]):
+    """What is made of a feature when its pane is first seen: a widget, and its connections.
+
+    A pane that computes nothing in the background only has to show its part.
+    """
+
+    def __init__(self, widget: QWidget) -> None:
+        super().__init__()
+        self.widget = widget
+
+    def show_part(self, part: Part) -> None:
+        """Show this part of workspace and results in place of the last one."""
+
+    def set_seen(self, seen: bool) -> None:
+        """Take note whether the pane is seen; parts are shown only while it is."""
+
+    @property
+    def of_picture(self) -> tuple[QWidget, ...]:
+        """What is marked while the exact picture is of an earlier scene."""
+        return ()
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is at work."""
+        return True
+
+    def stop(self) -> None:
+        """End all work; nothing is shown any more."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Feature(Generic[Part]):
+    """A pane of the window.
+
+    ``make`` is called when the pane is first seen: what is heavy is imported there.
+    """
+
+    name: str
+    title: str
+    make: Callable[[], Pane[Part]]
+    part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
+    """What of the window the pane shows; None for nothing that it could show."""
+    actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)
+    """What the entries of the menus do that belong to the pane, by name."""

@@ -1,0 +1,110 @@
+"""Shell: docks, menu entries, idle and stop of all declared panes."""
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
+
+from occ_gui.core.store import Store
+from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.results import Board
+from occ_gui.widgets.event_filters import leave_drops_to_window
+
+
+class DockWindow(Protocol):
+    """A window that panes can be added to."""
+
+    @property
+    def actions_by_name(self) -> Mapping[str, QAction]:
+        """The menu entries, by name."""
+
+    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
+        """Add a pane, and its entry in the view menu, before the window is shown."""
+
+
+class Shell(QObject):
+    """The declared panes in docks of a window, each made when it is first seen."""
+
+    made = Signal(str, object)
+    """A pane has been made: its name, and the Pane."""
+
+    def __init__(self, window: DockWindow, store: Store, board: Board) -> None:
+        super().__init__()
+        self._window, self._store, self._board = window, store, board
+        self._places: dict[str, _Place] = {}
+        store.select(lambda workspace: workspace).changed.connect(self._look)
+        board.changed.connect(self._look)
+
+    def add(self, feature: Feature[Any]) -> None:
+        """Give a feature its dock and its menu entries, before the window is shown."""
+        place = self._places[feature.name] = _Place(feature, self)
+        dock = self._window.add_pane(feature.name, feature.title, place)
+        dock.visibilityChanged.connect(place.set_seen)
+        for name, do in feature.actions.items():
+            self._window.actions_by_name[name].triggered.connect(lambda _=False, do=do: do())
+
+    def pane(self, name: str) -> Any:
+        """Give a pane, which is made if it has never been seen."""
+        return self._places[name].made()
+
+    def made_pane(self, name: str) -> Any:
+        """Give a pane, None if it has never been seen."""
+        return self._places[name].pane
+
+    def _look(self) -> None:
+        for place in self._places.values():
+            place.look()
+
+    @property
+    def _panes(self) -> list[Pane[Any]]:
+        return [place.pane for place in self._places.values() if place.pane is not None]
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no pane is at work."""
+        return all(pane.is_idle for pane in self._panes)
+
+    def stop(self) -> None:
+        """End the work of all panes."""
+        for pane in self._panes:
+            pane.stop()
+
+
+class _Place(QWidget):
+    """The place of a pane in its dock, empty until it is first seen."""
+
+    def __init__(self, feature: Feature[Any], shell: Shell) -> None:
+        super().__init__()
+        self._feature, self._shell = feature, shell
+        self._is_seen = False
+        self._shown: Any = None
+        self.pane: Pane[Any] | None = None
+        self._content = QVBoxLayout(self)
+        self._content.setContentsMargins(0, 0, 0, 0)
+
+    def made(self) -> Pane[Any]:
+        if self.pane is None:
+            self.pane = self._feature.make()
+            self._content.addWidget(self.pane.widget)
+            leave_drops_to_window(self)
+            self._shell.made.emit(self._feature.name, self.pane)
+        return self.pane
+
+    def set_seen(self, seen: bool) -> None:
+        if not seen and self.pane is None:
+            return
+        self._is_seen = seen
+        pane = self.made()
+        self.look()
+        pane.set_seen(seen)
+
+    def look(self) -> None:
+        """Show the part of the pane, if it is seen and its part is another one."""
+        if self.pane is None or not self._is_seen:
+            return
+        part = self._feature.part(self._shell._store.workspace, self._shell._board.results)
+        if part is not None and part != self._shown:
+            self._shown = part
+            self.pane.show_part(part)

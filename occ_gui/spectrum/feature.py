@@ -1,0 +1,23 @@
+"""The pane of the spectrum, declared."""
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.shell.feature import Feature, Pane
+from occ_gui.simulation.snapshot import Snapshot
+
+
+def spectrum() -> Feature[Snapshot]:
+    """Declare the pane: it shows the exact picture that is there."""
+    return Feature(
+        name="spectrum",
+        title=QCoreApplication.translate("Spectrum", "Spectrum and levels"),
+        make=_make,
+        part=lambda _, results: results.snapshot,
+    )
+
+
+def _make() -> Pane[Snapshot]:
+    from occ_gui.spectrum.pane import SpectrumPane
+    from occ_gui.spectrum.spectrum_view import SpectrumView
+
+    return SpectrumPane(SpectrumView())

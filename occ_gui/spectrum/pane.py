@@ -1,0 +1,36 @@
+"""The pane of the spectrum: the part of the picture that shows the panel is measured."""
+
+import numpy as np
+from PySide6.QtWidgets import QWidget
+
+from occ_gui.shell.feature import Pane
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.spectrum.spectrum_view import SpectrumView
+from occ_model.errors import ParameterError
+from occ_model.study.level_histogram import level_histogram
+from occ_model.study.spectrum import profile_spectrum
+
+
+class SpectrumPane(Pane[Snapshot]):
+    """Measures what is shown of a picture: two milliseconds, so that no thread is needed."""
+
+    def __init__(self, view: SpectrumView) -> None:
+        super().__init__(view)
+        self.view = view
+
+    @property
+    def of_picture(self) -> tuple[QWidget, ...]:
+        """All of it follows from the picture."""
+        return (self.view,)
+
+    def show_part(self, part: Snapshot) -> None:
+        """Measure these results."""
+        left, top = np.maximum(part.corners.min(axis=0), 0.0).astype(int).tolist()
+        right, bottom = np.maximum(part.corners.max(axis=0) + 1.0, 0.0).astype(int).tolist()
+        try:
+            spectrum = profile_spectrum(part.profile[left:right], part.scene)
+        except ParameterError:  # too few columns show the panel
+            spectrum = None
+        self.view.show_spectrum(spectrum)
+        panel = part.frame.camera_image[top:bottom, left:right]
+        self.view.show_histogram(level_histogram(panel))

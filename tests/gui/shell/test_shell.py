@@ -1,0 +1,151 @@
+"""A declaration is all that the window needs of a pane: it is made when first seen, and asked."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import pytest
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.results import Board, Results
+from occ_gui.shell.shell import Shell
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.scene.scene import Scene
+
+
+class Window(QMainWindow):
+    """A window with docks and one menu entry."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.actions_by_name = {"do": QAction(self)}
+        self.docks: dict[str, QDockWidget] = {}
+
+    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
+        dock = self.docks[name] = QDockWidget(title)
+        dock.setWidget(content)
+        dock.hide()
+        return dock
+
+
+class Noting(Pane[object]):
+    """A pane that notes what it is told."""
+
+    def __init__(self) -> None:
+        super().__init__(QLabel())
+        self.parts: list[object] = []
+        self.seen: list[bool] = []
+        self.is_busy = self.is_stopped = False
+
+    def show_part(self, part: object) -> None:
+        self.parts.append(part)
+
+    def set_seen(self, seen: bool) -> None:
+        self.seen.append(seen)
+
+    @property
+    def is_idle(self) -> bool:
+        return not self.is_busy
+
+    def stop(self) -> None:
+        self.is_stopped = True
+
+
+class Bench:
+    """A shell with a pane of the ISO speed."""
+
+    def __init__(self, qtbot: QtBot) -> None:
+        self.store, self.board, self.window = Store(Workspace(Scene())), Board(), Window()
+        qtbot.addWidget(self.window)
+        self.shell = Shell(self.window, self.store, self.board)
+        self.done: list[str] = []
+        self.shell.add(
+            Feature(
+                name="iso",
+                title="ISO speed",
+                make=Noting,
+                part=lambda workspace, results: (workspace.scene.camera.iso, results.snapshot),
+                actions={"do": lambda: self.done.append("done")},
+            )
+        )
+
+    def see(self, seen: bool) -> None:
+        self.window.docks["iso"].visibilityChanged.emit(seen)
+
+    def put(self, iso: float) -> None:
+        scene = self.store.workspace.scene.replace(iso=iso)
+        self.store.put(replace(self.store.workspace, scene=scene))
+
+    @property
+    def pane(self) -> Noting:
+        pane = self.shell.made_pane("iso")
+        assert isinstance(pane, Noting)
+        return pane
+
+
+@pytest.fixture
+def bench(qtbot: QtBot) -> Iterator[Bench]:
+    bench = Bench(qtbot)
+    yield bench
+    bench.shell.stop()
+
+
+def test_a_pane_is_made_when_it_is_first_seen(bench: Bench) -> None:
+    bench.see(False)
+    bench.put(200.0)
+    assert bench.shell.made_pane("iso") is None
+    assert bench.shell.is_idle
+    bench.see(True)
+    pane = bench.pane
+    assert pane.widget.parentWidget() is bench.window.docks["iso"].widget()
+    assert pane.parts == [(200.0, None)]
+    assert bench.shell.pane("iso") is pane
+
+
+def test_a_seen_pane_follows_its_part_alone(
+    bench: Bench, snapshot_of: Callable[..., Snapshot]
+) -> None:
+    bench.see(True)
+    bench.put(200.0)
+    bench.store.put(replace(bench.store.workspace, frame_rate=24.0))
+    snapshot = snapshot_of()
+    bench.board.show_snapshot(snapshot)
+    assert bench.pane.parts[1:] == [(200.0, None), (200.0, snapshot)]
+
+
+def test_a_hidden_pane_is_told_when_it_is_seen_again(bench: Bench) -> None:
+    bench.see(True)
+    bench.see(False)
+    bench.put(200.0)
+    bench.put(300.0)
+    assert len(bench.pane.parts) == 1
+    bench.see(True)
+    assert bench.pane.parts[1:] == [(300.0, None)]
+    assert bench.pane.seen == [True, False, True]
+
+
+def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
+    window, board = Window(), Board()
+    qtbot.addWidget(window)
+    shell = Shell(window, Store(Workspace(Scene())), board)
+    shell.add(Feature(name="x", title="x", make=Noting, part=lambda _, results: results.snapshot))
+    window.docks["x"].visibilityChanged.emit(True)
+    board.changed.emit()
+    assert board.results == Results() or board.results.snapshot is None
+    assert shell.pane("x").parts == []
+
+
+def test_entries_idle_and_stop_follow_from_the_declaration(bench: Bench) -> None:
+    bench.window.actions_by_name["do"].trigger()
+    assert bench.done == ["done"]
+    bench.see(True)
+    bench.pane.is_busy = True
+    assert not bench.shell.is_idle
+    bench.pane.is_busy = False
+    assert bench.shell.is_idle
+    bench.shell.stop()
+    assert bench.pane.is_stopped

@@ -24,6 +24,7 @@ from occ_gui.files.preset_controller import PresetController
 from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Session, UserState
 from occ_gui.help.help_menu import HelpMenu
+from occ_gui.help.pages import PAGE_OF_PANE
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.photo_overlay import MODES
@@ -129,7 +130,8 @@ class Desktop(QObject):
         )
         sliders = {name: PARAMETERS[name].label for name in parts.controls.main_rows()}
         window.menus.add_animations(sliders, self.animation.ask)
-        self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name)
+        pages = {**PAGE_OF_PANE, **parts.shell.help_pages}
+        self.help = HelpMenu(window, window.menus.tops["help"], lambda: pane.name, pages)
         self.document = Document(window, parts.store, parts.files)
         self.brightness = parts.editor.brightness
         self.theme = ThemeController()

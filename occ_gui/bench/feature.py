@@ -22,4 +22,9 @@ def bench(
         pane.view.refused.connect(say)
         return pane
 
-    return Feature(name="bench", title=QCoreApplication.translate("Bench", "Bench"), make=make)
+    return Feature(
+        name="bench",
+        title=QCoreApplication.translate("Bench", "Bench"),
+        help="sweeps.md#the-bench",
+        make=make,
+    )

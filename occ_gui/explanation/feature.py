@@ -19,6 +19,7 @@ def equations(scenes: SceneStore, profile: Plot) -> Feature[Snapshot]:
     return Feature(
         name="equations",
         title=QCoreApplication.translate("Explanation", "Equations"),
+        help="model.md",
         make=make,
         part=lambda _, results: results.snapshot,
     )

@@ -1,13 +1,13 @@
 """The entries of the menu Help that open the manual."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
-from occ_gui.help.pages import GUIDE, PAGE_OF_PANE, docs_folder
+from occ_gui.help.pages import GUIDE, docs_folder
 
 if TYPE_CHECKING:  # made when it is first asked for: the application starts so much sooner
     from occ_gui.help.help_window import HelpWindow
@@ -24,14 +24,23 @@ class HelpMenu(QObject):
         Its menu Help; the manual comes before the entries that are there.
     current_pane
         Gives the name of the pane that the user is at.
+    pages
+        Page and heading of each pane, by name.
     """
 
     status_message = Signal(str)
     """Why the manual cannot be shown."""
 
-    def __init__(self, window: QMainWindow, menu: QMenu, current_pane: Callable[[], str]) -> None:
+    def __init__(
+        self,
+        window: QMainWindow,
+        menu: QMenu,
+        current_pane: Callable[[], str],
+        pages: Mapping[str, str],
+    ) -> None:
         super().__init__(window)
         self._window, self._current_pane = window, current_pane
+        self.pages = pages
         self._help: HelpWindow | None = None
         self.guide = QAction(self.tr("&User's guide"), menu)
         self.pane = QAction(self.tr("About this &pane"), menu)
@@ -41,7 +50,7 @@ class HelpMenu(QObject):
         menu.insertActions(menu.actions()[0], [self.guide, self.pane])
 
     def _show_pane(self) -> None:
-        self.show_page(PAGE_OF_PANE.get(self._current_pane(), GUIDE))
+        self.show_page(self.pages.get(self._current_pane(), GUIDE))
 
     def show_page(self, page: str) -> None:
         """Open the manual at a page or heading, such as ``guide.md#heading``."""

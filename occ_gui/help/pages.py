@@ -19,14 +19,8 @@ PAGE_OF_PANE = {
     "photo": "photos.md",
     "accuracy": "effects.md#accuracy-against-time",
     "map": "sweeps.md#the-detection-map",
-    "bench": "sweeps.md#the-bench",
-    "equations": "model.md",
-    "spectrum": "guide.md#measure",
-    "compare": "guide.md#compare-two-states",
-    "video": "guide.md#watch-a-film",
-    "lessons": "lessons.md#follow-a-lesson",
 }
-"""Page and heading that explain a pane, by the pane's name."""
+"""Page and heading that explain a pane, by the pane's name; declared panes name theirs."""
 
 _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 

@@ -21,5 +21,8 @@ def lessons(
         return LessonPane(scenes, photos, LessonView(), controls, preferences)
 
     return Feature(
-        name="lessons", title=QCoreApplication.translate("Lessons", "Lessons"), make=make
+        name="lessons",
+        title=QCoreApplication.translate("Lessons", "Lessons"),
+        help="lessons.md#follow-a-lesson",
+        make=make,
     )

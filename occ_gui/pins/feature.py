@@ -17,6 +17,7 @@ def compare(pins: PinController) -> Feature[None]:
     return Feature(
         name="compare",
         title=QCoreApplication.translate("Pins", "Compare"),
+        help="guide.md#compare-two-states",
         make=make,
         actions={
             "pin_a": lambda: pins.pin("A"),

@@ -52,6 +52,8 @@ class Feature(Generic[Part]):
 
     name: str
     title: str
+    help: str
+    """Page and heading of the manual that explain the pane."""
     make: Callable[[], Pane[Part]]
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
     """What of the window the pane shows; None for nothing that it could show."""

@@ -53,6 +53,11 @@ class Shell(QObject):
         """Give a pane, None if it has never been seen."""
         return self._places[name].pane
 
+    @property
+    def help_pages(self) -> dict[str, str]:
+        """Page and heading of the manual that explain each pane."""
+        return {name: place.feature.help for name, place in self._places.items()}
+
     def _look(self) -> None:
         for place in self._places.values():
             place.look()
@@ -77,7 +82,7 @@ class _Place(QWidget):
 
     def __init__(self, feature: Feature[Any], shell: Shell) -> None:
         super().__init__()
-        self._feature, self._shell = feature, shell
+        self.feature, self._shell = feature, shell
         self._is_seen = False
         self._shown: Any = None
         self.pane: Pane[Any] | None = None
@@ -86,10 +91,10 @@ class _Place(QWidget):
 
     def made(self) -> Pane[Any]:
         if self.pane is None:
-            self.pane = self._feature.make()
+            self.pane = self.feature.make()
             self._content.addWidget(self.pane.widget)
             leave_drops_to_window(self)
-            self._shell.made.emit(self._feature.name, self.pane)
+            self._shell.made.emit(self.feature.name, self.pane)
         return self.pane
 
     def set_seen(self, seen: bool) -> None:
@@ -104,7 +109,7 @@ class _Place(QWidget):
         """Show the part of the pane, if it is seen and its part is another one."""
         if self.pane is None or not self._is_seen:
             return
-        part = self._feature.part(self._shell._store.workspace, self._shell._board.results)
+        part = self.feature.part(self._shell._store.workspace, self._shell._board.results)
         if part is not None and part != self._shown:
             self._shown = part
             self.pane.show_part(part)

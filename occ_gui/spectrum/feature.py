@@ -11,6 +11,7 @@ def spectrum() -> Feature[Snapshot]:
     return Feature(
         name="spectrum",
         title=QCoreApplication.translate("Spectrum", "Spectrum and levels"),
+        help="guide.md#measure",
         make=_make,
         part=lambda _, results: results.snapshot,
     )

@@ -14,4 +14,9 @@ def video(scenes: SceneStore) -> Feature[None]:
 
         return VideoWiring(scenes)
 
-    return Feature(name="video", title=QCoreApplication.translate("Video", "Video"), make=make)
+    return Feature(
+        name="video",
+        title=QCoreApplication.translate("Video", "Video"),
+        help="guide.md#watch-a-film",
+        make=make,
+    )

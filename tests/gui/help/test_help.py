@@ -17,7 +17,7 @@ from occ_gui.app.command_line import PANES
 from occ_gui.help import help_menu, page_style
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
-from occ_gui.help.pages import CONTENTS, GUIDE, PAGE_OF_PANE, docs_folder, heading_id, pages
+from occ_gui.help.pages import CONTENTS, GUIDE, docs_folder, heading_id, pages
 from occ_gui.window.current_pane import PICTURE
 
 ROOT = Path(__file__).parents[3]
@@ -74,9 +74,12 @@ def click(qtbot: QtBot, browser: QTextBrowser, target: str) -> None:
     qtbot.mouseClick(browser.viewport(), Qt.MouseButton.LeftButton, pos=place)
 
 
-def test_every_pane_has_a_page_and_its_heading(manual: HelpWindow) -> None:
-    assert set(PAGE_OF_PANE) == {*PANES, PICTURE}
-    for page in PAGE_OF_PANE.values():
+def test_every_pane_has_a_page_and_its_heading(
+    application: Application, manual: HelpWindow
+) -> None:
+    pages = application.desktop.help.pages
+    assert set(pages) == {*PANES, PICTURE}
+    for page in pages.values():
         name, _, heading = page.partition("#")
         text = (docs_folder() / name).read_text(encoding="utf-8")
         titles = [heading_id(line.lstrip("#")) for line in text.splitlines() if line[:1] == "#"]
@@ -195,7 +198,7 @@ def test_the_menu_opens_the_guide_and_the_page_of_the_pane(application: Applicat
     (browser,) = application.window.findChildren(HelpBrowser)
     assert browser.window().isVisible()
     assert browser.source().fileName() == GUIDE
-    for pane, page in PAGE_OF_PANE.items():
+    for pane, page in entries.pages.items():
         application.desktop.export.current_pane.name = pane
         entries.pane.trigger()
         assert browser.source().toString().endswith(f"/{page}")

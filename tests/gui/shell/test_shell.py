@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Feature, Pane
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
@@ -67,6 +67,7 @@ class Bench:
             Feature(
                 name="iso",
                 title="ISO speed",
+                help="guide.md#iso",
                 make=Noting,
                 part=lambda workspace, results: (workspace.scene.camera.iso, results.snapshot),
                 actions={"do": lambda: self.done.append("done")},
@@ -132,16 +133,16 @@ def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
     window, board = Window(), Board()
     qtbot.addWidget(window)
     shell = Shell(window, Store(Workspace(Scene())), board)
-    shell.add(Feature(name="x", title="x", make=Noting, part=lambda _, results: results.snapshot))
+    shell.add(Feature(name="x", title="x", help="", make=Noting, part=lambda _, r: r.snapshot))
     window.docks["x"].visibilityChanged.emit(True)
     board.changed.emit()
-    assert board.results == Results() or board.results.snapshot is None
     assert shell.pane("x").parts == []
 
 
 def test_entries_idle_and_stop_follow_from_the_declaration(bench: Bench) -> None:
     bench.window.actions_by_name["do"].trigger()
     assert bench.done == ["done"]
+    assert bench.shell.help_pages == {"iso": "guide.md#iso"}
     bench.see(True)
     bench.pane.is_busy = True
     assert not bench.shell.is_idle

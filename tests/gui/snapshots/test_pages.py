@@ -8,7 +8,7 @@ from PIL import Image
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.explanation.wiring import ExplanationView
+from occ_gui.explanation.pane import ExplanationView
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.simulation.snapshot import Snapshot

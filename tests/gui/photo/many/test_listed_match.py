@@ -64,7 +64,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     application: Application, user: User, listed: tuple[Path, ...]
 ) -> None:
     matching, started = application.photo_wiring.matching, list[object]()
-    matching.runner.start = started.append  # type: ignore[method-assign, assignment]
+    matching.runner.ask = started.append  # type: ignore[method-assign, assignment]
     row = application.photo.many.rows.row_of(listed[1])
     assert row is not None
     assert row.match is not None

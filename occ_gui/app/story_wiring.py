@@ -1,6 +1,6 @@
 """Connections of the story: what feeds it, and what its choices change in other panes."""
 
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt
 from PySide6.QtWidgets import QMenu
@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QMenu
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.explanation.exposure_controller import ExposureController
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
@@ -20,6 +19,9 @@ from occ_gui.story.column_axis import Crosshair
 from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.copying import copy_text
 from occ_gui.window.main_window import MainWindow
+
+if TYPE_CHECKING:
+    from occ_gui.explanation.exposure_controller import ExposureController
 
 
 class Parts(Protocol):
@@ -141,7 +143,7 @@ class _SimulationNaming(QObject):
         self._story.verdict.name_simulation(is_about_photo or self._photo.has_photo)
 
 
-def _share_column(crosshair: Crosshair, exposure: ExposureController) -> None:
+def _share_column(crosshair: Crosshair, exposure: "ExposureController") -> None:
     """Explain the exposure of the column that is chosen in the story, and the other way round."""
 
     def follow() -> None:

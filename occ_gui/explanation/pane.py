@@ -46,6 +46,7 @@ class ExplanationPane(Pane[Snapshot]):
         pane = ExplanationView()
         super().__init__(pane)
         self.pane = pane
+        self.of_picture = (pane.exposure,)  # it tells a level; the equations need no picture
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, self.pane.equations)
         exposure = self.exposure = ExposureController(self.pane.exposure, self.picker)
@@ -64,8 +65,3 @@ class ExplanationPane(Pane[Snapshot]):
     def show_part(self, part: Snapshot) -> None:
         """Explain these results in place of the previous ones."""
         self.exposure.show_snapshot(part)
-
-    @property
-    def of_picture(self) -> tuple[QWidget, ...]:
-        """The exposure tells the level of a column in the picture; the equations need none."""
-        return (self.pane.exposure,)

@@ -19,6 +19,9 @@ class Pane(QObject, Generic[Part]):
     A pane that computes nothing in the background only has to show its part.
     """
 
+    of_picture: tuple[QWidget, ...] = ()
+    """What is marked while the exact picture is of an earlier scene."""
+
     def __init__(self, widget: QWidget) -> None:
         super().__init__()
         self.widget = widget
@@ -28,11 +31,6 @@ class Pane(QObject, Generic[Part]):
 
     def set_seen(self, seen: bool) -> None:
         """Take note whether the pane is seen; parts are shown only while it is."""
-
-    @property
-    def of_picture(self) -> tuple[QWidget, ...]:
-        """What is marked while the exact picture is of an earlier scene."""
-        return ()
 
     @property
     def is_idle(self) -> bool:

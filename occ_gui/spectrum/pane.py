@@ -1,7 +1,6 @@
 """The pane of the spectrum: the part of the picture that shows the panel is measured."""
 
 import numpy as np
-from PySide6.QtWidgets import QWidget
 
 from occ_gui.shell.feature import Pane
 from occ_gui.simulation.snapshot import Snapshot
@@ -17,11 +16,7 @@ class SpectrumPane(Pane[Snapshot]):
     def __init__(self, view: SpectrumView) -> None:
         super().__init__(view)
         self.view = view
-
-    @property
-    def of_picture(self) -> tuple[QWidget, ...]:
-        """All of it follows from the picture."""
-        return (self.view,)
+        self.of_picture = (view,)
 
     def show_part(self, part: Snapshot) -> None:
         """Measure these results."""

@@ -29,7 +29,9 @@ import sys
 from occ_gui.app.command_line import OVERLAYS, main
 from occ_gui.picture.photo_overlay import MODES
 code = main(["--screenshot", sys.argv[1]])
-heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video", "occ_model.photo.chips",
+heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
+         "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",
+         "occ_gui.spectrum.pane", "occ_model.photo.chips",
          "occ_model.photo.evidence", "occ_model.photo.fit", "occ_model.photo.lamps"}
 heavy &= set(sys.modules)
 sys.exit(f"imported at start: {heavy}" if heavy else code)

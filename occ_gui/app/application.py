@@ -19,9 +19,8 @@ from occ_gui.app.welcome import Welcome
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.slider_strip import SliderStrips
-from occ_gui.detection_map.wiring import DetectionMapWiring
+from occ_gui.detection_map.wiring import Measuring
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
@@ -49,7 +48,7 @@ from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
 from occ_model.plugins import all_at_work
-from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS, decoders
+from occ_model.receiver.decoders import DECODERS, decoders
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -88,12 +87,11 @@ class Application(QObject):
         self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView([*DECODERS])
         self.accuracy, self.photo = AccuracyView(), PhotoView()
         self.story = StoryView(self.image, [*DECODERS])
-        self.detection = MapView(QUICK_DECODERS)
         self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(
             self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,
-            self.detection, undo_stack=self.store.undo_stack,
+            undo_stack=self.store.undo_stack,
         )  # fmt: skip
         self.messages = StatusMessages(self.window, self.controls)
         self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
@@ -106,10 +104,8 @@ class Application(QObject):
         self.simulation.picture_ready.connect(self.image.show_picture)
         self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
         self.frame_rate = FrameRate(workspace)
-        self.detection_map = DetectionMapWiring(
-            self.store, self.settings, self.detection, self.slider_strips, self.frame_rate
-        )
-        self.simulation.let_first(lambda: self.detection_map.map.is_first_answer_awaited)
+        self.measuring = Measuring(self.store, self.slider_strips)
+        self.simulation.let_first(self._is_map_awaited)
         self._declare_panes(workspace)
         self._show_results()
         self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
@@ -252,11 +248,9 @@ class Application(QObject):
         shown.triggered.connect(self.preferences.keep_slider_strips)
         self.slider_strips.set_shown(self.preferences.slider_strips)
         shown.setChecked(self.preferences.slider_strips)
-        self.decode.decoder_chosen.connect(self.detection_map.slider_strips.choose_decoder)
+        self.decode.decoder_chosen.connect(self.measuring.slider_strips.choose_decoder)
         self.decode.decoder_chosen.connect(self.simulation.read_with)
         self.story.verdict.changed.connect(self._show_present_share)
-        for searcher in (self.detection_map.most_bits, self.detection_map.advisor):
-            searcher.went.connect(self.decode.choose_decoder)
 
     @property
     def is_idle(self) -> bool:
@@ -281,6 +275,16 @@ class Application(QObject):
         """
         self._match_next, self._front_next = match, front
         self.photos.open(path)
+
+    def _is_map_awaited(self) -> bool:
+        pane = self.shell.made_pane("map")
+        return pane is not None and pane.map.is_first_answer_awaited
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether the processes have measured all that is seen."""
+        pane = self.shell.made_pane("map")
+        return self.measuring.is_idle and (pane is None or pane.is_measured)
 
     def _on_made(self, _name: str, pane: Pane[Any]) -> None:
         self.outdated.mark_results(*pane.of_picture)
@@ -392,7 +396,7 @@ class Application(QObject):
         self.simulation.stop()
         self.study.stop()
         self.photo_wiring.stop()
-        self.detection_map.stop()
         self.pins.stop()
         self.shell.stop()
+        self.measuring.stop()
         self.desktop.stop()

@@ -338,7 +338,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
 
 def _is_idle(application: "Application", measured: bool) -> bool:
     shown = application.is_idle and application.study.is_idle
-    return shown and (application.detection_map.is_idle or not measured)
+    return shown and (application.is_measured or not measured)
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:

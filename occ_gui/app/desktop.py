@@ -12,7 +12,6 @@ from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.core.workspace import Step
 from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.detection_map.wiring import DetectionMapWiring
 from occ_gui.export.animation import AnimationExport
 from occ_gui.export.export_controller import ExportController
 from occ_gui.export.figures import Figures
@@ -56,6 +55,9 @@ from occ_model.scene.presets import load_preset
 
 if TYPE_CHECKING:
     from occ_gui.bench.pane import BenchPane
+    from occ_gui.detection_map.map_controller import MapRequest
+    from occ_gui.detection_map.pane import MapPane
+    from occ_gui.detection_map.rate_map import RateMap
     from occ_gui.transmitter.transmitter_controller import TransmitterController
 
 _THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
@@ -74,7 +76,6 @@ class Parts(Protocol):
     presets: PresetController
     files: FileController
     photo_wiring: PhotoWiring
-    detection_map: DetectionMapWiring
     frame_rate: FrameRate
     lessons: LessonsInWindow
     pins: PinController
@@ -117,7 +118,7 @@ class Desktop(QObject):
             shown_decoder=parts.decode.decoder,
         )
         self.figures.describe_photo_by(parts.photo_wiring.verdict.about)
-        self.figures.add_map(lambda: parts.detection_map.map.full, parts.frame_rate)
+        self.figures.add_map(lambda: _mapped(parts.shell), parts.frame_rate)
         self.figures.add_bench(lambda: _measured(parts.shell), parts.frame_rate)
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)
@@ -334,6 +335,12 @@ class Desktop(QObject):
         if self.transmitter is not None:
             self.transmitter.stop()
         self.error_reports.remove()
+
+
+def _mapped(shell: Shell) -> "tuple[RateMap, MapRequest] | None":
+    """Give the map; None until it is complete."""
+    pane: MapPane | None = shell.made_pane("map")
+    return None if pane is None else pane.map.full
 
 
 def _measured(shell: Shell) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:

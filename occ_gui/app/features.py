@@ -3,7 +3,9 @@
 from typing import Any, Protocol
 
 from occ_gui.bench.feature import bench
-from occ_gui.detection_map.wiring import DetectionMapWiring
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.detection_map.feature import detection_map
+from occ_gui.detection_map.wiring import Measuring
 from occ_gui.explanation.feature import equations
 from occ_gui.files.preferences import Preferences
 from occ_gui.lessons.feature import lessons
@@ -31,17 +33,19 @@ class Parts(Protocol):
     profile: ProfileView
     photo_wiring: PhotoWiring
     preferences: Preferences
-    detection_map: DetectionMapWiring
+    measuring: Measuring
+    decode: DecodeView
 
 
 def features(parts: Parts) -> tuple[Feature[Any], ...]:
     """Declare the panes, once there is an application to translate their titles."""
     store, photos = parts.store, parts.photo_wiring.photos
     return (
+        detection_map(store, parts.frame_rate, parts.measuring, parts.decode.choose_decoder),
         equations(store, parts.profile.plot),
         spectrum(),
         compare(parts.pins),
         lessons(store, photos, parts.controls, parts.preferences),
         video(store),
-        bench(store, parts.frame_rate, parts.detection_map.for_bench, parts.window.say),
+        bench(store, parts.frame_rate, parts.measuring.for_bench, parts.window.say),
     )

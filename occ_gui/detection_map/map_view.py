@@ -44,9 +44,6 @@ class MapView(QWidget):
         The parent widget.
     """
 
-    visibility_changed = Signal(bool)
-    """Whether the pane has become visible or hidden."""
-
     axes_chosen = Signal(str, str)
     """The parameters that the user chose for the axes, x and y."""
 
@@ -198,10 +195,6 @@ class MapView(QWidget):
 
     def _show_map_page(self) -> None:
         self._pages.setCurrentIndex(0)
-
-    def set_seen(self, seen: bool) -> None:
-        """Report whether the pane is visible."""
-        self.visibility_changed.emit(seen)
 
     def show_axes(self, x: str, y: str) -> None:
         """Set the parameters of the axes without emitting a signal."""

@@ -18,7 +18,6 @@ PAGE_OF_PANE = {
     "decode": "decoders.md",
     "photo": "photos.md",
     "accuracy": "effects.md#accuracy-against-time",
-    "map": "sweeps.md#the-detection-map",
 }
 """Page and heading that explain a pane, by the pane's name; declared panes name theirs."""
 

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.detection_map.map_view import MapView
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
@@ -61,7 +60,7 @@ class MainWindow(QMainWindow):
     dropped = Signal(list)
     """The paths of the files that were dropped on the window; empty if none is a file."""
 
-    def __init__(  # noqa: PLR0913, PLR0917 - one a pane
+    def __init__(
         self,
         controls: ControlPanel,
         story: StoryView,
@@ -69,7 +68,6 @@ class MainWindow(QMainWindow):
         decode: DecodeView,
         photo: PhotoView,
         accuracy: AccuracyView,
-        detection: MapView,
         *,
         undo_stack: QUndoStack,
     ) -> None:
@@ -82,9 +80,8 @@ class MainWindow(QMainWindow):
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
         self.setCentralWidget(story)
-        self.docks = self._make_docks(controls, decode, photo, profile, accuracy, detection)
+        self.docks = self._make_docks(controls, decode, photo, profile, accuracy)
         self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
-        self.docks["map"].visibilityChanged.connect(detection.set_seen)
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
         self.modes = ModeSwitch(self, self.docks, self._show_page)
@@ -111,7 +108,6 @@ class MainWindow(QMainWindow):
         photo: QWidget,
         profile: QWidget,
         accuracy: QWidget,
-        detection: QWidget,
     ) -> dict[str, Dock]:
         decoding = ScrollPane(decode, _LEAST_DECODING)
         return {
@@ -120,7 +116,6 @@ class MainWindow(QMainWindow):
             "photo": self._dock("photo", self.tr("Photo"), photo),
             "profile": self._dock("profile", self.tr("Column profile"), profile),
             "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy),
-            "map": self._dock("map", self.tr("Detection map"), detection),
         }
 
     def _dock(self, name: str, title: str, content: QWidget) -> Dock:

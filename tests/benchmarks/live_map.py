@@ -74,7 +74,10 @@ class _PaintedMaps:
 
     def __init__(self, application: "Application") -> None:
         self.times: list[tuple[float, bool, bool]] = []
-        self._controller, self._pane = application.detection_map.map, application.detection.plots
+        self._controller, self._pane = (
+            application.shell.pane("map").map,
+            application.shell.pane("map").view.plots,
+        )
         self._show_map = self._pane.show_map
         self._pane.show_map = self._show  # type: ignore[method-assign]
 
@@ -125,7 +128,7 @@ def _round(application: "Application", number: int) -> tuple[float, ...]:
     """Drag once; give all that is measured, times in milliseconds."""
     from PySide6.QtCore import QEventLoop, Qt, QTimer
 
-    controller = application.detection_map.map
+    controller = application.shell.pane("map").map
     slider = application.controls.main_rows()["exposure_time"].slider
     beat, maps = Beat(), _PaintedMaps(application)
     loop, ticker = QEventLoop(), QTimer(timerType=Qt.TimerType.PreciseTimer)

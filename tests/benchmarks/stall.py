@@ -94,7 +94,7 @@ def _watch(application: "Application", seconds: float) -> _Found:
     start = perf_counter()
 
     def move() -> None:
-        found.mapping.append(not application.detection_map.map.is_idle)
+        found.mapping.append(not application.shell.pane("map").map.is_idle)
         found.studying.append(not application.study.runner.is_idle)
         past = perf_counter() - start
         cycle, place = divmod(past, _CYCLE_S)

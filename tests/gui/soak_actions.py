@@ -373,7 +373,7 @@ class Monkey:
             menu.deleteLater()
 
     def go_to_a_limit(self) -> None:
-        cards = self._application.detection.cards.cards
+        cards = self._application.shell.pane("map").view.cards.cards
         self._random.choice([*cards.values()]).go.click()
 
     def pin(self) -> None:

@@ -168,7 +168,7 @@ def _a_folder_to_write_to(stage: Stage) -> str:
 def _processes_that_end_each_time(stage: Stage) -> str:
     DyingWorkers.is_well = False
     stage.application.window.bring_to_front("map")
-    status = stage.application.detection.status
+    status = stage.application.shell.pane("map").view.status
     stage.qtbot.waitUntil(lambda: "background" in status.toolTip())
     stage.user.wait_until_idle()
     DyingWorkers.is_well = True

@@ -88,9 +88,9 @@ def advised(
     """Ask for advice, and wait for it."""
     monkeypatch.setattr(worker, "limits", found)
     application.window.bring_to_front("map")
-    application.detection_map.map.set_seen(False)  # it is not what is looked at here
-    application.detection.advise.click()
-    qtbot.waitUntil(lambda: application.detection_map.advisor.is_idle)
+    application.shell.pane("map").map.set_seen(False)  # it is not what is looked at here
+    application.shell.pane("map").view.advise.click()
+    qtbot.waitUntil(lambda: application.shell.pane("map").advisor.is_idle)
     return application
 
 
@@ -156,7 +156,7 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
 
 
 def test_every_decoder_is_searched_and_each_end_has_a_button(advised: Application) -> None:
-    advice = advised.detection.advice
+    advice = advised.shell.pane("map").view.advice
     titles = [text for text in advice.sentences() if text.startswith("The ")]
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
@@ -177,11 +177,11 @@ def test_a_destination_button_changes_the_scene_in_one_step(
 ) -> None:
     before = advised.store.scene
     advised.decode.choose_decoder("matched")
-    advised.detection.advice.destinations[place].click()
+    advised.shell.pane("map").view.advice.destinations[place].click()
     assert advised.store.scene == before.replace(**{name: value})
     assert advised.decode.decoder() == "threshold", "the limit is another decoder's"
     label = quantity(name).label.lower()
-    assert advised.detection.advice.state.toolTip() == (
+    assert advised.shell.pane("map").view.advice.state.toolTip() == (
         f"This advice is on the scene before the change. Its limits of the {label} still hold."
     )
     advised.store.undo_stack.undo()
@@ -193,9 +193,9 @@ def test_a_refusal_of_the_model_is_shown(
 ) -> None:
     monkeypatch.undo()
     advised.store.change(pattern="1100")
-    advised.detection.advice.again.click()
-    qtbot.waitUntil(lambda: advised.detection_map.advisor.is_idle)
-    assert "A raw pattern holds no code" in advised.detection.advice.state.toolTip()
+    advised.shell.pane("map").view.advice.again.click()
+    qtbot.waitUntil(lambda: advised.shell.pane("map").advisor.is_idle)
+    assert "A raw pattern holds no code" in advised.shell.pane("map").view.advice.state.toolTip()
 
 
 class Never:
@@ -223,14 +223,14 @@ def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
 ) -> None:
     monkeypatch.setattr(wiring, "new_workers", Never)
     monkeypatch.setattr(module, "_LOOK_MS", 5)
-    application.detection.advise.click()
-    advice = application.detection.advice
-    assert not application.detection_map.advisor.is_idle
+    application.shell.pane("map").view.advise.click()
+    advice = application.shell.pane("map").view.advice
+    assert not application.shell.pane("map").advisor.is_idle
     if how == "cancel":
         advice.cancel.click()
     else:
         application.store.change(iso=200.0)
-    assert application.detection_map.advisor.is_idle
+    assert application.shell.pane("map").advisor.is_idle
     messages = {"cancel": "Cancelled.", "change": "The scene has changed; ask again."}
     assert advice.state.toolTip() == messages[how]
 
@@ -239,8 +239,8 @@ def test_closing_the_window_during_a_search_ends_the_look_at_it(
     application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(wiring, "new_workers", Never)
-    application.detection.advise.click()
-    looks = application.detection_map.advisor.findChildren(QTimer)
+    application.shell.pane("map").view.advise.click()
+    looks = application.shell.pane("map").advisor.findChildren(QTimer)
     assert any(look.isActive() for look in looks)
     application.window.close()
     assert not any(look.isActive() for look in looks)
@@ -259,9 +259,9 @@ def test_only_limits_that_the_user_asks_for_come_before_the_map(
     monkeypatch.setattr(wiring, "new_workers", Never)
 
     monkeypatch.setattr(JobChannel, "put", put)
-    application.detection.cards.asked.emit()
-    application.detection.advise.click()
-    application.detection_map.advisor.cancel()
+    application.shell.pane("map").view.cards.asked.emit()
+    application.shell.pane("map").view.advise.click()
+    application.shell.pane("map").advisor.cancel()
     in_turn, asked = ranks
     assert asked < map_schedule.COARSE
     assert map_schedule.FINE < in_turn < map_schedule.SURE
@@ -322,7 +322,7 @@ def test_the_page_is_no_higher_than_its_sentences(view: AdviceView, small_scene:
 def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
     advised: Application,
 ) -> None:
-    advice = advised.detection.advice
+    advice = advised.shell.pane("map").view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
         labels = {label.isEnabled() for row in advice._lines for label in row.findChildren(QLabel)}
@@ -338,14 +338,14 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
     advised.store.undo_stack.undo()
     advised.store.undo_stack.undo()
     assert state() == ({True}, [True, True, True])
-    advised.detection.image_effects.click()
+    advised.shell.pane("map").view.image_effects.click()
     assert state() == ({False}, [False, False, False])
 
 
 def test_the_buttons_of_the_cards_live_again_when_their_scene_comes_back(
     advised: Application,
 ) -> None:
-    cards = advised.detection.advice.cards.cards.values()
+    cards = advised.shell.pane("map").view.advice.cards.cards.values()
     first = advised.store.scene
     advised.store.change(iso=200.0)
     for card in cards:

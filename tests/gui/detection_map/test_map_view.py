@@ -302,15 +302,26 @@ def test_every_control_has_a_name_and_says_what_it_does(view: MapView) -> None:
 def test_a_click_in_the_window_is_undone_as_one_step(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    controller = application.detection_map.map
+    controller = application.shell.pane("map").map
     controller.map = whole((10, 10))
     before = application.store.scene
-    application.detection.picked.emit((2, 3))
+    application.shell.pane("map").view.picked.emit((2, 3))
     scene = application.store.scene
     assert scene.value(FREQUENCY) == controller.map.x_values[2]
     assert scene.value(DISTANCE) == controller.map.y_values[3]
     application.store.undo_stack.undo()
     assert application.store.scene == before
+
+
+def test_a_pane_that_is_made_late_shows_the_rate_that_was_chosen_meanwhile(
+    application: Application,
+) -> None:
+    application.frame_rate.change(24.0)
+    application.frame_rate.show("bits")
+    pane = application.shell.pane("map")
+    assert (pane.view.frame_rate.value(), pane.view.shown.key()) == (24.0, "bits")
+    application.frame_rate.show("rate")
+    application.frame_rate.change(30.0)
 
 
 def is_there(process: int) -> bool:
@@ -329,7 +340,7 @@ def test_closing_the_window_ends_its_processes(
     application = Application(small_scene)
     application.window.show()
     application.window.bring_to_front("map")
-    qtbot.waitUntil(lambda: bool(application.detection_map.map.map), timeout=20_000)
+    qtbot.waitUntil(lambda: bool(application.shell.pane("map").map.map), timeout=20_000)
     processes = workers.processes
     assert processes
     application.window.close()
@@ -345,7 +356,7 @@ def test_closing_the_window_ends_its_processes(
 def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[int, int]) -> None:
     application.window.resize(*size)
     application.window.bring_to_front("map")
-    view = application.detection
+    view = application.shell.pane("map").view
     view.show_map(whole((10, 10)))
     view.show_left_out(("Vignetting", "JPEG"))
     QApplication.processEvents()

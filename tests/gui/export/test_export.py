@@ -76,7 +76,7 @@ def test_the_map_is_exported_once_it_is_complete(
     rates = RateMap(x, y, lattice(x, SHAPE[0]), lattice(y, SHAPE[1]), ("threshold",))
     rates.enter([SweepPoint(index, 10, (4,), "", (0,)) for index in range(rates.images.size)], 2)
     asked = MapRequest(scene, x, y, settings, with_image_effects=False)
-    map_pane = type(application.detection_map.map)
+    map_pane = type(application.shell.pane("map").map)
     monkeypatch.setattr(map_pane, "full", property(lambda _: (rates, asked)))
     assert export(application, user, "map", path) == f"Exported map.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]

@@ -95,8 +95,8 @@ def test_the_verdict_is_told_in_words(application: Application, user: User) -> N
 
 def test_the_cards_of_the_limits_are_found_by_name(application: Application, qtbot: QtBot) -> None:
     enter(application, qtbot, "limits")
-    names = {face.text(NAME) for face in faces_in(face_of(application.detection))}
-    for decoder in application.detection.cards.cards:
+    names = {face.text(NAME) for face in faces_in(face_of(application.shell.pane("map").view))}
+    for decoder in application.shell.pane("map").view.cards.cards:
         assert f"Highest frequency, {decoder}" in names
         assert f"Go to the highest frequency, {decoder}" in names
 

@@ -47,7 +47,7 @@ def main():
         dock.show()
 
     def wait():
-        if application.detection_map.map.full is not None:
+        if application.shell.pane("map").map.full is not None:
             print("at work", flush=True)
             sys.stdin.readline()
             application.window.close()

@@ -1,0 +1,33 @@
+"""The pane of map, limits and advice, declared."""
+
+from collections.abc import Callable
+
+from PySide6.QtCore import QCoreApplication
+
+from occ_gui.detection_map.wiring import Measuring
+from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Feature, Pane
+
+
+def detection_map(
+    scenes: SceneStore,
+    frame_rate: FrameRate,
+    measuring: Measuring,
+    choose_decoder: Callable[[str], None],
+) -> Feature[None]:
+    """Declare the pane: who goes to a limit of a decoder sees what that one reads."""
+
+    def make() -> Pane[None]:
+        from occ_gui.detection_map.pane import MapPane
+
+        pane = MapPane(scenes, frame_rate, measuring)
+        pane.went.connect(choose_decoder)
+        return pane
+
+    return Feature(
+        name="map",
+        title=QCoreApplication.translate("DetectionMap", "Detection map"),
+        help="sweeps.md#the-detection-map",
+        make=make,
+    )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QCoreApplication
 
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.results import DecodeResult
@@ -56,7 +56,7 @@ class Verdict:
         return _tr("No code: {cause}").format(cause=cause[:1].lower() + cause[1:])
 
 
-def result_of(reading: Reading, decoder: str) -> DecodeResult:
+def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
     """Return what a decoder read; of one that has not read yet, that it will."""
     found = (result for result in reading.results if result.decoder == decoder)
     return next(found, None) or DecodeResult(decoder, failure=_awaited())

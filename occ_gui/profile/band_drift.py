@@ -2,14 +2,14 @@
 
 from PySide6.QtCore import QCoreApplication
 
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import ColumnView
 from occ_model.scene.parameters import PARAMETERS
 
 _LEAST = 0.05
 """Columns a packet below which nothing is seen of it."""
 
 
-def drift_of(reading: Reading) -> str:
+def drift_of(reading: ColumnView) -> str:
     """Say by how much the band model drifts; empty where it does not."""
     columns = abs(reading.band_drift)
     if columns < _LEAST:
@@ -22,7 +22,7 @@ def drift_of(reading: Reading) -> str:
     return text.format(columns=f"{columns:.0f}" if columns >= 10.0 else f"{columns:.1f}")
 
 
-def drift_sentence(reading: Reading) -> str:
+def drift_sentence(reading: ColumnView) -> str:
     """Say so with the reason in a line; empty where it does not."""
     drift = drift_of(reading)
     text = _tr("The band model {drift}: it rounds, and skips the exposure between equal chips.")

@@ -11,7 +11,7 @@ from occ_model.arrays import FloatArray
 from occ_model.effects.plan import called_for_by_signal
 from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
-from occ_model.results import DecodeResult, Frame
+from occ_model.results import DecodeResult, Frame, Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with
@@ -24,6 +24,8 @@ SMALL = 1_000_000
 class _Beside(TypedDict):
     """What is shown beside any reading of a scene."""
 
+    scene: Scene
+    has_edges: bool
     sent: tuple[int, ...]
     packet_columns: float
     band: FloatArray | None
@@ -52,7 +54,7 @@ def reading_by_profile(
         corners=found.corners,
         decoded=first,
         others=tuple(others),
-        **_beside(request.scene),
+        **_beside(request.scene, found.plan),
     )
 
 
@@ -87,7 +89,7 @@ def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
         corners=frame.corners,
         decoded=results[0],
         others=tuple(results[1:]),
-        **_beside(scene),
+        **_beside(scene, frame.plan),
     )
 
 
@@ -119,11 +121,11 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
         has_picture=True,
         frame=frame,
         reading_seconds=seconds,
-        **_beside(scene),
+        **_beside(scene, frame.plan),
     )
 
 
-def _beside(scene: Scene) -> _Beside:
+def _beside(scene: Scene, plan: Plan) -> _Beside:
     band, enhanced_band, undefined, drift = None, None, "", 0.0
     try:
         band = occ.band_profile(scene)
@@ -134,6 +136,8 @@ def _beside(scene: Scene) -> _Beside:
     transmitter = scene.transmitter
     chip_columns = transmitter.switching_period / scene.camera.readout_time
     return {
+        "scene": scene,
+        "has_edges": "led-edges" in plan,
         "sent": () if transmitter.pattern else transmitter.payload_bits,
         "packet_columns": chip_columns * len(occ.packet(scene)),
         "band": band,

@@ -7,11 +7,40 @@ import cv2
 import numpy as np
 
 from occ_gui.simulation.snapshot import Reading, SimulationRequest
-from occ_model.arrays import ByteArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import Frame
 
 _SMALLEST = 256
 """Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PictureView:
+    """The pixels of a picture, of a scene or of a frame of a film, and where they lie.
+
+    Parameters
+    ----------
+    image : ndarray of uint8, shape (len(rows), columns)
+        The pixels.
+    rows
+        The rows of the whole picture that they show; a draft has some of them.
+    size
+        Rows and columns of the whole picture.
+    corners : ndarray of float64, shape (4, 2)
+        The panel's corners in the whole picture, each as (column, row).
+    smallest
+        The same pixels, or a copy of fewer.
+    """
+
+    image: ByteArray
+    rows: range
+    size: tuple[int, int]
+    corners: FloatArray
+    smallest: ByteArray
+
+    def seen_by(self, _whose: str) -> Self:
+        """Return itself: of a frame of a film there is one picture."""
+        return self
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -42,6 +71,15 @@ class Picture:
     def is_draft(self) -> bool:
         """Whether it shows only some rows of the picture, and the exact one follows."""
         return self.frame.rows_step > 1
+
+    def seen_by(self, whose: str) -> PictureView:
+        """Give the pixels of the camera's picture or of the receiver's."""
+        frame, camera = self.frame, self.frame.scene.camera
+        image = frame.picture(whose)
+        smallest = self.halves[-1] if self.halves and self.whose == whose else image
+        return PictureView(
+            image, frame.rows, (camera.rows, camera.columns), frame.corners, smallest
+        )
 
     @classmethod
     def of(

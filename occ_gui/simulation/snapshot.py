@@ -50,18 +50,13 @@ Pins: TypeAlias = tuple[SimulationRequest | None, SimulationRequest | None]
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
-class Reading:
-    """What is read of one scene: its profile, the band model beside it, and each decoder's result.
+class ColumnView:
+    """What rows of columns show, of a scene or of a frame of a film: profile, bands and chips.
 
     Parameters
     ----------
-    request
-        The scene and the settings that it was computed from.
-    source
-        What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
-        exact ``"picture"``, which has the last word.
-    plan
-        The effects that were simulated.
+    scene
+        The scene; of a frame what is known of it, in the size of the frame.
     profile, signal : ndarray of float64, shape (columns,)
         Means of the panel's pixels in each column, before the receiver's enhancement and after it.
     corners : ndarray of float64, shape (4, 2)
@@ -74,6 +69,8 @@ class Reading:
         The transmitted bits in order of time; empty where a raw pattern is transmitted.
     packet_columns
         Columns that one period of the transmitted signal spans in the picture.
+    has_edges
+        Whether the light rises and falls in a time that is seen.
     band : ndarray of float64, shape (columns,), or None
         The band model's profile, None where ``band_undefined`` says why there is none.
     enhanced_band : ndarray of float64, shape (columns,), or None
@@ -82,33 +79,21 @@ class Reading:
         A sentence, empty where there is a profile.
     band_drift
         Columns by which that profile is ahead of the simulated one after each packet.
-    called_for
-        Effects that were left out and the studies of the same scene take in, by label.
-    has_picture
-        Whether the exact picture is shown with it.
     """
 
-    request: SimulationRequest
-    source: Source
-    plan: Plan
+    scene: Scene
     profile: FloatArray
     signal: FloatArray
     corners: FloatArray
     decoded: DecodeResult
-    others: tuple[DecodeResult, ...]
+    others: tuple[DecodeResult, ...] = ()
     sent: tuple[int, ...]
     packet_columns: float
-    band: FloatArray | None
-    enhanced_band: FloatArray | None
-    band_undefined: str
+    has_edges: bool = False
+    band: FloatArray | None = None
+    enhanced_band: FloatArray | None = None
+    band_undefined: str = ""
     band_drift: float = 0.0
-    called_for: tuple[str, ...] = ()
-    has_picture: bool = False
-
-    @property
-    def scene(self) -> Scene:
-        """The scene."""
-        return self.request.scene
 
     @property
     def results(self) -> tuple[DecodeResult, ...]:
@@ -123,6 +108,32 @@ class Reading:
         """
         left, top = self.corners.min(axis=0).tolist()
         return max(left, 0.0), max(top, 0.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class Reading(ColumnView):
+    """What is read of one scene: its profile, the band model beside it, and each decoder's result.
+
+    Parameters
+    ----------
+    request
+        The scene and the settings that it was computed from.
+    source
+        What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
+        exact ``"picture"``, which has the last word.
+    plan
+        The effects that were simulated.
+    called_for
+        Effects that were left out and the studies of the same scene take in, by label.
+    has_picture
+        Whether the exact picture is shown with it.
+    """
+
+    request: SimulationRequest
+    source: Source
+    plan: Plan
+    called_for: tuple[str, ...] = ()
+    has_picture: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

@@ -8,7 +8,7 @@ from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from occ_gui.decoding.verdict import wrong_places
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.bit_cells import (
     draw_field,
     have_room_for_bits,
@@ -58,7 +58,7 @@ class CodeRow(StoryRow):
         self.letters: tuple[Piece, ...] = ()
         self._form = ""
 
-    def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
+    def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
         """Show the chips and bits of one decoder's result."""
         payload = reading.scene.transmitter.payload if reading.sent else ""
         looks = (*_looks(decoded), reading.sent, received_fields(decoded, reading.scene), payload)

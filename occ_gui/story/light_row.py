@@ -14,7 +14,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.bit_cells import draw_field, have_room_for_bits, header_texts
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import PacketField, light_over_columns, packet_fields
@@ -76,13 +76,13 @@ class LightRow(StoryRow):
         self.letters: tuple[Piece, ...] = ()
         self._grabbed: float | None = None
 
-    def show_reading(self, reading: Reading) -> None:
+    def show_reading(self, reading: ColumnView) -> None:
         """Show the light of this reading's scene."""
         if reading.scene != self._scene:
             self.update()  # the window, at least
         self._scene, self._sent = reading.scene, reading.sent
         self.letters = compared(reading.scene.transmitter.payload, self._sent)
-        self._edged = "led-edges" in reading.plan
+        self._edged = reading.has_edges
         drawn = (
             self._scene.transmitter, self._scene.camera.readout_time,
             self._scene.model.start_time, self._edged, self._sent,

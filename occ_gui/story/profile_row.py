@@ -8,7 +8,7 @@ from PySide6.QtGui import QColor, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.profile.photo_profile import PhotoProfile
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import threshold_levels
 from occ_gui.story.column_means import envelope
@@ -45,7 +45,7 @@ class ProfileRow(StoryRow):
     ) -> None:
         super().__init__(self.tr("Profile"), axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
-        self._reading: Reading | None = None
+        self._reading: ColumnView | None = None
         self._decoded: DecodeResult | None = None
         self._photo: PhotoProfile | None = None
         self._whose = "camera"
@@ -54,7 +54,7 @@ class ProfileRow(StoryRow):
         self.threshold: tuple[float, float] | None = None
         """The levels between which the decoder's threshold lies; None where it has none."""
 
-    def show_reading(self, reading: Reading, decoded: DecodeResult) -> None:
+    def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
         """Show this reading, and the threshold of one decoder's result."""
         self._reading, self._decoded = reading, decoded
         self._fit()

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from occ_gui.decoding.verdict import result_of
 from occ_gui.profile.band_drift import drift_of, why_it_drifts
 from occ_gui.profile.photo_profile import PhotoProfile
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.preview import Picture, PictureView
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.code_row import CodeRow
 from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
@@ -50,8 +50,8 @@ class StoryRows(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.axis, self.crosshair = ColumnAxis(self), Crosshair(self)
-        self._reading: Reading | None = None
-        self._picture: Picture | None = None
+        self._reading: ColumnView | None = None
+        self._picture: Picture | PictureView | None = None
         self._decoder = ""
         self._whose = PICTURES[0]
         self.range = RANGES[0]
@@ -119,12 +119,12 @@ class StoryRows(QWidget):
         keys = tuple(key for key, value in found.items() if value is not None)
         self.legend.show_lines(keys, note, undefined or (drift and why_it_drifts()))
 
-    def show_picture(self, picture: Picture) -> None:
+    def show_picture(self, picture: Picture | PictureView) -> None:
         """Show the stripes of this picture in place of the previous ones."""
         self._picture = picture
-        self.stripes.show_picture(picture, self._whose)
+        self.stripes.show_picture(picture.seen_by(self._whose))
 
-    def show_reading(self, reading: Reading) -> None:
+    def show_reading(self, reading: ColumnView) -> None:
         """Show this reading in place of the previous one."""
         was_seen = self._sees_chosen()
         self._reading = reading
@@ -156,7 +156,7 @@ class StoryRows(QWidget):
         self._whose = whose
         self.profile.choose_picture(whose)
         if self._picture is not None:
-            self.stripes.show_picture(self._picture, whose)
+            self.stripes.show_picture(self._picture.seen_by(whose))
         self._show_legend()
         self._read_out()
 
@@ -235,7 +235,7 @@ class StoryRows(QWidget):
             self.measured_changed.emit("" if found is None else difference_in_words(found))
 
 
-def _panel_of(reading: Reading) -> tuple[float, float]:
+def _panel_of(reading: ColumnView) -> tuple[float, float]:
     """Return the first and last column of the panel; of the picture where it shows none."""
     last_column = len(reading.profile) - 1
     panel = np.clip(reading.corners[:, 0], 0, last_column)

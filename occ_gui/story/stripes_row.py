@@ -7,7 +7,7 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
-from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.preview import PictureView
 from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
 from occ_gui.story.column_means import resampled, shrunk
 from occ_gui.story.story_row import StoryRow
@@ -45,16 +45,11 @@ class StripesRow(StoryRow):
         self.thumbnail = FrameThumbnail(self)
         axis.changed.connect(self._mark_view)
 
-    def show_picture(self, picture: Picture, whose: str) -> None:
-        """Show this picture, the camera's or the receiver's, in place of the previous one."""
-        frame = picture.frame
-        self._image, self._corners, self._rows = frame.picture(whose), frame.corners, frame.rows
-        halves = picture.halves if picture.whose == whose else ()
-        camera = frame.scene.camera
-        self._all_rows = range(camera.rows)
-        self.thumbnail.show_image(
-            halves[-1] if halves else self._image, camera.rows, camera.columns
-        )
+    def show_picture(self, picture: PictureView) -> None:
+        """Show this picture in place of the previous one."""
+        self._image, self._corners, self._rows = picture.image, picture.corners, picture.rows
+        self._all_rows = range(picture.size[0])
+        self.thumbnail.show_image(picture.smallest, *picture.size)
         self._mark_view()
         self.redraw()
 

@@ -5,21 +5,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import occ_model as occ
-from occ_gui.simulation.preview import Picture, halved
-from occ_gui.simulation.snapshot import Reading, SimulationRequest
+from occ_gui.simulation.preview import PictureView, halved
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.video.film_pictures import ShownPicture
 from occ_gui.video.frame_rows import FrameStory
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
 from occ_model.receiver.signal import column_means
-from occ_model.results import DecodeResult, Frame, Plan, Region
+from occ_model.results import DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.video.read_frame import read_by_itself
 
-_NO_PLAN = Plan(0.0, "image", (), 0.0, 1.0)
 _SMALLEST = 256
 """Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
 
@@ -173,7 +172,7 @@ def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
     while min(pixels.shape) >= 2 * _SMALLEST:
         pixels = halved(pixels)
         halves.append(pixels)
-    step = story.picture.frame.rows_step
+    step = story.picture.rows.step
     region = story.reading.decoded.region
     return ShownPicture(image, tuple(halves), region, caption, step)
 
@@ -201,24 +200,18 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
     decoded = _in_whole_picture(decoded, step, shown.camera.rows)
     region = decoded.region or Region(0, shown.camera.rows, 0, image.shape[1])
     corners = _corners(region)
-    drawn = Frame(
-        scene=shown, plan=_NO_PLAN, image=image, rows=range(0, shown.camera.rows, step),
-        profile=profile, signal=profile, corners=corners, timings={},
-        make_camera_image=lambda: image,
-    )  # fmt: skip
-    asked = SimulationRequest(shown, SimulationSettings())
     transmitter = scene.transmitter
     chip_columns = transmitter.switching_period / scene.camera.readout_time
     is_known = request is not None and not transmitter.pattern
-    reading = Reading(
-        request=asked, source="picture", plan=_NO_PLAN, profile=profile, signal=profile,
-        corners=corners, decoded=decoded, others=(),
+    reading = ColumnView(
+        scene=shown, profile=profile, signal=profile, corners=corners, decoded=decoded,
         sent=transmitter.payload_bits if is_known else (),
         packet_columns=chip_columns * len(occ.packet(scene)),
-        band=None, enhanced_band=None, band_undefined="",
     )  # fmt: skip
+    rows, size = range(0, shown.camera.rows, step), (shown.camera.rows, shown.camera.columns)
+    picture = PictureView(image, rows, size, corners, image)
     title = f"{whose}, frame {frame.index + 1}, by itself: {_in_words(decoded)}"
-    return FrameStory(Picture(drawn, "camera", ()), reading, request is not None, title)
+    return FrameStory(picture, reading, request is not None, title)
 
 
 def _in_words(decoded: DecodeResult) -> str:

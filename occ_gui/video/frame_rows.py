@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.preview import PictureView
+from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.story_rows import RANGES, StoryRows
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plot import PACKETS_IN_VIEW
@@ -26,8 +26,8 @@ class FrameStory:
         Whose frame it is, and what was read.
     """
 
-    picture: Picture
-    reading: Reading
+    picture: PictureView
+    reading: ColumnView
     knows_light: bool
     title: str
 

@@ -79,7 +79,7 @@ class _PaintedMaps:
             application.shell.pane("map").view.plots,
         )
         self._show_map = self._pane.show_map
-        self._pane.show_map = self._show  # type: ignore[method-assign]
+        self._pane.show_map = self._show
 
     def _show(self, rates: "RateMap") -> None:
         self._show_map(rates)
@@ -90,7 +90,7 @@ class _PaintedMaps:
 
     def end(self) -> None:
         """Let the maps be painted as they are otherwise."""
-        self._pane.show_map = self._show_map  # type: ignore[method-assign]
+        self._pane.show_map = self._show_map
 
 
 def main() -> None:

@@ -117,7 +117,7 @@ class Application(QObject):
         # Before the session is written.
         self.window.closing.connect(self._begin_to_end)
         self.desktop = Desktop(self)
-        self.welcome = Welcome(self)
+        self.welcome = Welcome(self.window, self.shell, self.preferences, self.files)
         self._match_next, self._front_next = False, True
         self._connect_scene()
         self._connect_settings()

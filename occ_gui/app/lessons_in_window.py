@@ -1,37 +1,16 @@
 """Lessons in the window: what their steps show and do there, beside their own pane."""
 
-from collections.abc import Mapping
-from typing import Any, Protocol
+from typing import Any
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QAction
 
 from occ_gui.files.session_record import UserState
 from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.shell.shell import Shell
+from occ_gui.window.main_window import MainWindow
 
 _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match": "match"}
 """The menu entries that the buttons of lessons stand for."""
-
-
-class PaneWindow(Protocol):
-    """A window that shows panes."""
-
-    @property
-    def actions_by_name(self) -> Mapping[str, QAction]:
-        """The menu entries, by name."""
-
-    def bring_to_front(self, name: str) -> None:
-        """Show a pane in front of those that share its place."""
-
-    def bring_into_view(self, name: str) -> None:
-        """Show a pane in front, unless what it shows is seen already."""
-
-    def put_away(self, name: str) -> None:
-        """Hide a pane that the present mode does not show by itself."""
-
-    def is_put_away(self, name: str) -> bool:
-        """Return whether a pane is hidden."""
 
 
 class LessonsInWindow(QObject):
@@ -49,7 +28,7 @@ class LessonsInWindow(QObject):
     photo_explained = Signal(bool)
     """Whether the step of a lesson that is shown is about the photo."""
 
-    def __init__(self, window: PaneWindow, shell: Shell, photos: PhotoWiring) -> None:
+    def __init__(self, window: MainWindow, shell: Shell, photos: PhotoWiring) -> None:
         super().__init__()
         self._window, self._shell, self._photos = window, shell, photos
         self._brought = ""

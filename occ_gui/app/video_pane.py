@@ -1,27 +1,16 @@
 """Films in the window: opened when their pane is first shown."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QAction
 
 from occ_gui.shell.shell import Shell
+from occ_gui.window.main_window import MainWindow
 
 if TYPE_CHECKING:
     from occ_gui.video.wiring import VideoWiring
-
-
-class PaneWindow(Protocol):
-    """A window that shows panes."""
-
-    @property
-    def actions_by_name(self) -> Mapping[str, QAction]:
-        """The menu entries, by name."""
-
-    def bring_to_front(self, name: str) -> None:
-        """Show a pane in front of those that share its place."""
 
 
 class VideoPane(QObject):
@@ -38,7 +27,7 @@ class VideoPane(QObject):
 
     def __init__(
         self,
-        window: PaneWindow,
+        window: MainWindow,
         shell: Shell,
         ask_for_film: Callable[[], None],
         ask_to_save: Callable[[], None],

@@ -4,8 +4,12 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
+from occ_gui.files.file_controller import FileController
+from occ_gui.files.preferences import Preferences
+from occ_gui.shell.shell import Shell
+from occ_gui.window.main_window import MainWindow
+
 if TYPE_CHECKING:
-    from occ_gui.app.application import Application
     from occ_gui.welcome.welcome_dialog import WelcomeDialog
 
 _SEEN = "welcome/seen"
@@ -13,26 +17,22 @@ _MODES = {"learn": "lessons", "photo": "photo", "explore": "explore"}
 
 
 class Welcome(QObject):
-    """The welcome page of an application.
+    """The welcome page of a window."""
 
-    Parameters
-    ----------
-    application
-        The application.
-    """
-
-    def __init__(self, application: "Application") -> None:
-        super().__init__(application)
-        self._application = application
+    def __init__(
+        self, window: MainWindow, shell: Shell, preferences: Preferences, files: FileController
+    ) -> None:
+        super().__init__(window)
+        self._window, self._shell = window, shell
+        self._preferences, self._files = preferences, files
         self.dialog: WelcomeDialog | None = None
         """The page, while it is shown."""
-        application.window.actions_by_name["welcome"].triggered.connect(self.show)
+        window.actions_by_name["welcome"].triggered.connect(self.show)
 
     def show_once(self) -> None:
         """Show the page if it has never been shown to this user."""
-        preferences = self._application.preferences
-        if preferences.recall(_SEEN) == "":
-            preferences.keep(_SEEN, "yes")
+        if self._preferences.recall(_SEEN) == "":
+            self._preferences.keep(_SEEN, "yes")
             self.show()
 
     def show(self) -> None:
@@ -41,7 +41,7 @@ class Welcome(QObject):
         from occ_gui.welcome.welcome_dialog import WelcomeDialog
 
         if self.dialog is None:
-            self.dialog = WelcomeDialog(self._application.window)
+            self.dialog = WelcomeDialog(self._window)
             self.dialog.chosen.connect(self.enter)
             self.dialog.finished.connect(self._forget)
         self.dialog.show()
@@ -49,13 +49,12 @@ class Welcome(QObject):
 
     def enter(self, door: str) -> None:
         """Lay the window out for what is behind a door, and begin it."""
-        application = self._application
-        application.window.modes.switch(_MODES[door])
+        self._window.modes.switch(_MODES[door])
         if door == "learn":
-            application.window.bring_to_front("lessons")
-            application.shell.pane("lessons").controller.begin_first()
+            self._window.bring_to_front("lessons")
+            self._shell.pane("lessons").controller.begin_first()
         elif door == "photo":
-            application.files.ask_for_photo()
+            self._files.ask_for_photo()
 
     def _forget(self) -> None:
         self.dialog = None

@@ -1,5 +1,7 @@
 """What may know of what in the window: views show what they are given and know no physics."""
 
+from graphlib import TopologicalSorter
+
 import grimp
 import pytest
 
@@ -86,3 +88,10 @@ def test_controllers_are_seen_to_use_the_physics(imports: dict[str, set[str]]) -
 def test_each_name_of_the_physics_is_one_of_the_model() -> None:
     graph = grimp.build_graph("occ_model")
     assert {f"occ_model.{part}" for part in PHYSICS} <= graph.modules
+
+
+def test_no_modules_of_the_window_import_each_other_not_even_for_types() -> None:
+    graph = grimp.build_graph("occ_gui")
+    modules = [module for module in graph.modules if module.startswith("occ_gui")]
+    order = TopologicalSorter({m: graph.find_modules_directly_imported_by(m) for m in modules})
+    assert set(order.static_order()) >= set(modules)  # it raises CycleError, with the circle

@@ -34,7 +34,7 @@ FIRST_AXES = ("switching_frequency", "distance")
 UNSEEN: dict[str, ParameterValue] = {
     "start_time": 0.0,
     "flicker_phase": 0.0,
-    "band_reading": "literal",
+    "band_reading": "aligned",
 }
 """Parameters that no rate depends on, as it is a mean over all start times."""
 

@@ -29,12 +29,22 @@ def drift_sentence(reading: ColumnView) -> str:
     return text.format(drift=drift) if drift else ""
 
 
+def what_is_compared() -> str:
+    """Say what the band model is compared with, where its bands lie where they are sent."""
+    return _tr(
+        "The band model is drawn with the exact length of each run of chips, so that its bands lie "
+        "where those of the simulation do: compare the width and levels of the bands of a packet. "
+        "Read literally, in whole columns, it drifts: the field “{field}” under Model."
+    ).format(field=PARAMETERS["band_reading"].label)
+
+
 def why_it_drifts() -> str:
     """Say why, and what can be done about it."""
     return _tr(
         "The band model rounds each band to whole columns, and leaves out the exposure between two "
         "equal chips. Both add up along the picture, so that its bands drift away from those of "
-        "the simulation. The field “{field}” under Model takes exact run lengths instead."
+        "the simulation. The field “{field}” under Model aligns them: exact run lengths, so that "
+        "width and levels of the bands can be compared packet by packet."
     ).format(field=PARAMETERS["band_reading"].label)
 
 

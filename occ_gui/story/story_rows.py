@@ -5,7 +5,7 @@ from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.decoding.verdict import result_of
-from occ_gui.profile.band_drift import drift_of, why_it_drifts
+from occ_gui.profile.band_drift import drift_of, what_is_compared, why_it_drifts
 from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture, PictureView
 from occ_gui.simulation.snapshot import ColumnView
@@ -117,7 +117,11 @@ class StoryRows(QWidget):
         drift = "" if self._reading is None else drift_of(self._reading)
         note = self.tr("no band model here") if undefined else drift
         keys = tuple(key for key, value in found.items() if value is not None)
-        self.legend.show_lines(keys, note, undefined or (drift and why_it_drifts()))
+        if undefined or profile.band is None:
+            why = undefined
+        else:
+            why = why_it_drifts() if drift else what_is_compared()
+        self.legend.show_lines(keys, note, why)
 
     def show_picture(self, picture: Picture | PictureView) -> None:
         """Show the stripes of this picture in place of the previous ones."""

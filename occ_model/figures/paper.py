@@ -86,7 +86,8 @@ def write_profile_figure(folder: Path, number: int, preset: str, photo: Photo | 
     frame = render(scene, tolerance=math.inf)
     band, undefined = None, ""
     try:
-        band = band_profile(scene)
+        # As the paper counts bands; aligned, they would lie on the simulation's.
+        band = band_profile(scene.replace(band_reading="literal"))
     except BandModelUndefined as reason:
         undefined = str(reason)
     first, last = _shown_columns(scene, frame)

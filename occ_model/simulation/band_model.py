@@ -38,9 +38,10 @@ def band_lengths(scene: Scene) -> tuple[float, float]:
 def band_profile(scene: Scene) -> FloatArray:
     """Return the column profile that the band model predicts.
 
-    With ``band_reading = "literal"`` h_c columns stand for every chip and h_t for every change of
-    state, both rounded to whole columns, so that the profile drifts along the picture. With
-    ``"charitable"`` a run of n equal chips has (n t_LED - t) / t_r columns, not rounded.
+    With ``band_reading = "aligned"`` a run of n equal chips has (n t_LED - t) / t_r columns, not
+    rounded, so that every packet's bands begin where they are sent, and width and levels of bands
+    can be compared. With ``"literal"`` h_c columns stand for every chip and h_t for every change of
+    state, both rounded to whole columns, so that the profile drifts along the picture.
     Both start at the scene's start time.
 
     Returns
@@ -57,7 +58,7 @@ def band_profile(scene: Scene) -> FloatArray:
     complete, transition = band_lengths(scene)
     chips = sent_chips(scene.transmitter)
     phases = column_phases(scene, len(chips))
-    if scene.model.band_reading == "charitable":
+    if scene.model.band_reading == "aligned":
         exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
         positions, lit = _knots(chips, max(0.0, 1.0 - exposure), exposure, between_equal=exposure)
         columns: FloatArray = phases.chip + phases.fraction
@@ -84,7 +85,7 @@ def band_drift(scene: Scene) -> float:
     Returns
     -------
     float
-        Below zero where the model's packet is longer; 0 for the charitable reading.
+        Below zero where the model's packet is longer; 0 for the aligned reading.
 
     Raises
     ------
@@ -92,7 +93,7 @@ def band_drift(scene: Scene) -> float:
         The exposure time is longer than the switching period.
     """
     complete, transition = band_lengths(scene)
-    if scene.model.band_reading == "charitable":
+    if scene.model.band_reading == "aligned":
         return 0.0
     chips = sent_chips(scene.transmitter)
     positions, _ = _literal_knots(chips, complete, transition)

@@ -62,7 +62,7 @@ def test_an_exposure_of_exactly_one_period_is_the_last_defined() -> None:
     readout=st.floats(1e-6, 2e-4),
     iso=st.floats(50.0, 10_000.0),
 )
-def test_the_charitable_reading_is_exact_where_defined(
+def test_the_aligned_reading_is_exact_where_defined(
     share: float, code: int, start: float, readout: float, iso: float
 ) -> None:
     scene = Scene().replace(
@@ -72,7 +72,6 @@ def test_the_charitable_reading_is_exact_where_defined(
         start_time=start,
         readout_time=readout,
         columns=400,
-        band_reading="charitable",
     )
     np.testing.assert_allclose(occ.band_profile(scene), occ.column_profile(scene), atol=1e-9)
 
@@ -80,7 +79,12 @@ def test_the_charitable_reading_is_exact_where_defined(
 def test_the_literal_reading_gives_chips_whole_columns() -> None:
     # h_c = 4, h_t = 3: one packet of 01 has two chips and two changes, 14 columns.
     scene = Scene().replace(
-        pattern="01", switching_frequency=1e5, exposure_time=3e-6, readout_time=1e-6, columns=70
+        pattern="01",
+        switching_frequency=1e5,
+        exposure_time=3e-6,
+        readout_time=1e-6,
+        columns=70,
+        band_reading="literal",
     )
     scene = scene.replace(switching_frequency=1 / 7e-6)
     dark, bright = level_values(scene)
@@ -99,6 +103,7 @@ def test_the_literal_reading_drifts_at_every_pair_of_equal_chips() -> None:
         exposure_time=3e-6,
         readout_time=1e-6,
         columns=44,
+        band_reading="literal",
     )
     literal = occ.band_profile(scene)
     np.testing.assert_allclose(literal[:22], literal[22:])
@@ -111,19 +116,27 @@ def test_the_drift_is_what_a_packet_of_the_model_is_shorter(
     share: float, code: int, readout: float
 ) -> None:
     scene = Scene().replace(
-        code=code, switching_frequency=2e3, exposure_time=share / 2e3, readout_time=readout
+        code=code,
+        switching_frequency=2e3,
+        exposure_time=share / 2e3,
+        readout_time=readout,
+        band_reading="literal",
     )
     sent = len(occ.packet(scene)) / (2e3 * readout)
     counted = round(sent - band_drift(scene))
     assert counted == pytest.approx(sent - band_drift(scene), abs=1e-6)
     profile = occ.band_profile(scene.replace(columns=2 * counted))
     np.testing.assert_allclose(profile[:counted], profile[counted:], atol=1e-9)
-    assert band_drift(scene.replace(band_reading="charitable")) == 0.0
+    assert band_drift(scene.replace(band_reading="aligned")) == 0.0
 
 
 def test_a_packet_that_rounds_to_no_column_is_refused() -> None:
     scene = Scene().replace(
-        switching_frequency=1e6, exposure_time=0.5e-6, readout_time=100e-6, columns=10
+        switching_frequency=1e6,
+        exposure_time=0.5e-6,
+        readout_time=100e-6,
+        columns=10,
+        band_reading="literal",
     )
     with pytest.raises(occ.BandModelUndefined, match="rounds to none"):
         occ.band_profile(scene)

@@ -101,9 +101,9 @@ MODEL: tuple[Parameter, ...] = (
         "band_reading",
         "Band model",
         "",
-        "Whole columns for each chip and each change (literal), or exact run lengths (charitable).",
-        ("literal", "charitable"),
-        "literal",
+        "Bands with exact run lengths, or whole columns for each chip and each change (literal).",
+        ("aligned", "literal"),
+        "aligned",
     ),
 )
 # fmt: on

@@ -71,7 +71,7 @@ def test_showing_a_value_tells_nothing(qtbot: QtBot, name: str) -> None:
         "error_correction": "reed-solomon",
         "averaging": "light",
         "enhancement": "none",
-        "band_reading": "charitable",
+        "band_reading": "literal",
     }
     value = others.get(name, 3 if isinstance(declared, Count) else 0.5)
     told.row.show_value(value)

@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.enhancement import Enhancement, share_above, to_bytes
 from occ_model.camera.projection import panel_corners, row_spans
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.receiver.decode import decode
@@ -43,6 +43,14 @@ def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
     if np.ptp(first[lit]) + np.ptp(last[lit]) > 0:
         return None
     return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
+
+
+_BESIDE = 50
+"""The share of a picture's larger side by which a lens may move the panel: one in so many."""
+
+
+_RARE = 0.01
+"""Pixels beside the panel that may be expected to be as bright as its brightest."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -161,6 +169,28 @@ def means_without_noise(
     shares[span.first_column : span.last_column] = crossed / region.rows
     shares = shares[columns]
     return np.asarray(shares * panel[columns] + (1.0 - shares) * around[columns])
+
+
+def shows_region(sample: SampledPicture, view: PaperView) -> bool:
+    """Return whether a sample of the rows shows which region is found in the whole picture.
+
+    It does where noise beside the panel, as the sample shows it, is nowhere in the whole picture
+    expected to be as bright as the brightest pixels.
+    """
+    scene, image = view.scene, sample.image
+    found = locate(image, scene.receiver.bright_fraction)
+    if found is None:
+        return True
+    margin = max(scene.camera.rows, scene.camera.columns) // _BESIDE
+    left = max(0, view.region.first_column - margin)
+    for part in (image[:, :left], image[:, view.region.last_column + margin :]):
+        if not part.size:
+            continue
+        mean, spread = np.array([part.mean()]), np.array([part.std()])
+        (bright,) = share_above(found.bright_level - 0.5, mean, spread)
+        if np.any(part >= found.bright_level) or bright * part.size * sample.rows_each > _RARE:
+            return False
+    return True
 
 
 def observe_sample(

@@ -27,6 +27,7 @@ from occ_model.study.observation import (
     observe_profile,
     observe_sample,
     panel_span,
+    shows_region,
 )
 from occ_model.transmitter.packet import sent_chips
 
@@ -68,7 +69,8 @@ def success_rate(
         ``"image"``: simulate every image whole. ``"profile"``: decode its column means without it,
         which needs rows that differ by noise at most: a level panel, and no image effect in the
         plan. ``"rows"``: a sample of the rows, from which the column means follow. ``"auto"``: the
-        profile wherever that holds, a sample of the rows elsewhere.
+        profile wherever that holds, a sample of the rows elsewhere, and the whole image where noise
+        beside the panel is as bright as its brightest pixels.
 
     Returns
     -------
@@ -190,7 +192,7 @@ def _read(
         )
     seed = int(random.integers(_SEEDS))
     sample = None if settings.path == "image" else sample_picture(view, chosen, seed)
-    if sample is not None:
+    if sample is not None and shows_region(sample, view):
         seen = observe_sample(sample, scene, chosen, random)
         if seen is None:
             return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in settings.decoders]

@@ -1,5 +1,6 @@
 """The interface of a decoder."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -24,9 +25,13 @@ class Decoder:
     is_quick
         Whether it reads in a few milliseconds and imports nothing slow, so that every picture of a
         live view can be read with it.
+    searched_chips
+        The longest exposure, in chips, to which its limits are searched: where it takes so long
+        beyond that nobody would wait.
     """
 
     name: str
     title: str
     read: Callable[[FloatArray, Scene], DecodeResult]
     is_quick: bool = True
+    searched_chips: float = math.inf

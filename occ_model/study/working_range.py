@@ -1,11 +1,12 @@
 """Search for the values of one parameter at which a decoder reads a scene.
 
 The parameter is varied by itself, over the range of its slider, widened where the scene's own value
-lies outside. A coarse search tries values in steps of a factor ``STEP``. Success need not fall
-steadily: at low frequencies too few packets fit the picture, and beyond a null the stripes come
-back. The answer is therefore a list of intervals. A gap narrower than a step can be missed. The
-outermost ends, and those of the interval that holds the scene's own value or is nearest to it, are
-found by bisection to a factor ``NEAR``; other gaps are known to a step of the coarse search.
+lies outside, and shortened where a decoder would take too long. A coarse search tries values in
+steps of a factor ``STEP``. Success need not fall steadily: at low frequencies too few packets fit
+the picture, and beyond a null the stripes come back. The answer is therefore a list of intervals. A
+gap narrower than a step can be missed. The outermost ends, and those of the interval that holds the
+scene's own value or is nearest to it, are found by bisection to a factor ``NEAR``; other gaps are
+known to a step of the coarse search.
 
 Images are spent where the rate is in doubt. A value is given up as soon as too many bits are wrong
 for further images to mend, and believed after ``FEW_IMAGES`` that reach the rate. Values on both
@@ -21,6 +22,7 @@ from itertools import count
 import numpy as np
 
 from occ_model.parallel.job import Heartbeat
+from occ_model.receiver.decoders import decoder_named
 from occ_model.results import RangeEnd, RateSettings, ReadInterval, Trial, WorkingRange
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -124,6 +126,9 @@ class _Search:
         self._parameter = parameter
         self._own = float(scene.value(name))
         low, high = parameter.slider
+        chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
+        longest = decoder_named(settings.decoders[0]).searched_chips
+        high = min(high, float(f"{self._own * longest / chips:.4g}"))
         self._low, self._high = min(low, self._own), max(high, self._own)
         self._values = self._coarse_values()
         self._fresh = replace(settings, seed=_other_seed(settings.seed))

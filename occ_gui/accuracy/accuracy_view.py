@@ -79,13 +79,15 @@ class AccuracyView(QWidget):
         self.observable = _choice(
             self.tr("What the tolerance limits"),
             self.tr(
-                "What the tolerance limits: errors of the panel's pixels, of its column means, or "
-                "of the signal that a decoder reads, the column means after the enhancement."
+                "What the tolerance limits: errors of the panel's pixels, of its column means, of "
+                "the signal that a decoder reads, the column means after the enhancement, or of "
+                "the decision, as a share of the chips' margin."
             ),
             {
                 "image": self.tr("picture"),
                 "profile": self.tr("profile"),
                 "signal": self.tr("signal"),
+                "decision": self.tr("decision"),
             },
         )
         self.noise = _choice(
@@ -103,6 +105,8 @@ class AccuracyView(QWidget):
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
         self.table.switched.connect(self.effect_switched)
         self.table.chosen.connect(self._select)
+        self.table.tolerance_dragged.connect(self.tolerance.show_value)
+        self.table.tolerance_dragged.connect(self.tolerance_edited)
         self.panels = Panels(
             Panel(self.tr("Effects"), self.table, _TABLE_WIDTH, 1),
             Panel(self.tr("Ways to compute"), self.plot, _PLOT_WIDTH, 3),
@@ -144,6 +148,7 @@ class AccuracyView(QWidget):
     def show_settings(self, settings: SimulationSettings) -> None:
         """Show the simulation settings without emitting a signal."""
         self.tolerance.show_value(settings.tolerance)
+        self.table.show_tolerance(settings.tolerance)
         self.observable.setCurrentIndex(self.observable.findData(settings.observable))
         self.noise.setCurrentIndex(self.noise.findData(settings.noise))
         self.table.show_force(settings.force)

@@ -89,7 +89,8 @@ def _error(expected: Forecast) -> str:
     if expected.error is None:
         return _promise(expected)
     if expected.error == 0.0:
-        return _tr("exact: nothing is left out")
+        is_exact = expected.plan.tolerance == 0.0
+        return _tr("exact: nothing is left out") if is_exact else _tr("nothing is left out")
     if expected.is_measured:
         return _tr("error {error} levels (measured)").format(error=levels(expected.error))
     return _tr("error about {error} levels (predicted)").format(error=levels(expected.error))
@@ -98,10 +99,10 @@ def _error(expected: Forecast) -> str:
 def _promise(expected: Forecast) -> str:
     """Say what the plan promises of an error that is neither measured nor predicted yet."""
     plan = expected.plan
-    off_by_hand = any(d.forced and d.bound and not d.included for d in plan.decisions)
+    off_by_hand = any(d.forced and d.estimate and not d.included for d in plan.decisions)
     if off_by_hand or plan.tolerance == math.inf:
         return _tr("error not measured yet")
-    return _tr("error at most {bound} levels (calculated)").format(bound=levels(plan.left_out))
+    return _tr("error about {error} levels (estimated)").format(error=levels(plan.left_out))
 
 
 def switch_sentence(switched: Sequence[Decision]) -> str:

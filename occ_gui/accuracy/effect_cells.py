@@ -1,11 +1,19 @@
-"""Cells of the table of effects that are drawn: the pair of small pictures, the bar of the time."""
+"""Cells of the table of effects that are drawn: pictures, the errors on their axis, times."""
 
 import math
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
-from PySide6.QtCore import QModelIndex, QObject, QPersistentModelIndex, QRect, QRectF, Qt
-from PySide6.QtGui import QImage, QPainter, QPalette
+from PySide6.QtCore import (
+    QModelIndex,
+    QObject,
+    QPersistentModelIndex,
+    QPointF,
+    QRect,
+    QRectF,
+    Qt,
+)
+from PySide6.QtGui import QImage, QPainter, QPalette, QPen
 from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
@@ -109,4 +117,87 @@ class TimeCell(QStyledItemDelegate):
         painter.setPen(colour)
         painter.setBrush(colour if row.included else Qt.BrushStyle.NoBrush)
         painter.drawRect(bar.adjusted(0.5, 0.5, -0.5, -0.5))
+        painter.restore()
+
+
+_LEAST_LEVELS, _MOST_LEVELS = 0.01, 300.0
+"""Ends of the axis of errors, in levels; it is logarithmic."""
+
+_NUMBER_WIDTH = 44
+"""Pixels of the number beside the axis."""
+
+
+def axis_of(area: QRect) -> tuple[int, int]:
+    """Return where the axis of errors begins in a cell, and its length, in pixels."""
+    return area.left() + _GAP, max(area.width() - _NUMBER_WIDTH - 2 * _GAP, 1)
+
+
+def place_of(levels: float, area: QRect) -> float:
+    """Return the place of an error on the axis; beyond an end, that end."""
+    left, length = axis_of(area)
+    if levels <= _LEAST_LEVELS:
+        return float(left)
+    share = math.log(levels / _LEAST_LEVELS) / math.log(_MOST_LEVELS / _LEAST_LEVELS)
+    return left + length * min(share, 1.0)
+
+
+def levels_at(place: float, area: QRect) -> float:
+    """Return the error at a place on the axis: 0 before it, and infinity beyond it."""
+    left, length = axis_of(area)
+    share = (place - left) / length
+    if share <= 0.0:
+        return 0.0
+    levels: float = _LEAST_LEVELS * (_MOST_LEVELS / _LEAST_LEVELS) ** share
+    return levels if share < 1.0 else math.inf
+
+
+class ErrorCell(QStyledItemDelegate):
+    """Draws an effect's error on an axis that all rows share, and the number beside it.
+
+    A dot is what was measured; a whisker goes from it to what the plan estimates. The tolerance is
+    a line through all rows; those beyond it have a colour.
+
+    Parameters
+    ----------
+    rows
+        Returns the contents of all rows.
+    tolerance
+        Returns the tolerance.
+    parent
+        The parent.
+    """
+
+    def __init__(
+        self, rows: Rows, tolerance: Callable[[], float], parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._rows = rows
+        self._tolerance = tolerance
+
+    @guarded
+    def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
+        """Draw the number, the whisker, the dot and the tolerance."""
+        super().paint(painter, option, index)
+        row, area = self._rows()[index.row()], option.rect
+        colour = seen_on(option.palette, SIMULATION)
+        text = option.palette.color(QPalette.ColorRole.Text)
+        if option.state & QStyle.StateFlag.State_Selected:
+            colour = text = option.palette.color(QPalette.ColorRole.HighlightedText)
+        middle = area.center().y() + 0.5
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if row.effect != ELSE:
+            painter.setPen(text)
+            line = place_of(self._tolerance(), area)
+            painter.drawLine(QPointF(line, area.top()), QPointF(line, area.bottom() + 1))
+        if row.estimate is not None and row.levels is not None:
+            if row.estimate <= self._tolerance() and colour != text:
+                colour = option.palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
+            painter.setPen(QPen(colour, 1.5))
+            estimate, found = place_of(row.estimate, area), place_of(row.levels, area)
+            painter.drawLine(QPointF(estimate, middle), QPointF(found, middle))
+            painter.drawLine(QPointF(estimate, middle - 4), QPointF(estimate, middle + 4))
+            if not row.error.startswith("≈"):
+                painter.setBrush(colour if row.included else Qt.BrushStyle.NoBrush)
+                painter.drawEllipse(QPointF(found, middle), 3.0, 3.0)
         painter.restore()

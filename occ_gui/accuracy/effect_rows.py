@@ -26,6 +26,8 @@ class EffectRow:
     levels, error, error_meaning
         What leaving it out would change, None where the scene does not have it; the same as text,
         and how that is known, as a sentence.
+    estimate
+        What the plan estimates of that.
     seconds, scatter
         Its time, None where there is none of its own; and by how much it was longer at other times.
     time
@@ -48,6 +50,7 @@ class EffectRow:
     stage: str
     label: str
     levels: float | None = None
+    estimate: float | None = None
     error: str = ""
     error_meaning: str = ""
     seconds: float | None = None
@@ -121,17 +124,18 @@ def _row(
     difference = costs.differences.get(decision.effect)
     error, meaning = _error(decision, difference)
     seconds = costs.seconds_of(decision.effect)
-    time = "" if seconds is None or not decision.bound else milliseconds(seconds)
+    time = "" if seconds is None or not decision.estimate else milliseconds(seconds)
     if time and costs.shares_step_with(decision.effect) is not None:
         seconds, time = None, _tr("with noise")
     if time and not decision.included:
         time = f"({time})"
-    found = decision.bound if difference is None else difference.error
+    found = decision.estimate if difference is None else difference.error
     return EffectRow(
         decision.effect,
         stage,
         decision.label,
-        found if decision.bound else None,
+        found if decision.estimate else None,
+        decision.estimate or None,
         error,
         meaning,
         seconds if time else None,
@@ -139,7 +143,7 @@ def _row(
         time,
         f"{decision.label}: {decision.reason}",
         decision.included,
-        absent=not decision.bound and not decision.included,
+        absent=not decision.estimate and not decision.included,
         new=new,
         pending=pending,
         icon=None if difference is None else difference.icon,
@@ -148,24 +152,18 @@ def _row(
 
 def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str, str]:
     """Return what leaving an effect out changes, and how that is known."""
-    if not decision.bound:
+    if not decision.estimate:
         return _tr("none"), _tr("The scene does not have this effect.")
-    bound = levels(decision.bound)
+    estimate = levels(decision.estimate)
     if difference is None:
-        meaning = _tr("Leaving it out changes at most {bound} levels (calculated).")
-        return _tr("≤ {bound} levels").format(bound=bound), meaning.format(bound=bound)
+        meaning = _tr("Leaving it out changes about {estimate} levels (estimated).")
+        return _tr("≈ {estimate}").format(estimate=estimate), meaning.format(estimate=estimate)
     error = levels(difference.error)
-    if difference.error <= decision.bound:
-        meaning = _tr(
-            "Leaving it out changes {error} levels (measured), at most {bound} (calculated)."
-        )
-    else:
-        # A file spreads what changes before it: where it is left out too, the bound is without it.
-        meaning = _tr(
-            "Left out of the complete picture it changes {error} levels (measured), left out of "
-            "this one at most {bound} (calculated)."
-        )
-    return _tr("{error} levels").format(error=error), meaning.format(error=error, bound=bound)
+    meaning = _tr(
+        "Leaving it out of the complete picture changes {error} levels (measured), {estimate} were "
+        "estimated."
+    )
+    return error, meaning.format(error=error, estimate=estimate)
 
 
 def levels(error: float) -> str:

@@ -12,10 +12,10 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QColor, QPalette, QResizeEvent
+from PySide6.QtGui import QColor, QMouseEvent, QPalette, QResizeEvent
 from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView, QWidget
 
-from occ_gui.accuracy.effect_cells import PictureCell, TimeCell
+from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, levels_at
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
 from occ_gui.accuracy.row_order import (
     AS_LIGHT_TRAVELS,
@@ -31,6 +31,7 @@ from occ_gui.accuracy.row_order import (
 )
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.plot import REGION
+from occ_model.scene.simulation_settings import TOLERANCE
 
 _Index = QModelIndex | QPersistentModelIndex
 
@@ -48,6 +49,7 @@ _ROWS = 11
 
 _PICTURE_WIDTH = 92
 _TIME_WIDTH = 104
+_ERROR_WIDTH = 150
 _STATES: tuple[bool | None, ...] = (None, True, False)
 """Choices of a switch: the plan decides, on, off."""
 
@@ -71,8 +73,9 @@ class EffectModel(QAbstractTableModel):
                 self.tr("Error without"),
                 self.tr(
                     "How much the picture would change without it, in levels: 255 of them lie "
-                    "between its darkest and its brightest column. Measured; with ≤ it is the "
-                    "calculated bound."
+                    "between its darkest and its brightest column.\nThe dot is measured, the "
+                    "whisker ends at the plan's estimate (≈). The line through all rows is the "
+                    "tolerance; drag it."
                 ),
             ),
             TIME: (
@@ -208,9 +211,14 @@ class EffectTable(QTableView):
     chosen = Signal(str)
     """The effect whose row is selected."""
 
+    tolerance_dragged = Signal(float)
+    """The tolerance to which its line was dragged."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.effects = EffectModel(self)
+        self._tolerance = TOLERANCE.default
+        self._dragged = -1
         self.switches: dict[str, QComboBox] = {}
         self._force: Mapping[str, bool] = {}
         self.setModel(self.effects)
@@ -227,6 +235,9 @@ class EffectTable(QTableView):
         self.setVerticalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setItemDelegateForColumn(PICTURE, PictureCell(lambda: self.effects.rows, self))
+        self.setItemDelegateForColumn(
+            ERROR, ErrorCell(lambda: self.effects.rows, lambda: self._tolerance, self)
+        )
         self.setItemDelegateForColumn(TIME, TimeCell(lambda: self.effects.rows, self))
         rows, header = self.verticalHeader(), self.horizontalHeader()
         rows.hide()
@@ -244,6 +255,37 @@ class EffectTable(QTableView):
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
         """Show these rows in place of the last ones."""
         self.effects.show_rows(rows)
+
+    def show_tolerance(self, tolerance: float) -> None:
+        """Show the tolerance as a line through all rows, without emitting a signal."""
+        self._tolerance = tolerance
+        self.viewport().update()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Select a row; a press on the axis of errors moves the tolerance there."""
+        super().mousePressEvent(event)
+        self._drag(event, self.columnAt(int(event.position().x())))
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Move the tolerance with the mouse that was pressed on the axis of errors."""
+        if not self._drag(event, self._dragged):
+            super().mouseMoveEvent(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        """Let the tolerance be where it is."""
+        self._dragged = -1
+        super().mouseReleaseEvent(event)
+
+    def _drag(self, event: QMouseEvent, column: int) -> bool:
+        is_pressed = bool(event.buttons() & Qt.MouseButton.LeftButton)
+        if column != ERROR or not is_pressed or not self.effects.rows:
+            return False
+        self._dragged = column
+        area = self.visualRect(self.effects.index(0, ERROR))
+        levels = levels_at(event.position().x(), area)
+        self.show_tolerance(levels)
+        self.tolerance_dragged.emit(levels)
+        return True
 
     def bring_into_view(self, effects: Collection[str]) -> None:
         """Scroll to the first of these effects."""
@@ -300,7 +342,7 @@ class EffectTable(QTableView):
         for column, width in (
             (STAGE, max(metrics.horizontalAdvance("Sensor") + 8, self._title_width(STAGE))),
             (PICTURE, max(_PICTURE_WIDTH, self._title_width(PICTURE))),
-            (ERROR, self._title_width(ERROR)),
+            (ERROR, max(_ERROR_WIDTH, self._title_width(ERROR))),
             (TIME, max(_TIME_WIDTH, self._title_width(TIME))),
             (SWITCH, max(switch.minimumSizeHint().width() + 4, self._title_width(SWITCH))),
         ):

@@ -93,14 +93,28 @@ class Enhancement:
         -------
         mean, deviation : ndarray of float64, shape as ``levels``
         """
+        mean, deviation, _ = self.smoothed(levels, spread)
+        return mean, deviation
+
+    def smoothed(
+        self, levels: FloatArray, spread: FloatArray
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the same, and the mean of the sum of the squares of all steps that are passed.
+
+        By its slope the mean square of the signal's change grows with a small change of a pixel.
+        """
         curve = self.curve.astype(np.float64)
         edge, passed = _steps_passed(levels, spread)
         lowest, beyond = edge[:, 0], np.zeros(edge.shape[1] + 1)
-        steps = np.concatenate([np.diff(curve), beyond])
-        square_steps = np.concatenate([np.diff(curve**2), beyond])
-        mean = curve[lowest] + np.einsum("ij,ij->i", steps[edge], passed)
-        square = curve[lowest] ** 2 + np.einsum("ij,ij->i", square_steps[edge], passed)
-        return mean, np.sqrt(np.maximum(square - mean**2, 0.0))
+
+        def passed_of(values: FloatArray) -> FloatArray:
+            steps = np.concatenate([np.diff(values), beyond])
+            return np.asarray(values[lowest] + np.einsum("ij,ij->i", steps[edge], passed))
+
+        mean = passed_of(curve)
+        jumps = np.concatenate([[0.0], np.cumsum(np.diff(curve) ** 2)])
+        deviation = np.sqrt(np.maximum(passed_of(curve**2) - mean**2, 0.0))
+        return mean, deviation, passed_of(jumps)
 
     def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
         """Enhance grey levels that are rounded already, shape (rows, columns), if wanted in place.

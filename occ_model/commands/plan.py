@@ -1,4 +1,4 @@
-"""The command ``occ-model plan``: list the effects that a scene calls for, with their bounds."""
+"""The command ``occ-model plan``: list the effects that a scene calls for, with estimates of what they change."""
 
 import argparse
 

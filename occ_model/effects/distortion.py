@@ -15,12 +15,10 @@ from occ_model.camera.optics import Optics
 from occ_model.camera.projection import geometry_of, image_points, image_rays
 from occ_model.camera.row_memory import MEMORY
 from occ_model.effects.defocus import blur_of
-from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import Cost, OpticsEffect
 from occ_model.effects.polygon import clipped, subdivided
 from occ_model.errors import ProjectionError
-from occ_model.scene.scene import Camera, Lens, Scene
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.scene import Lens, Scene
 
 _PARTS = 64
 """Fewest parts that each edge of the panel is divided into."""
@@ -49,37 +47,11 @@ class Distortion(OpticsEffect):
     name = "distortion"
     label = "Lens distortion"
     parameters = ("radial_k1", "radial_k2", "tangential_p1", "tangential_p2")
+    cost = Cost(picture=1.2e-3)
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether any coefficient of the lens is not 0."""
         return scene.lens.distorts
-
-    def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Bound the change by the strip between the straight outline and the bent one.
-
-        Pixels in it show the panel in place of the surroundings, or the reverse. It is a pixel
-        wider than the outline moves, as a pixel's centre lies inside or outside.
-        """
-        scene, region = view.scene, view.region
-        try:
-            straight, bent = _outlines(scene, view.corners)
-        except ProjectionError:  # the simulation refuses it
-            return math.inf
-        reach = 4.0 * blur_of(scene) + 1.0
-        seen = _within(straight, scene.camera, reach) | _within(bent, scene.camera, reach)
-        seen |= np.roll(seen, -1)  # a part is seen if either of its ends is
-        if not seen.any():
-            return 0.0
-        moved = np.abs(bent - straight)
-        moved = np.maximum(moved, np.roll(moved, -1, axis=0))[seen].max(axis=0) + 1.0
-        parts = np.abs(np.roll(straight, -1, axis=0) - straight)
-        length = np.minimum(parts[seen].sum(axis=0), [2.0 * region.columns, 2.0 * region.rows])
-        area = float(length[0] * moved[1] + length[1] * moved[0])
-        share = math.sqrt(min(area / (region.rows * region.columns), 1.0))
-        if observable == "profile" and view.sides is not None:
-            ends = math.sqrt(min(2.0 * moved[0] / region.columns, 1.0))
-            share = min(share, ends + min(2.0 * moved[1] / region.rows, 1.0))
-        return view.contrast * share
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         """Bend the panel's outline.
@@ -107,11 +79,6 @@ def distorted(rays: FloatArray, lens: Lens) -> FloatArray:
         ],
         axis=-1,
     )
-
-
-def _within(points: FloatArray, camera: Camera, reach: float) -> np.ndarray:
-    size = np.array([camera.columns, camera.rows])
-    return np.asarray(((points > -reach) & (points < size + reach)).all(axis=1))
 
 
 def _outlines(scene: Scene, corners: FloatArray) -> tuple[FloatArray, FloatArray]:

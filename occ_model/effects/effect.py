@@ -1,20 +1,19 @@
 """The interface of an effect: something that the paper's model leaves out.
 
 An effect belongs to one stage of the light's way from the panel to the file. It says whether a
-scene has it (``is_present``) and how much leaving it out can change what is observed (``bound``),
-and simulates it (``apply``).
+scene has it (``is_present``), and simulates it (``apply``). How much leaving it out changes what is
+observed follows from that, on a sample of the pixels: see :mod:`occ_model.effects.change`.
 """
 
 from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from typing import ClassVar, Literal, TypeAlias, TypeVar
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.optics import Optics
-from occ_model.camera.photometry import WHITE, ColumnLight
-from occ_model.effects.paper_view import PaperView
+from occ_model.camera.photometry import ColumnLight
 from occ_model.results.plan import Stage
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
 
 Kind: TypeAlias = Literal["column", "noise", "image"]
 """Whether an effect leaves all rows alike, alike but for independent noise, or not alike."""
@@ -22,8 +21,13 @@ Kind: TypeAlias = Literal["column", "noise", "image"]
 Values = TypeVar("Values", FloatArray, Pixels)
 """Pixel values of either precision."""
 
-ROUNDING = 1.0
-"""Most grey levels by which rounding can enlarge a difference of two values."""
+
+@dataclass(frozen=True, slots=True)
+class Cost:
+    """What an effect takes: seconds for a picture, and for a million of its pixels."""
+
+    picture: float = 0.0
+    pixels: float = 0.0
 
 
 class Effect(ABC):
@@ -44,39 +48,12 @@ class Effect(ABC):
     parameters: ClassVar[tuple[str, ...]]
     """The parameters of a scene that it depends on, by name."""
 
+    cost: ClassVar[Cost] = Cost()
+    """What it takes by itself, as measured: see :mod:`occ_model.effects.cost`."""
+
     @abstractmethod
     def is_present(self, scene: Scene) -> bool:
         """Return whether a scene has the effect; where not, it is exactly nothing."""
-
-    def bound(self, view: PaperView, observable: Observable) -> float:
-        """Return the most by which leaving the effect out can change what is observed.
-
-        Parameters
-        ----------
-        view
-            The paper's view of the scene.
-        observable
-            ``"image"``: the camera's pixels of the panel's bounding rectangle; ``"profile"``: the
-            means of its columns, both before rounding; ``"signal"``: the means of its columns after
-            rounding and the receiver's enhancement, which a decoder reads.
-
-        Returns
-        -------
-        float
-            Root mean square in grey levels of the observable; never too small, whichever other
-            effects are there. 0 where the scene does not have the effect.
-        """
-        if not self.is_present(view.scene):
-            return 0.0
-        if observable != "signal":
-            return self._bound(view, observable)
-        if view.scene.model.enhancement == "none":
-            return min(self._bound(view, "profile") + ROUNDING, WHITE)
-        return WHITE
-
-    @abstractmethod
-    def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Return the bound in the image or the profile for a scene that has the effect."""
 
 
 class LightEffect(Effect):
@@ -149,28 +126,13 @@ class FileEffect(Effect):
         """
 
     @abstractmethod
+    def steps(self, scene: Scene) -> FloatArray:
+        """Return the steps to which cosine coefficients of 8 x 8 pixels are rounded."""
+
+    @abstractmethod
     def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
         """Return what the file's rounding adds to a column's mean over one block, in grey levels.
 
         Its standard deviation, if the block's coefficients lie anywhere between their steps, and
         the most that it can be, root mean square over the columns.
-        """
-
-    @abstractmethod
-    def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
-        """Return the most by which a change of the picture can change what is read back.
-
-        Rounding makes steps of the smallest changes: the output can differ by more than the input
-        does.
-
-        Parameters
-        ----------
-        view
-            The paper's view of the scene.
-        change
-            Root mean square of the change in grey levels.
-        dithered
-            Whether noise spreads the pixels over the steps. The result is then an expectation,
-            from which a single picture differs by its sampling error; without noise it is the
-            largest value.
         """

@@ -8,10 +8,8 @@ import numpy as np
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import geometry_of, pixel_rays, rotation_of
-from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import PaperView, reachable_luminances
+from occ_model.effects.effect import Cost, OpticsEffect
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
 
 
 class Emission(OpticsEffect):
@@ -26,22 +24,11 @@ class Emission(OpticsEffect):
     name = "emission"
     label = "Bundled emission"
     parameters = ("lambertian_order",)
+    cost = Cost(pixels=0.8e-3)
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether the panel is other than Lambertian."""
         return scene.transmitter.lambertian_order != 1.0
-
-    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
-        """Bound the change by that of a lit column at the corner seen most from the side."""
-        scene = view.scene
-        order = scene.transmitter.lambertian_order
-        x, y = view.corner_rays.T
-        cosines = _cosine(_normal(scene), x, y)
-        # Where the panel's plane is seen edge-on between two corners, the least cosine is 0 there.
-        is_crossed = float(cosines.min()) < 0.0 < float(cosines.max())
-        least = 0.0 if is_crossed else float(np.abs(cosines).min()) ** (order - 1.0)
-        dark, bright = reachable_luminances(scene)
-        return _largest_loss(view, dark, bright - dark, least)
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         """Darken the panel by the angle at which each pixel sees it."""
@@ -70,10 +57,3 @@ def _cosine(normal: FloatArray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the cosine of the angle between a normal and rays (x, y, 1), either sign."""
     along = normal[0] * x + normal[1] * y + normal[2]
     return np.asarray(along / np.sqrt(1.0 + x * x + y * y))
-
-
-def _largest_loss(view: PaperView, dark: float, emitted: float, factor: float) -> float:
-    """Return the largest loss in grey levels by ``factor``, at any share of the light."""
-    # The loss grows with the light until that saturates, under the strongest vignetting.
-    light = min(max(view.just_white - dark, 0.0), emitted)
-    return view.largest_change(dark + light * factor, dark + light)

@@ -8,11 +8,9 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.exposure import cycle_phases
-from occ_model.camera.photometry import ColumnLight, luminance_levels
-from occ_model.effects.effect import LightEffect
-from occ_model.effects.paper_view import PaperView
+from occ_model.camera.photometry import ColumnLight
+from occ_model.effects.effect import Cost, LightEffect
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
 
 
 class Flicker(LightEffect):
@@ -26,15 +24,11 @@ class Flicker(LightEffect):
     name = "flicker"
     label = "Mains flicker"
     parameters = ("flicker_depth", "flicker_frequency", "flicker_phase")
+    cost = Cost(picture=0.12e-3)
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether an exposure leaves anything of the flicker."""
         return _seen_depth(scene) != 0.0
-
-    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - rows alike
-        """Bound the change by that of a dark panel at the trough, where the gamma is steepest."""
-        dark = float(luminance_levels(view.scene)[0])
-        return view.largest_change(dark * (1.0 - _seen_depth(view.scene)), dark)
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Vary the external light from column to column."""

@@ -1,20 +1,15 @@
 """JPEG: the camera's file keeps cosine coefficients, rounded."""
 
 import math
-from functools import lru_cache
 
 import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.camera.photometry import WHITE
-from occ_model.effects.effect import FileEffect
-from occ_model.effects.paper_view import PaperView
+from occ_model.effects.effect import Cost, FileEffect
 from occ_model.errors import ParameterError
 from occ_model.files.writing import LONGEST_SIDE
-from occ_model.results import Region
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
 
 _LUMINANCE_STEPS = (
     (16, 11, 10, 16, 24, 40, 51, 61),
@@ -43,30 +38,15 @@ class Jpeg(FileEffect):
     name = "jpeg"
     label = "JPEG"
     parameters = ("jpeg_quality",)
+    cost = Cost(pixels=1.5e-3)
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether the camera writes a JPEG file."""
         return scene.camera.jpeg_quality != 0
 
-    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
-        """Bound the change by half a step of every coefficient, and the pixels' rounding.
-
-        The error of a block can all lie in the part of it that is observed.
-        """
-        error = _step(view.scene.camera.jpeg_quality) / 2.0 * _block_dilution(view.region)
-        return min(error + 2.0 * _ROUNDING, WHITE)
-
-    def propagated_change(self, view: PaperView, change: float, dithered: bool) -> float:
-        """Add the steps of rounding that a change causes, in proportion to its size.
-
-        Of dithered pixels that change by c, c / 1 round to another level; of coefficients that
-        change by c, c / q round to another step q. Without noise all of them may do so at once.
-        """
-        step = _step(view.scene.camera.jpeg_quality) * _block_dilution(view.region)
-        if not dithered:
-            return change + 2.0 * _ROUNDING + step
-        rounded = math.hypot(change, math.sqrt(change))
-        return rounded + math.sqrt(rounded * step)
+    def steps(self, scene: Scene) -> FloatArray:
+        """Return those of the luminance."""
+        return quantization_steps(scene.camera.jpeg_quality)
 
     def rounding_of_means(self, scene: Scene) -> tuple[float, float]:
         """Return that of the coefficients without a vertical frequency, which alone have a mean.
@@ -114,16 +94,3 @@ def quantization_steps(quality: int) -> FloatArray:
     percent = 5000 // quality if quality < 50 else 200 - 2 * quality
     scaled = (np.array(_LUMINANCE_STEPS) * percent + 50) // 100
     return np.asarray(np.clip(scaled, 1, 255), dtype=np.float64)
-
-
-def _block_dilution(region: Region) -> float:
-    """Return the most by which a region's error exceeds that of the blocks that it lies in."""
-    high = (region.last_row - 1) // 8 - region.first_row // 8 + 1
-    wide = (region.last_column - 1) // 8 - region.first_column // 8 + 1
-    return math.sqrt(64.0 * high * wide / (region.rows * region.columns))
-
-
-@lru_cache(maxsize=101)
-def _step(quality: int) -> float:
-    """Return the root mean square of the steps."""
-    return float(np.sqrt(np.mean(quantization_steps(quality) ** 2)))

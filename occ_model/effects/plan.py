@@ -1,22 +1,35 @@
 """The plan: which effects are simulated for a scene, at a tolerance."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.effect import ROUNDING, Effect, FileEffect
-from occ_model.effects.noise_bound import NoiseBounds
+from occ_model.effects.change import Changes, Observed
+from occ_model.effects.cost import seconds_of
+from occ_model.effects.effect import Effect
 from occ_model.effects.paper_view import PaperView, paper_view_of
-from occ_model.effects.registry import EFFECTS, FILES, NAMES, NOISES, OTHERS, moves_light
-from occ_model.effects.signal_bound import SignalView, signal_view
-from occ_model.results import Decision, Plan
+from occ_model.effects.registry import EFFECTS, NAMES
+from occ_model.errors import ProjectionError
+from occ_model.results import Decision, Plan, Way
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE, Observable, SimulationSettings
 
-_DITHERING = 0.5
-"""Grey levels of noise that spread a pixel over the steps of rounding (dithering)."""
+ALLOWANCE = 1.2
+"""Factor on what a sample shows, so that hardly any change is larger than its estimate."""
+
+_PEAK, _NOISE_PEAK = 2.0, 3.0
+"""Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
+
+_TRIES = 5
+"""Sets of effects that are tried together before everything is simulated."""
+
+_LEAST = 1e-9
+"""Estimate in grey levels of an effect that a scene has and a sample does not show."""
 
 
 def plan(
@@ -27,14 +40,11 @@ def plan(
 ) -> Plan:
     """Decide which effects are simulated.
 
-    The effects with the smallest bounds are left out, as long as the sum of those bounds stays
-    within the tolerance: root mean squares obey the triangle inequality, so that what is observed
-    then differs by no more from what it is with all effects. Bounds and tolerance are counted in
-    levels of the stretched profile, grey levels times 255 / swing: what a decoder sees is contrast.
-    The swing is that of the profile, and for the signal that of the enhanced profile.
-
-    A file's rounding turns small changes into steps. With a file in the plan, each bound is that of
-    the change after the file.
+    Of all sets of effects whose absence changes what is observed by no more than the tolerance, the
+    one is simulated that takes the least time. Changes are estimated from a sample of the pixels,
+    with an allowance. Estimates and tolerance are counted in levels of the stretched profile, grey
+    levels times 255 / swing: what a decoder sees is contrast. The swing is that of the profile, and
+    for the signal that of the enhanced profile.
 
     Parameters
     ----------
@@ -46,7 +56,8 @@ def plan(
     observable
         ``"image"``: the camera's pixels of the panel's bounding rectangle; ``"profile"``: the means
         of its columns; ``"signal"``: the means of its columns after the receiver's contrast
-        enhancement, which is what a decoder reads.
+        enhancement, which is what a decoder reads; ``"decision"``: the code that is read by a
+        threshold. The tolerance is then a share of the chips' margin from it.
     force
         Effects that are always simulated (True) or left out (False). The tolerance does not cover
         what is left out by hand.
@@ -91,7 +102,7 @@ def called_for_by_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
     tuple of str
         Their labels.
     """
-    left_out = {d.effect for d in chosen.decisions if d.bound and not (d.included or d.forced)}
+    left_out = {d.effect for d in chosen.decisions if d.estimate and not (d.included or d.forced)}
     if not left_out or chosen.observable == "signal" or chosen.tolerance == math.inf:
         return ()
     force = {d.effect: d.included for d in chosen.decisions if d.forced}
@@ -107,187 +118,211 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     view
         The paper's view.
     settings
-        Checked; the seed and the source of noise are not used.
+        Checked; the seed is not used.
     """
-    tolerance, forced, observable = settings.tolerance, settings.force, settings.observable
-    noise = _noise_bounds(view)
-    signal = signal_view(view) if observable == "signal" else None
-    stretch = WHITE / (view.swing if signal is None else signal.swing)
-    bounds = _bounds(view, noise, signal, observable, stretch)
-    if tolerance == math.inf:  # even an infinite bound is within it
-        left_out, spent, file = set(NAMES), 0.0, None
-    else:
-        left_out, spent = _leave_out(bounds, forced, tolerance)
-        file = _file_in(left_out, bounds, forced)
-        if file is not None and (signal is None or not signal.is_enhanced):
-            # A file is made of pixels, whatever is observed of it later.
-            pixels = bounds
-            if observable != "image":
-                pixels = _bounds(view, noise, None, "image", stretch)
-            dithers = _noise_that_dithers(pixels, forced, stretch)
-            through = _ThroughFile(file, view, stretch, bool(dithers))
-            kept = {**forced, **dict.fromkeys(dithers, True)}
-            left_out, spent = _leave_out(pixels, kept, tolerance, through)
-            bounds = {
-                name: bound if name == file.name else through(bound)
-                for name, bound in pixels.items()
-            }
+    try:
+        estimates = _Estimates.of(view, settings.observable)
+    except ProjectionError:  # the simulation refuses the lens
+        estimates = _Estimates({"distortion": math.inf}, None, WHITE / view.swing, {})
+    force = settings.force
+    if any(not on and name in estimates.sizes for name, on in force.items()):
+        kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
+        rest = _Estimates.of(view, settings.observable, kept)
+        estimates = rest.with_sizes_of(estimates)
+    free = [e for e in EFFECTS if e.name in estimates.sizes and e.name not in force]
+    forced_in = [e for e in EFFECTS if force.get(e.name)]
+    choice = _choose(estimates, free, forced_in, view, settings)
     decisions = tuple(
-        _decide(effect, bounds[effect.name], left_out, tolerance, forced, file)
+        _decide(effect, estimates.sizes.get(effect.name, 0.0), choice.left_out, settings)
         for effect in EFFECTS
     )
-    return Plan(tolerance, observable, decisions, spent, stretch)
-
-
-def _noise_bounds(view: PaperView) -> NoiseBounds:
-    noises = tuple(effect for effect in NOISES if effect.is_present(view.scene))
-    return NoiseBounds(noises, view, moves_light=moves_light(view.scene))
-
-
-def _bounds(
-    view: PaperView,
-    noise: NoiseBounds,
-    signal: SignalView | None,
-    observable: Observable,
-    stretch: float,
-) -> dict[str, float]:
-    """Return every effect's bound in levels of the stretched profile, by name."""
-    if signal is not None and signal.is_enhanced:
-        found = _enhanced_bounds(view, noise, signal)
-    else:
-        found = _plain_bounds(view, noise, "profile" if observable == "signal" else observable)
-        if observable == "signal":
-            found = {name: min(bound + ROUNDING, WHITE) for name, bound in found.items() if bound}
-    return {name: found.get(name, 0.0) * stretch for name in NAMES}
-
-
-def _plain_bounds(view: PaperView, noise: NoiseBounds, observable: Observable) -> dict[str, float]:
-    """Return the bounds of the effects in the image or the profile, in grey levels, by name."""
-    of_noise = noise.bounds(observable)
-    others = {effect.name: float(effect.bound(view, observable)) for effect in OTHERS}
-    if any(of_noise.values()) and any(others.values()):
-        factor = noise.amplification(observable)
-        others = {name: bound * factor for name, bound in others.items()}
-    return {**others, **of_noise}
-
-
-def _enhanced_bounds(view: PaperView, noise: NoiseBounds, signal: SignalView) -> dict[str, float]:
-    """Return the bounds of the effects in an enhanced signal, in its levels, by name.
-
-    Noise passes the enhancement as a whole: each of its effects has the bound of them all.
-    """
-    found = {effect.name: effect.bound(view, "signal") for effect in EFFECTS}
-    if not any(found[effect.name] for effect in OTHERS):
-        of_noise = signal.noise_bound(noise.largest_spread)
-        found = {name: min(bound, of_noise) for name, bound in found.items()}
-    return found
-
-
-@dataclass(frozen=True, slots=True)
-class _ThroughFile:
-    """What a file makes of a change, both in levels of the stretched profile."""
-
-    file: FileEffect
-    view: PaperView
-    stretch: float
-    dithered: bool
-
-    def __call__(self, change: float) -> float:
-        if not change:
-            return 0.0
-        levels = change / self.stretch
-        return self.file.propagated_change(self.view, levels, self.dithered) * self.stretch
-
-
-def _noise_that_dithers(
-    bounds: Mapping[str, float], forced: Mapping[str, bool], stretch: float
-) -> tuple[str, ...]:
-    """Return the noise that dithers: it is always simulated with a file."""
-    names = (effect.name for effect in NOISES)
-    return tuple(
-        name for name in names if forced.get(name, True) and bounds[name] >= _DITHERING * stretch
+    return Plan(
+        tolerance=settings.tolerance,
+        observable=settings.observable,
+        decisions=decisions,
+        left_out=0.0 if settings.tolerance == math.inf else choice.error,
+        stretch=estimates.stretch,
+        saved=choice.saved,
+        ways=choice.ways,
     )
 
 
-def _file_in(
-    left_out: set[str], bounds: Mapping[str, float], forced: Mapping[str, bool]
-) -> FileEffect | None:
-    """Return the file that the picture is kept in, None where it is left out or there is none."""
-    for effect in FILES:
-        name = effect.name
-        if bounds[name] and name not in left_out:
-            return effect if forced.get(name, True) else None
-    return None
+@dataclass(frozen=True, eq=False, slots=True)
+class _Estimates:
+    """What leaving effects out changes.
 
-
-def _leave_out(
-    bounds: Mapping[str, float],
-    forced: Mapping[str, bool],
-    tolerance: float,
-    through: Callable[[float], float] = float,
-) -> tuple[set[str], float]:
-    """Leave out the smallest bounds first, as long as their sum is within the tolerance.
-
-    Returns
-    -------
-    left_out
-        The names of effects.
-    spent
-        The most that they can change together, after the file.
+    Parameters
+    ----------
+    sizes
+        The change by each effect of the scene, in levels of the stretched profile, by name.
+    seen
+        What is observed, None where nothing can be.
+    stretch
+        Levels of the stretched profile per grey level.
+    factors
+        By what an effect's change counts more than by its size.
     """
-    total, spent, left_out = 0.0, 0.0, set()
-    for name in sorted((name for name in NAMES if name not in forced), key=bounds.__getitem__):
-        total += bounds[name]
-        if through(total) > tolerance:
-            break
-        spent = through(total)
-        left_out.add(name)
-    return left_out, spent
+
+    sizes: Mapping[str, float]
+    seen: Observed | None
+    stretch: float
+    factors: Mapping[str, float]
+
+    @classmethod
+    def of(
+        cls, view: PaperView, observable: Observable, effects: tuple[Effect, ...] = EFFECTS
+    ) -> "_Estimates":
+        """Estimate the changes by effects of a scene."""
+        changes = Changes(view, effects)
+        of_signal = observable in ("signal", "decision")
+        swing = changes.signal_swing if of_signal else view.swing
+        stretch, factors = WHITE / swing, dict.fromkeys(changes.names, 1.0)
+        seen = changes.observed("signal" if of_signal else observable)
+        if observable == "decision":
+            margin, step = (max(found, 1e-6) for found in changes.margins(seen))
+            stretch = _PEAK / margin
+            for name in changes.names:
+                if changes.is_like_noise(name):
+                    factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
+        sizes = {
+            effect.name: max(math.sqrt(seen.together(frozenset({effect.name}))), _LEAST)
+            * (ALLOWANCE * stretch * factors[effect.name])
+            for effect in changes.effects
+        }
+        return cls(sizes, seen, stretch, factors)
+
+    def with_sizes_of(self, other: "_Estimates") -> "_Estimates":
+        """Return the same with the sizes of effects that are missing here."""
+        return _Estimates({**other.sizes, **self.sizes}, self.seen, self.stretch, self.factors)
+
+    def error_of(self, left_out: frozenset[str]) -> float:
+        """Return what leaving out some effects together changes, in levels."""
+        if not left_out:
+            return 0.0
+        if self.seen is None:
+            return math.inf
+        factor = max(self.factors.get(name, 1.0) for name in left_out)
+        return math.sqrt(self.seen.together(left_out)) * ALLOWANCE * self.stretch * factor
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Choice:
+    """What is left out, what that changes and saves, and what else could be."""
+
+    left_out: frozenset[str]
+    error: float
+    saved: float
+    ways: tuple[Way, ...]
+
+
+def _choose(
+    estimates: _Estimates,
+    free: list[Effect],
+    forced_in: list[Effect],
+    view: PaperView,
+    settings: SimulationSettings,
+) -> _Choice:
+    """Choose the set of effects that takes the least time within the tolerance."""
+    members = _subsets(len(free))
+    pixels = view.scene.camera.rows * view.scene.camera.columns
+    fixed = np.ones((len(members), len(forced_in)))
+    inside = np.hstack([1.0 - members, fixed])
+    seconds = seconds_of([*free, *forced_in], inside, pixels, settings.noise)
+    names = [effect.name for effect in free]
+    if estimates.seen is None:
+        errors = np.where(members.any(axis=1), math.inf, 0.0)
+    elif names:
+        factors = np.array([estimates.factors[name] for name in names])
+        squares = estimates.seen.of_subsets(names, members)
+        factor = np.maximum((members * factors).max(axis=1), 1.0)
+        errors = np.sqrt(squares) * (ALLOWANCE * estimates.stretch) * factor
+    else:
+        errors = np.zeros(len(members))
+    errors[0] = 0.0
+    order = np.lexsort((errors, seconds))
+    chosen, error = frozenset[str](), 0.0
+    place = 0
+    if settings.tolerance == math.inf:
+        chosen, place = frozenset(names), len(members) - 1
+        error = float(errors[place])
+    elif settings.tolerance > 0.0:
+        scale = 1.0
+        for _ in range(_TRIES):
+            place = int(order[np.argmax(errors[order] * scale <= settings.tolerance)])
+            left_out = _named(names, members[place])
+            # Changes may add up otherwise than their sum.
+            error = estimates.error_of(left_out)
+            if error <= settings.tolerance:
+                chosen = left_out
+                break
+            scale = max(error / max(float(errors[place]), 1e-12), scale) * 1.02
+        else:
+            place = 0
+            error = 0.0
+    everything = float(seconds[0])
+    ways = tuple(
+        Way(frozenset(names) - _named(names, members[at]), float(seconds[at]), float(errors[at]))
+        for at in _front(errors, order)
+    )
+    return _Choice(chosen, error, everything - float(seconds[place]), ways)
+
+
+@lru_cache(maxsize=16)
+def _subsets(count: int) -> FloatArray:
+    """Return all sets of some things, shape (2^count, count): 1 where a set has one."""
+    number = np.arange(2**count)[:, None]
+    return ((number >> np.arange(count)) & 1).astype(np.float64)
+
+
+def _named(names: list[str], members: FloatArray) -> frozenset[str]:
+    return frozenset(name for name, there in zip(names, members.tolist(), strict=True) if there)
+
+
+def _front(errors: FloatArray, order: IndexArray) -> list[int]:
+    """Return the sets that no other is both faster and closer than, the fastest first."""
+    falling = errors[order]
+    least = np.minimum.accumulate(falling)
+    first = np.append(True, falling[1:] < least[:-1])
+    return [int(place) for place in order[first]]
 
 
 def _decide(
-    effect: Effect,
-    bound: float,
-    left_out: set[str],
-    tolerance: float,
-    forced: Mapping[str, bool],
-    file: FileEffect | None,
+    effect: Effect, estimate: float, left_out: frozenset[str], settings: SimulationSettings
 ) -> Decision:
-    by_hand = forced.get(effect.name)
-    included = effect.name not in left_out if by_hand is None else by_hand
-    decided = _decided if bound else _decided_of_nothing
-    return decided(effect, bound, included, tolerance, by_hand, file)
+    by_hand = settings.force.get(effect.name)
+    included = bool(estimate) and effect.name not in left_out if by_hand is None else by_hand
+    unit = "of the margin" if settings.observable == "decision" else "levels"
+    decided = _decided if estimate else _decided_of_nothing
+    return decided(effect, estimate, included, settings.tolerance, by_hand, unit)
 
 
 def _decided(
     effect: Effect,
-    bound: float,
+    estimate: float,
     included: bool,
     tolerance: float,
     by_hand: bool | None,
-    file: FileEffect | None,
+    unit: str,
 ) -> Decision:
-    size = f"at most {bound:.2g} levels" if bound else "none in this scene"
-    if bound and file is not None and file is not effect:
-        size += f" through {file.label}"
+    size = f"about {estimate:.2g} {unit}" if estimate else "none in this scene"
     verdict = "taken in" if included else "left out"
     if by_hand is not None:
         why = f"switched {'on' if included else 'off'} by hand"
         reason = f"{size}: {why}"
-    elif not bound:
+    elif not estimate:
         why = size
         reason = f"{size}: {verdict}"
     else:
-        why = _comparison(bound, tolerance, included)
+        why = _comparison(estimate, tolerance, included)
         limit = "" if tolerance == math.inf else f", tolerance {tolerance:g}"
-        together = ", " + why if included and bound <= tolerance else ""
+        together = ", " + why if included and estimate <= tolerance else ""
         reason = f"{size}{limit}{together}: {verdict}"
     return Decision(
         effect=effect.name,
         label=effect.label,
         kind=effect.kind,
         stage=effect.stage,
-        bound=bound,
+        estimate=estimate,
         included=included,
         forced=by_hand is not None,
         why=why,
@@ -299,11 +334,11 @@ _decided_of_nothing = lru_cache(maxsize=256)(_decided)
 """The same for effects that a scene does not have, most of them: their sentences are few."""
 
 
-def _comparison(bound: float, tolerance: float, included: bool) -> str:
+def _comparison(estimate: float, tolerance: float, included: bool) -> str:
     if tolerance == math.inf:
         return "no tolerance is set"
     if not included:
         return "within the tolerance"
-    if bound > tolerance:
+    if estimate > tolerance:
         return "above the tolerance"
-    return "exceeded together with what is left out"
+    return "leaving out others saves more time"

@@ -4,11 +4,9 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.sensor import converter_step, deviation, saturation_value
-from occ_model.effects.effect import NoiseEffect, PixelEffect, Values
-from occ_model.effects.noise_bound import NoiseBounds
-from occ_model.effects.paper_view import PaperView, reachable_luminances, saturated_value
+from occ_model.effects.effect import Cost, NoiseEffect, PixelEffect, Values
+from occ_model.effects.paper_view import reachable_luminances, saturated_value
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
 
 
 class FullWell(PixelEffect):
@@ -20,14 +18,11 @@ class FullWell(PixelEffect):
     name = "full-well"
     label = "Full well"
     parameters = ("full_well",)
+    cost = Cost(pixels=0.05e-3)
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether any column can have more light than a full well holds."""
         return _above_full_well(scene) > 0.0
-
-    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
-        """Bound the change by the excess of the brightest column over a full well."""
-        return _above_full_well(view.scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
         """Limit the values to that of a full well."""
@@ -51,15 +46,12 @@ class FixedPattern(NoiseEffect):
     name = "fixed-pattern"
     label = "Fixed-pattern gain"
     parameters = ("gain_variation",)
+    cost = Cost(pixels=0.2e-3)
     of_the_camera = True
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether the gains differ."""
         return scene.sensor.gain_variation != 0.0
-
-    def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Return the pattern's own size at the light where it is largest."""
-        return _largest_noise(self, view, observable)
 
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
         """Return the standard deviation of pixels with these mean values."""
@@ -78,21 +70,13 @@ class SensorNoise(NoiseEffect):
     name = "sensor-noise"
     label = "Shot and read noise"
     parameters = ("pixel_pitch", "quantum_efficiency", "read_noise", "adc_bits")
+    cost = Cost(pixels=0.4e-3)
 
     def is_present(self, scene: Scene) -> bool:  # noqa: ARG002 - as light is
         """Every scene has it: light comes in photons."""
         return True
 
-    def _bound(self, view: PaperView, observable: Observable) -> float:
-        """Return the noise's own size at the light where it is largest."""
-        return _largest_noise(self, view, observable)
-
     def spread(self, scene: Scene, values: FloatArray) -> FloatArray:
         """Return the standard deviation of pixels with these mean values."""
         constant = scene.sensor.read_noise**2 + converter_step(scene) ** 2 / 12.0
         return deviation(values, scene, lambda electrons: np.asarray(electrons + constant))
-
-
-def _largest_noise(effect: NoiseEffect, view: PaperView, observable: Observable) -> float:
-    """Return the noise that an effect alone can make, whatever the others make of the light."""
-    return NoiseBounds((effect,), view, moves_light=True).bounds(observable)[effect.name]

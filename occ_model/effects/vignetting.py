@@ -1,6 +1,5 @@
 """Vignetting: the picture is darker towards its corners."""
 
-import math
 from dataclasses import replace
 
 import cv2
@@ -9,10 +8,8 @@ import numpy as np
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import geometry_of, pixel_rays
-from occ_model.effects.effect import OpticsEffect
-from occ_model.effects.paper_view import PaperView, reachable_luminances, saturated_value
+from occ_model.effects.effect import Cost, OpticsEffect
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
 
 
 class Vignetting(OpticsEffect):
@@ -26,19 +23,11 @@ class Vignetting(OpticsEffect):
     name = "vignetting"
     label = "Vignetting"
     parameters = ("vignetting_exponent",)
+    cost = Cost(pixels=1.2e-3)
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether the light falls off at all."""
         return scene.lens.vignetting_exponent != 0.0
-
-    def _bound(self, view: PaperView, observable: Observable) -> float:  # noqa: ARG002 - not averaged
-        """Bound the change by that of a lit column in the observed rectangle's farthest corner."""
-        scene = view.scene
-        power = scene.lens.vignetting_exponent / scene.camera.gamma
-        lost = -math.expm1(power * math.log(view.off_axis_factor))
-        # A saturated pixel loses less that is seen: one that is just saturated loses most.
-        brightest = saturated_value(reachable_luminances(scene)[1], scene)
-        return brightest * lost
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
         """Darken every pixel by its angle."""

@@ -22,7 +22,7 @@ from occ_model.results.limits import Limits, RangeEnd, ReadInterval, Trial, Work
 from occ_model.results.match import Alternative, ChipReading, Comparison, Match, Stripes
 from occ_model.results.most_bits import MostBits
 from occ_model.results.photo_table import CombinedEstimate, PhotoRow, PhotoTable
-from occ_model.results.plan import Decision, Plan
+from occ_model.results.plan import Decision, Plan, Way
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint, SweepRequest
@@ -86,5 +86,6 @@ __all__ = [
     "Video",
     "VideoFrame",
     "VideoReading",
+    "Way",
     "WorkingRange",
 ]

@@ -9,11 +9,12 @@ from occ_model.scene.argument_checks import check_choice, check_seed, check_swit
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import LEVEL
 
-Observable: TypeAlias = Literal["signal", "profile", "image"]
+Observable: TypeAlias = Literal["signal", "profile", "image", "decision"]
 """The quantity observed: the camera's pixels of the panel's bounding rectangle, the means of its
-columns, or what a decoder reads, the means of its columns after the receiver's enhancement."""
+columns, what a decoder reads, the means of its columns after the receiver's enhancement, or the
+code that is read, by how far the signal's chips keep from the threshold."""
 
-OBSERVABLES: tuple[Observable, ...] = ("signal", "profile", "image")
+OBSERVABLES: tuple[Observable, ...] = ("signal", "profile", "image", "decision")
 
 NoiseSource: TypeAlias = Literal["exact", "reused"]
 """Source of noise: drawn for every pixel, or taken repeatedly from one plane of noise."""

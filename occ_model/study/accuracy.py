@@ -130,7 +130,7 @@ def _ladder(
     scene: Scene, settings: SimulationSettings, chosen: Plan, complete: CompleteSimulation
 ) -> Iterator[AccuracyPoint]:
     """Switch the effects on one after the other, the largest bound first."""
-    by_bound = sorted(chosen.decisions, key=lambda decision: -decision.bound)
+    by_bound = sorted(chosen.decisions, key=lambda decision: -decision.estimate)
     steps = [decision.effect for decision in by_bound if decision.effect in complete.effects]
     for count in range(len(steps) + 1):
         name = f"+ {_label(chosen, steps[count - 1])}" if count else "paper's model"

@@ -28,7 +28,7 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
     """
     chosen = plan_with(scene, settings)
     seconds = _seconds(chosen, costs)
-    present = frozenset(d.effect for d in chosen.decisions if d.bound)
+    present = frozenset(d.effect for d in chosen.decisions if d.estimate)
     included = present & frozenset(chosen.included)
     if included == present or included in costs.errors:
         return Forecast(chosen, seconds, costs.errors.get(included, 0.0), is_measured=True)

@@ -117,7 +117,7 @@ def test_any_pose_and_lens_gives_a_picture_or_a_sentence(
     else:
         assert frame.image.shape == (hard.camera.rows, hard.camera.columns)
         finite = np.isfinite(frame.profile).all()
-        bounds = all(math.isfinite(decision.bound) for decision in frame.plan.decisions)
+        bounds = all(math.isfinite(decision.estimate) for decision in frame.plan.decisions)
         error = 0.0 if finite and bounds else 1.0
     record("a picture or a sentence, and no number that is none", f"{POSES}, any lens", error)
     assert error == 0.0

@@ -219,7 +219,7 @@ def test_a_hard_light_gives_a_finite_profile_and_picture(
         frame = occ.render(seen, tolerance=0)
         assert np.isfinite(frame.profile).all()
         assert ((frame.profile >= 0.0) & (frame.profile <= WHITE)).all()
-        assert all(math.isfinite(decision.bound) for decision in frame.plan.decisions)
+        assert all(math.isfinite(decision.estimate) for decision in frame.plan.decisions)
 
 
 @pytest.mark.parametrize("name", ["no light at all", "a panel that gives no light"])

@@ -74,8 +74,8 @@ def test_every_bound_of_any_scene_is_a_number_and_not_negative(
     wrong = 0
     for decision in plan.decisions:
         # A lens that folds the picture changes it without end: simulating it is refused.
-        folds = decision.effect == "distortion" and decision.bound == math.inf
-        wrong += not (folds or (math.isfinite(decision.bound) and decision.bound >= 0.0))
+        folds = decision.effect == "distortion" and decision.estimate == math.inf
+        wrong += not (folds or (math.isfinite(decision.estimate) and decision.estimate >= 0.0))
         if folds:
             assert isinstance(given_or_refused(lambda: occ.render(scene, tolerance=0)), str)
     record("bounds that are no number or negative", "all parameters, all allowed", float(wrong))
@@ -135,5 +135,5 @@ SCENES: dict[str, dict[str, float | int | str]] = {
 def test_a_hard_scene_is_planned_and_pictured(name: str, observable: Observable) -> None:
     scene = Scene().replace(**({"rows": 24, "columns": 48} | SCENES[name]))
     frame = occ.render(scene, tolerance=0, observable=observable, force=dict.fromkeys(NAMES, True))
-    assert all(0.0 <= one.bound < math.inf for one in frame.plan.decisions)
+    assert all(0.0 <= one.estimate < math.inf for one in frame.plan.decisions)
     assert 0.0 <= frame.profile.min() <= frame.profile.max() <= 255.0

@@ -12,7 +12,6 @@ import occ_model as occ
 from occ_model.camera.photometry import luminance_levels, pixel_value
 from occ_model.camera.projection import row_spans
 from occ_model.effects.flicker import Flicker, ambient_shares
-from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -96,7 +95,7 @@ def test_the_crest_is_at_phase_0_and_the_trough_half_a_cycle_on() -> None:
 def test_whole_cycles_of_flicker_leave_nothing(cycles: int) -> None:
     scene = flickering(exposure_time=cycles / 128.0, flicker_frequency=128.0)
     np.testing.assert_allclose(ambient_shares(scene), 1.0, rtol=0, atol=1e-15)
-    assert Flicker().bound(paper_view_of(scene), "image") == 0.0
+    assert not Flicker().is_present(scene)
 
 
 def test_flicker_fades_as_the_sinc_of_the_exposure() -> None:
@@ -111,7 +110,7 @@ def test_no_depth_is_exactly_nothing(averaging: str) -> None:
     scene = flickering(flicker_depth=0.0, averaging=averaging)
     forced = occ.render(scene, tolerance=float("inf"), force={"flicker": True})
     without = occ.render(scene, tolerance=float("inf"))
-    assert Flicker().bound(paper_view_of(scene), "profile") == 0.0
+    assert not Flicker().is_present(scene)
     np.testing.assert_array_equal(forced.profile, without.profile)
     np.testing.assert_array_equal(forced.image, without.image)
 
@@ -153,11 +152,3 @@ def test_the_panel_flickers_by_the_light_that_it_reflects(averaging: str) -> Non
         low, high = pixel_value(np.array([reflected, reflected + emitted]), scene.camera)
         expected = high * lit + low * (1 - lit)
     np.testing.assert_allclose(profile, np.minimum(expected, 255.0), rtol=1e-12)
-
-
-@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
-@pytest.mark.parametrize("depth", [0.01, 0.3, 1.0])
-def test_leaving_flicker_out_changes_no_more_than_its_bound(depth: float, averaging: str) -> None:
-    scene = flickering(flicker_depth=depth, averaging=averaging)
-    change = occ.render(scene, force=ONLY_FLICKER).profile - occ.column_profile(scene)
-    assert 0.0 < np.sqrt(np.mean(change**2)) <= Flicker().bound(paper_view_of(scene), "profile")

@@ -175,23 +175,6 @@ def test_an_edge_and_an_exposure_are_the_same_average(
     )
 
 
-@pytest.mark.parametrize("averaging", ["pixel-value", "light"])
-@pytest.mark.parametrize("edge", [0.01, 0.3, 2.0])
-def test_leaving_edges_out_changes_no_more_than_their_bound(edge: float, averaging: str) -> None:
-    for exposure in (0.3, 1.7, 9.0):
-        scene = edged_scene(edge, exposure, averaging=averaging, rows=20, distance=0.3)
-        bound = next(
-            decision.bound / plan.stretch
-            for plan in [occ.plan(scene)]
-            for decision in plan.decisions
-            if decision.effect == "led-edges"
-        )
-        off = {"sensor-noise": False, "fixed-pattern": False}
-        edged = occ.render(scene, tolerance=0, force=off).profile
-        change = edged - occ.column_profile(scene)
-        assert 0.0 < np.sqrt(np.mean(change**2)) <= bound
-
-
 @given(
     pattern=st.text(alphabet="01", min_size=1, max_size=12),
     span=st.floats(0.01, 100.0),

@@ -11,7 +11,6 @@ from occ_model.camera.photometry import ColumnLight, panel_values
 from occ_model.camera.projection import row_spans
 from occ_model.effects.flicker import Flicker
 from occ_model.effects.led_edges import LedEdges
-from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.effects.sensor_effects import FullWell
 from occ_model.scene.scene import Scene
@@ -63,7 +62,7 @@ def test_at_zero_tolerance_every_effect_present_is_included(scene: Scene) -> Non
     assert set(occ.render(scene, tolerance=0).plan.included) == set(NOISE)
     for one, value in ALL.items():
         chosen = scene.replace(**{one: value})
-        there = {effect.name for effect in EFFECTS if effect.bound(paper_view_of(chosen), "image")}
+        there = {effect.name for effect in EFFECTS if effect.is_present(chosen)}
         assert there - set(NOISE) == {next(e.name for e in EFFECTS if one in e.parameters)}
         assert set(occ.plan(chosen, tolerance=0).included) == there
 

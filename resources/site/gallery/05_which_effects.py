@@ -16,11 +16,11 @@ for decision in plan.decisions:
     print(f"{decision.label}: {decision.reason}")
 
 # %%
-decisions = sorted(plan.decisions, key=lambda decision: decision.bound)
+decisions = sorted(plan.decisions, key=lambda decision: decision.estimate)
 figure, axis = plt.subplots(figsize=(8, 3.5))
 colours = ["C0" if decision.included else "lightgrey" for decision in decisions]
 labels = [decision.label for decision in decisions]
-axis.barh(labels, [max(decision.bound, 1e-3) for decision in decisions], color=colours)
+axis.barh(labels, [max(decision.estimate, 1e-3) for decision in decisions], color=colours)
 axis.axvline(0.5, color="black", linewidth=0.8)
 axis.set_xscale("log")
 axis.set_xlabel("bound in levels of the stretched profile (line: the tolerance)")

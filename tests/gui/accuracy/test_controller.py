@@ -220,7 +220,7 @@ def test_the_costs_of_effects_come_before_the_points(tiny: SimulationRequest) ->
     assert kinds[0] is SceneCosts
     first = kinds.index(Measured)
     before = [r for r in reports[:first] if isinstance(r, SceneCosts)]
-    present = [d.effect for d in occ.plan(tiny.scene, 0.0).decisions if d.bound]
+    present = [d.effect for d in occ.plan(tiny.scene, 0.0).decisions if d.estimate]
     assert list(before[-1].differences) == present
     assert len(before) == 1 + len(present)  # one report an effect
 

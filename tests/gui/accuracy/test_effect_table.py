@@ -1,5 +1,6 @@
 """The table says what each effect changes and takes, and what the plan does with it."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -10,7 +11,7 @@ from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QComboBox
 from pytestqt.qtbot import QtBot
 
-from occ_gui.accuracy.effect_cells import _fitted
+from occ_gui.accuracy.effect_cells import _fitted, levels_at, place_of
 from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import ELSE, rows_of
 from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
@@ -83,7 +84,7 @@ def test_the_times_of_the_rows_add_up_to_the_pictures_time(frame: Frame) -> None
 
 def test_a_row_says_error_time_and_reason(table: EffectTable, frame: Frame) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
-    assert cell(table, "led-edges", ERROR) == f"≤ {decision.bound:.2g} levels"
+    assert cell(table, "led-edges", ERROR) == f"≈ {decision.estimate:.2g}"
     assert cell(table, "led-edges", TIME) == "0.25"
     assert cell(table, "led-edges", EFFECT) == "● LED rise and fall"
     assert decision.reason in str(cell(table, "led-edges", EFFECT, ROLE.ToolTipRole))
@@ -91,24 +92,31 @@ def test_a_row_says_error_time_and_reason(table: EffectTable, frame: Frame) -> N
     assert cell(table, "fixed-pattern", TIME) == "with noise"
 
 
-def test_a_measured_error_takes_the_place_of_the_bound(table: EffectTable, frame: Frame) -> None:
+def test_a_measured_error_takes_the_place_of_the_estimate(table: EffectTable, frame: Frame) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
     measured = costs_of(frame, led_edges=difference("led-edges", 0.71))
     table.show_rows(rows_of(frame, measured, new=()))
-    assert cell(table, "led-edges", ERROR) == "0.71 levels"
+    assert cell(table, "led-edges", ERROR) == "0.71"
     meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
     assert "measured" in meaning
-    assert f"at most {decision.bound:.2g} (calculated)" in meaning
-    assert "complete picture" not in meaning
+    assert f"{decision.estimate:.2g} were estimated" in meaning
 
 
-def test_an_error_above_the_bound_is_said_to_be_of_another_picture(frame: Frame) -> None:
-    """The complete picture's file may spread what an effect changes; this one may have no file."""
-    (bound,) = [d.bound for d in frame.plan.decisions if d.effect == "led-edges"]
-    measured = costs_of(frame, led_edges=difference("led-edges", 2.0 * bound))
-    (row,) = [one for one in rows_of(frame, measured, new=()) if one.effect == "led-edges"]
-    assert row.error_meaning.startswith("Left out of the complete picture")
-    assert f"left out of this one at most {bound:.2g} (calculated)" in row.error_meaning
+def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
+    table: EffectTable, qtbot: QtBot
+) -> None:
+    table.resize(900, 400)
+    table.show()
+    area = table.visualRect(table.effects.index(2, ERROR))
+    found: list[float] = []
+    table.tolerance_dragged.connect(found.append)
+    for levels in (0.1, 5.0, 80.0):
+        at = QPoint(round(place_of(levels, area)), area.center().y())
+        qtbot.mousePress(table.viewport(), Qt.MouseButton.LeftButton, pos=at)
+        qtbot.mouseRelease(table.viewport(), Qt.MouseButton.LeftButton, pos=at)
+        assert found[-1] == pytest.approx(levels, rel=0.1)
+    for place, levels in ((area.left() - 5, 0.0), (area.right() + 50, math.inf)):
+        assert levels_at(place, area) == levels
 
 
 def test_an_absent_effect_is_grey_excluded_and_costs_nothing(table: EffectTable) -> None:

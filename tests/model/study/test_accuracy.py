@@ -79,7 +79,7 @@ def test_both_noise_sources_have_the_sensors_noise() -> None:
     scene = small("phone-68us")
     drawn, reused = of(list(accuracy(scene)), "noise")
     region = paper_view_of(scene).region
-    size = sum(decision.bound for decision in occ.plan(scene).decisions)
+    size = sum(decision.estimate for decision in occ.plan(scene).decisions)
     # The standard error of the root mean square of n numbers is its 1 / sqrt(2 n).
     for point in (drawn, reused):
         assert point.error < 5 * size / np.sqrt(2 * region.rows * region.columns)

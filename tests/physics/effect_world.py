@@ -1,0 +1,142 @@
+"""A world of scenes wider than the sliders, to try the plan's promise and its estimates on."""
+
+import math
+
+import numpy as np
+
+import occ_model as occ
+from occ_model.results import Plan
+from occ_model.scene.parameter_kinds import ParameterValue, Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import Observable
+from occ_model.simulation.render import observe
+
+NOTHING: dict[str, ParameterValue] = {
+    "edge_time": 0.0,
+    "lambertian_order": 1.0,
+    "jpeg_quality": 0,
+    "vignetting_exponent": 0.0,
+    "radial_k1": 0.0,
+    "radial_k2": 0.0,
+    "tangential_p1": 0.0,
+    "tangential_p2": 0.0,
+    "point_spread": 0.0,
+    "focus_distance": 0.0,
+    "flicker_depth": 0.0,
+    "gain_variation": 0.0,
+}
+"""Each effect's parameters where it is nothing."""
+
+PRESETS = occ.presets()
+METHODS = ("equalization", "stretch", "none")
+
+
+def anywhere(random: np.random.Generator) -> Scene:
+    """A small picture of a panel that is seen somewhere in it, everything else anywhere."""
+    changes: dict[str, ParameterValue] = {
+        name: declared.at(float(random.random()))
+        for name, declared in PARAMETERS.items()
+        if isinstance(declared, Quantity)
+    }
+    distance = float(random.uniform(0.3, 3.0))
+    seen = random.uniform(0.1, 1.5, size=2) * distance
+    changes |= {
+        "rows": int(random.integers(16, 200)),
+        "columns": int(random.integers(60, 400)),
+        "code": int(random.integers(1024)),
+        "averaging": str(random.choice(["light", "pixel-value"])),
+        "enhancement": str(random.choice(METHODS)),
+        "jpeg_quality": int(random.integers(1, 101)),
+        "adc_bits": int(random.integers(6, 14)),
+        "equivalent_focal_length": float(random.uniform(0.02, 0.06)),
+        "distance": distance,
+        "panel_width": float(seen[0]),
+        "panel_height": float(seen[1]),
+        "offset_x": float(random.normal() * 0.2 * distance),
+        "offset_y": float(random.normal() * 0.2 * distance),
+        # The sliders' ends fold most pictures back.
+        "radial_k1": float(random.uniform(-0.15, 0.15)),
+        "radial_k2": float(random.uniform(-0.15, 0.15)),
+    }
+    if random.random() < 0.8:  # not black, not all white
+        changes["luminance"] = float(10 ** random.uniform(2.5, 5.0))
+        changes["illuminance"] = float(10 ** random.uniform(1.0, 4.0))
+    for angle in ("yaw", "pitch", "roll"):
+        if random.random() < 0.6:
+            changes[angle] = 0.0
+    weaken(changes, random)
+    return Scene().replace(**changes)
+
+
+def like_a_preset(random: np.random.Generator) -> Scene:
+    """A preset's small picture: some near a null, tilted, dark, saturated or ten rows high."""
+    scene = occ.load_preset(str(random.choice(PRESETS)))
+    smaller = int(random.integers(6, 13))
+    changes: dict[str, ParameterValue] = {
+        "rows": scene.camera.rows // smaller,
+        "columns": scene.camera.columns // smaller,
+        "readout_time": scene.camera.readout_time * smaller * float(random.uniform(0.1, 1.0)),
+        "enhancement": str(random.choice(METHODS)),
+        "code": int(random.integers(1024)),
+        "distance": float(random.uniform(0.4, 2.0)),
+        "start_time": float(random.uniform(0.0, 0.01)),
+        "iso": float(100.0 * 2.0 ** random.choice([0.0, 0.0, random.uniform(-2.0, 5.0)])),
+        "flicker_phase": float(random.uniform(-math.pi, math.pi)),
+    }
+    chips = float(random.uniform(0.2, 4.0))
+    if random.random() < 0.3:  # within 5 % of the band model's end, or of a null of the chips' 0101
+        chips = float(random.integers(1, 4) * random.uniform(0.95, 1.05))
+        if random.random() < 0.5:
+            changes["pattern"] = "01"
+    changes["switching_frequency"] = chips / scene.camera.exposure_time
+    if random.random() < 0.4:
+        for angle in ("yaw", "pitch", "roll"):
+            changes[angle] = float(random.normal() * 0.2)
+    if random.random() < 0.4:  # large pixels have little noise
+        changes["pixel_pitch"] = float(10 ** random.uniform(-5.9, -4.5))
+    if random.random() < 0.1:
+        height = scene.transmitter.panel_height * scene.camera.rows
+        changes["panel_height"] = height * float(random.uniform(0.003, 0.03)) / scene.camera.rows
+    return scene.replace(**changes)
+
+
+def weaken(changes: dict[str, ParameterValue], random: np.random.Generator) -> None:
+    """Switch some effects off, and in half of the scenes bring the others near the tolerances."""
+    weak = random.random() < 0.5
+    for name, nothing in NOTHING.items():
+        if random.random() < (0.7 if name == "jpeg_quality" else 0.4):
+            changes[name] = nothing
+        elif weak and name not in ("jpeg_quality", "focus_distance"):
+            share = 10.0 ** random.uniform(-3.0, 0.0)
+            changes[name] = nothing + (changes[name] - nothing) * share  # type: ignore[operator]
+    if weak:
+        changes["pixel_pitch"] = float(10 ** random.uniform(-6.0, -4.5))
+
+
+def scene_of(seed: int) -> Scene:
+    """A random scene that has a picture; one that has none is drawn again."""
+    random = np.random.default_rng([7, seed])
+    while True:
+        scene = anywhere(random) if random.random() < 0.5 else like_a_preset(random)
+        try:
+            observe(scene, occ.plan(scene, 0.0))
+        except occ.ProjectionError:
+            continue
+        return scene
+
+
+def seen(scene: Scene, effects: frozenset[str], observable: Observable, seed: int) -> np.ndarray:
+    """What is observed of a scene with these effects alone."""
+    force = dict.fromkeys(sorted(effects), True)
+    return observe(scene, occ.plan(scene, math.inf, observable, force), seed=seed).astype(float)
+
+
+def rms(change: np.ndarray) -> float:
+    """Root mean square."""
+    return math.sqrt(float(np.mean(change**2)))
+
+
+def present(plan: Plan) -> frozenset[str]:
+    """The effects that a plan's scene has."""
+    return frozenset(d.effect for d in plan.decisions if d.included)

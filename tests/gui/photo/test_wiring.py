@@ -11,19 +11,15 @@ from occ_gui.app.application import Application
 from occ_gui.photo.wiring import PhotoWiring
 from occ_model.results import Region
 
-RUN = ("photos", "matching", "many", "lamps")
-NEWEST = ("comparison", "chips")
+PARTS = ("photos", "matching", "many", "lamps", "comparison", "chips")
 
 
 def wiring(busy: str) -> SimpleNamespace:
-    parts = {name: SimpleNamespace(runner=SimpleNamespace(is_running=name == busy)) for name in RUN}
-    parts |= {
-        name: SimpleNamespace(runner=SimpleNamespace(is_idle=name != busy)) for name in NEWEST
-    }
-    return SimpleNamespace(**parts)
+    tasks = {name: SimpleNamespace(is_idle=name != busy) for name in PARTS}
+    return SimpleNamespace(**{n: SimpleNamespace(runner=task) for n, task in tasks.items()})
 
 
-@pytest.mark.parametrize("busy", ["", *RUN, *NEWEST])
+@pytest.mark.parametrize("busy", ["", *PARTS])
 def test_the_photo_is_idle_where_none_of_its_controllers_works(busy: str) -> None:
     assert PhotoWiring.is_idle.fget(wiring(busy)) is not bool(busy)  # type: ignore[attr-defined]
 

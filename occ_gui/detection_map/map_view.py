@@ -23,7 +23,6 @@ from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.outdated_mark import OutdatedMark
-from occ_model.receiver.decoders import DECODERS
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
@@ -39,7 +38,9 @@ class MapView(QWidget):
     Parameters
     ----------
     decoders
-        The decoders' names.
+        The decoders that the map measures.
+    advised
+        The decoders whose limits are searched; by default the map's.
     parent
         The parent widget.
     """
@@ -62,7 +63,12 @@ class MapView(QWidget):
     pointed = Signal(object)
     """The point under the mouse, None if there is none."""
 
-    def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
+    def __init__(
+        self,
+        decoders: Sequence[str],
+        advised: Sequence[str] | None = None,
+        parent: QWidget | None = None,
+    ) -> None:
         super().__init__(parent)
         self._failure = self._refusal = ""
         self._progress = self.tr("measuring the first points…")
@@ -91,7 +97,7 @@ class MapView(QWidget):
         self.left_out = ElidedLabel()
         self.left_out.setAccessibleName(self.tr("Effects that the map leaves out"))
         self.left_out.hide()
-        self.advice = AdviceView(tuple(DECODERS))
+        self.advice = AdviceView(decoders if advised is None else advised)
         self.cards = self.advice.cards
         self.most_bits = MostBitsCard()
         self._lay_out()

@@ -10,7 +10,7 @@ from occ_gui.detection_map.wiring import Measuring
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
-from occ_model.receiver.decoders import QUICK_DECODERS
+from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 
 
 class MapPane(Pane[None]):
@@ -20,7 +20,7 @@ class MapPane(Pane[None]):
     """The user has gone to a limit of this decoder."""
 
     def __init__(self, scenes: SceneStore, frame_rate: FrameRate, measuring: Measuring) -> None:
-        view = MapView(QUICK_DECODERS)
+        view = MapView(QUICK_DECODERS, tuple(DECODERS))
         super().__init__(view)
         self.view = view
         settings, queue = scenes.settings, measuring.queue

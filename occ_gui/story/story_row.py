@@ -38,6 +38,9 @@ _A_NOTCH = 0.85
 _GRIP = 6
 """Pixels from a measuring cursor within which the mouse takes it."""
 
+_MOST_FITS = 4
+"""Times that a font is made smaller: letters are as wide as whole pixels, not as the size says."""
+
 _CLICK = 4
 """Most pixels between press and release of a click."""
 
@@ -174,8 +177,10 @@ class StoryRow(QWidget):
     def _gutter_font(self) -> QFont:
         """Return the row's font, smaller where its name would touch what stands beside it."""
         font, room = QFont(self.font()), self.axis.gutter - GAPS
-        needed = needed_by(self.name, font)
-        if needed > room and font.pointSizeF() > 0.0:
+        for _ in range(_MOST_FITS):
+            needed = needed_by(self.name, font)
+            if needed <= room or font.pointSizeF() <= 0.0:
+                break
             font.setPointSizeF(font.pointSizeF() * room / needed)
         return font
 

@@ -250,7 +250,8 @@ class Application(QObject):
         shown.setChecked(self.preferences.slider_strips)
         self.decode.decoder_chosen.connect(self.measuring.slider_strips.choose_decoder)
         self.decode.decoder_chosen.connect(self.simulation.read_with)
-        self.story.verdict.changed.connect(self._show_present_share)
+        self.decode.decoder_chosen.connect(self.measuring.own_rate.choose_decoder)
+        self.measuring.own_rate.changed.connect(self.story.verdict.show_rate)
 
     @property
     def is_idle(self) -> bool:
@@ -359,9 +360,6 @@ class Application(QObject):
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.messages.end_failure()
         self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
-
-    def _show_present_share(self) -> None:
-        self.slider_strips.show_present(self.story.verdict.share)
 
     def _bring_photo_to_front(self) -> None:
         if self._front_next:

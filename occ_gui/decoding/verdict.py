@@ -77,15 +77,6 @@ def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
 
 
-def share_read(decoded: DecodeResult, sent: Sequence[int]) -> float | None:
-    """Return the share of the bits that were read rightly; None where none was sent or tried."""
-    if not sent or decoded.failure == _awaited():
-        return None
-    if decoded.code is None:
-        return 0.0
-    return 1.0 - len(wrong_places(sent, decoded.bits.tolist())) / len(sent)
-
-
 def what_was_read(decoded: DecodeResult) -> str:
     """Name the code or the payload that a decoder read, as the start of a sentence."""
     if decoded.payload:

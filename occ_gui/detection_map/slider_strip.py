@@ -6,6 +6,8 @@ from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 
 from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
+from occ_gui.detection_map.own_rate_controller import OwnRate
+from occ_gui.detection_map.slider_strip_controller import IMAGES
 from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.slider_travel import slider_handle, slider_travel
@@ -39,8 +41,8 @@ class SliderStrip(QWidget):
         self._slider = slider
         self._label = label
         self.shares: tuple[float | None, ...] = ()
-        self.present: float | None = None
-        """The share of bits that are read of the scene shown."""
+        self.present: OwnRate | None = None
+        """The share of bits that are read at the scene's own value."""
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)
@@ -54,9 +56,16 @@ class SliderStrip(QWidget):
         known = [share for share in self.shares if share is not None]
         text = self.tr(
             "Share of the bits that the decoder shown reads correctly along this slider, all "
-            "else being equal: violet none, yellow all, grey not known. A mean over some pictures "
-            "that begin at any time; at the handle, of the picture shown."
-        )
+            "else being equal: violet none, yellow all, grey not known. A mean over {images} "
+            "pictures that begin at any time."
+        ).format(images=IMAGES)
+        if self.present is not None:
+            text += "\n" + self.tr(
+                "At the handle {share:.3g} % of {images} pictures ({low:.1f} to {high:.1f} %)."
+            ).format(
+                share=100.0 * self.present.share, images=self.present.images,
+                low=100.0 * self.present.low, high=100.0 * self.present.high,
+            )  # fmt: skip
         good = sum(share > 0.99 for share in known)
         read = self.tr("read at {good} of {all} positions").format(good=good, all=len(known))
         if self._is_outdated:
@@ -71,10 +80,11 @@ class SliderStrip(QWidget):
         self._explain()
         self.update()
 
-    def show_present(self, share: float | None) -> None:
-        """Show at the handle the share of bits that are read of the scene shown; None if none."""
-        if share != self.present:
-            self.present = share
+    def show_present(self, rate: OwnRate | None) -> None:
+        """Show the rate at the scene's own value, which the handle stands at; None if unknown."""
+        if rate != self.present:
+            self.present = rate
+            self._explain()
             self.update()
 
     def show_outdated(self, outdated: bool) -> None:
@@ -132,7 +142,7 @@ class SliderStrip(QWidget):
             painter.drawImage(whole, image_of(to_colours(shares, 0.0, 1.0, RATES)))
         painter.setOpacity(1.0)
         if self.present is not None:
-            colour = image_of(to_colours(np.array([[self.present]]), 0.0, 1.0, RATES))
+            colour = image_of(to_colours(np.array([[self.present.share]]), 0.0, 1.0, RATES))
             painter.drawImage(self._at_handle(), colour)
         painter.setClipping(False)
         painter.setPen(self.palette().color(QPalette.ColorRole.Mid))
@@ -184,10 +194,10 @@ class SliderStrips(QObject):
         """Show the share of bits read correctly at positions along a slider, None if not known."""
         self.strips[name].show_shares(shares)
 
-    def show_present(self, share: float | None) -> None:
-        """Show at the handles the share of bits that are read of the scene shown; None if none."""
+    def show_present(self, rate: OwnRate | None) -> None:
+        """Show at the handles the rate at the scene's own values; None if unknown."""
         for strip in self.strips.values():
-            strip.show_present(share)
+            strip.show_present(rate)
 
     def show_outdated(self, name: str, outdated: bool) -> None:
         """Show whether the strip of a slider is of an earlier scene."""

@@ -27,7 +27,8 @@ POSITIONS = 29
 STRIDES = (4, 1)
 """Distances between measured positions: a coarse strip first, then all positions."""
 
-IMAGES = 2
+IMAGES = 5
+"""Images a position: as many as a point of the map has in the end."""
 
 RANKS = (3, 3)
 """After all points of a map that is seen, before further images of them."""

@@ -3,6 +3,7 @@
 from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.background.signals import WorkQueue
+from occ_gui.detection_map.own_rate_controller import OwnRateController
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.worker import PRELOAD
@@ -32,10 +33,12 @@ class Measuring(QObject):
     def __init__(self, scenes: SceneStore, strips: SliderStrips) -> None:
         super().__init__()
         # Looked up when it is called, so that another one can be put in its place.
-        self.queue = WorkQueue(5, lambda: new_workers())
-        self.for_map, for_strips, self.for_advice, self.for_bench, self.for_most = (
+        self.queue = WorkQueue(6, lambda: new_workers())
+        self.for_map, for_strips, self.for_advice, self.for_bench, self.for_most, for_own = (
             self.queue.channels
         )
+        self.own_rate = OwnRateController(scenes, scenes.settings, for_own)
+        self.own_rate.changed.connect(strips.show_present)
         self.slider_strips = SliderStripController(
             scenes, scenes.settings, for_strips, strips, strips.strips
         )
@@ -46,11 +49,13 @@ class Measuring(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all strips that are seen are measured, and none is about to be."""
-        return not self._start.isActive() and self.slider_strips.is_idle
+        """Whether all that is seen is measured, and nothing is about to be."""
+        parts = (self.slider_strips, self.own_rate)
+        return not self._start.isActive() and all(part.is_idle for part in parts)
 
     def _begin_strips(self) -> None:
         self.slider_strips.set_seen(True)
+        self.own_rate.set_seen(True)
 
     def _see_strips(self, seen: bool) -> None:
         if seen:
@@ -58,6 +63,7 @@ class Measuring(QObject):
         else:
             self._start.stop()
             self.slider_strips.set_seen(False)
+            self.own_rate.set_seen(False)
 
     def stop(self) -> None:
         """Stop measuring and end the processes."""

@@ -3,6 +3,7 @@
 from PySide6.QtCore import QCoreApplication
 
 from occ_gui.decoding.verdict import is_right
+from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.column_facts import READ_BY_ALL
@@ -11,6 +12,9 @@ from occ_gui.widgets.state_look import State
 
 _COMPUTING = "computing"
 """The chip of results that are still to come."""
+
+_READS = 0.99
+"""Share of the bits from which a decoder counts as reading."""
 
 _MOST_FORCED = 2
 """Effects switched by hand that have a chip each; more share one."""
@@ -31,6 +35,21 @@ def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
 def computing() -> Chip:
     """Return the label of results that are not there yet."""
     return Chip(_COMPUTING, _tr("computing"), _tr("The results are computed."), State.WAITING)
+
+
+def of_pictures(rate: OwnRate) -> Chip:
+    """Return what is read of pictures that begin at any time, beside the verdict on this one."""
+    text = _tr("of {images} pictures: {share:.3g} %").format(
+        images=rate.images, share=100.0 * rate.share
+    )
+    meaning = _tr(
+        "This picture is one; of {images} that begin at any time {share:.3g} % of the bits are "
+        "read (95 % interval {low:.1f} to {high:.1f} %). The strips show the same."
+    ).format(
+        images=rate.images, share=100.0 * rate.share, low=100.0 * rate.low, high=100.0 * rate.high
+    )
+    state = State.GOOD if rate.share >= _READS else State.DOUBTFUL if rate.share else State.BAD
+    return Chip("rate", text, meaning, state)
 
 
 def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:

@@ -2,10 +2,11 @@
 
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.decoding.verdict import Verdict, result_of, share_read, verdict_on
+from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
+from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.column_facts import chips_in_exposure
-from occ_gui.story.state_chips import behind_run, chips_of, computing
+from occ_gui.story.state_chips import behind_run, chips_of, computing, of_pictures
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.scene.units import SECOND
@@ -20,8 +21,7 @@ class VerdictBar(StateBar):
         self._decoder = self._run = self._pictured = ""
         self._is_outdated = self._is_named = False
         self._failure = ""
-        self.share: float | None = None
-        """The share of the bits that are read rightly of the present scene; None if not known."""
+        self._rate: OwnRate | None = None
         self.setAccessibleName(self.tr("Verdict on the code"))
         self._write()
 
@@ -66,6 +66,11 @@ class VerdictBar(StateBar):
             self._failure = ""
             self._write()
 
+    def show_rate(self, rate: OwnRate | None) -> None:
+        """Show beside the verdict on this picture what is read of others; None if not known."""
+        self._rate = rate
+        self._write()
+
     def name_simulation(self, named: bool) -> None:
         """Say in the title that the verdict is on the simulation, where there is a photo, too."""
         if named != self._is_named:
@@ -74,7 +79,6 @@ class VerdictBar(StateBar):
 
     def _write(self) -> None:
         reading = self._reading
-        self.share = None
         if self._failure:
             self.show_state(State.BAD, self.tr("No picture of this scene"), self._failure)
             return
@@ -89,8 +93,8 @@ class VerdictBar(StateBar):
         state = verdict.state
         if self._is_outdated:
             state, chips = State.WAITING, (computing(), *chips)
-        else:
-            self.share = share_read(result, reading.sent)
+        elif self._rate is not None:
+            chips = (of_pictures(self._rate), *chips)
         heading = self._heading(verdict.heading)
         self.show_state(state, heading, *self._why(verdict, reading), chips=chips)
 

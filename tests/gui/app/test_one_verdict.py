@@ -1,7 +1,9 @@
 """The window, the model and the study say the same of a scene."""
 
+import csv
 import math
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,14 +11,23 @@ from gui.user import User
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.detection_map.map_controller import UNSEEN
+from occ_gui.detection_map.map_schedule import map_request
+from occ_gui.detection_map.own_rate_controller import IMAGES as OWN_IMAGES
+from occ_gui.detection_map.own_rate_controller import own_rate, own_rate_stages
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip_controller import IMAGES, POSITIONS
-from occ_gui.detection_map.worker import SEED, rate_settings
+from occ_gui.detection_map.slider_strip_controller import SliderStripRequest as Request
+from occ_gui.detection_map.worker import SEED, measure_along, rate_settings
+from occ_model.cli import main
+from occ_model.parallel.job import do_job
+from occ_model.results import RateSettings
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.sweep.points import measure_points
 from occ_model.study.theory import null_frequency
+from occ_model.study.working_range import _Search
 
 
 @cache
@@ -120,6 +131,62 @@ def test_a_strip_shows_the_success_rate_of_each_position(preset: str) -> None:
         at = scene.replace(switching_frequency=values[place])
         rate = occ.success_rate(at, IMAGES, "threshold", SEED)
         assert 100.0 * point.right[0] / point.sent == rate
+
+
+def twelve_settings() -> list[tuple[Scene, str]]:
+    """Scenes near the ends of working ranges, each with a decoder."""
+    quick = [(scene, "threshold") for scene in frontier_scenes(6)]
+    few = occ.load_preset("phone-136us").replace(rows=300, switching_frequency=3.4e3)
+    return [
+        *quick,
+        *((scene, "matched") for scene in frontier_scenes(2)),
+        (few, "threshold"),
+        (few, "equalizer"),
+        (few.replace(switching_frequency=17e3), "equalizer"),
+        (few.replace(switching_frequency=1.85e3), "sequence"),
+    ]
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_five_doors_give_the_same_number(number: int, tmp_path: Path) -> None:
+    """Strip, map, limits, shell and banner, asked the same."""
+    scene, decoder = twelve_settings()[number]
+    scene = scene.replace(**UNSEEN)
+    settings, images = SimulationSettings(), OWN_IMAGES
+    frequency = scene.transmitter.switching_frequency
+    (banner,) = (stage.jobs for stage in own_rate_stages(Request(scene, settings, decoder)))
+    rate = own_rate(do_job(next(iter(banner)), lambda: None).value)
+    assert rate is not None
+    wanted = occ.success_rate(scene, images, decoder)
+    at = ((0, {"switching_frequency": frequency}),)
+    elsewhere = scene.replace(switching_frequency=5e3)
+    strip = measure_along(
+        elsewhere, rate_settings(settings, images, (decoder,), True), "switching_frequency", at,
+        lambda: None,
+    ).points[0]  # fmt: skip
+    asked = map_request(
+        elsewhere, "switching_frequency", "distance", settings, (decoder,), images=images
+    )
+    there = ((0, {"switching_frequency": frequency, "distance": scene.pose.distance}),)
+    of_map = measure_points(asked.scene, asked.settings, there, lambda: None).points[0]
+    counts = RateSettings(images, (decoder,), SEED)
+    limits = _Search(scene, "switching_frequency", 99.0, counts, lambda: None, lambda _: None)
+    own = limits._whole(frequency, counts)
+    scene_file, table = tmp_path / "scene.toml", tmp_path / "rates.csv"
+    scene_file.write_text(elsewhere.to_toml(), encoding="utf-8")
+    assert main([
+        "sweep", "--scene", str(scene_file), "--vary", f"switching_frequency={frequency!r}Hz",
+        "--decoder", decoder, "--images", str(images), "--jobs", "1", "--out", str(table),
+    ]) == 0  # fmt: skip
+    lines = [line for line in table.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
+    (line,) = csv.DictReader(lines)
+    assert float(line["success rate (%)"]) == wanted
+    assert 100.0 * rate.share == pytest.approx(wanted, abs=1e-9)
+    assert 100.0 * strip.right[0] / strip.sent == wanted
+    assert 100.0 * of_map.right[0] / of_map.sent == wanted
+    assert own.rate == wanted
+    assert (float(line["95 % from (%)"]), float(line["95 % to (%)"])) == (own.low, own.high)
+    assert (100.0 * rate.low, 100.0 * rate.high) == pytest.approx((own.low, own.high))
 
 
 @pytest.mark.parametrize(

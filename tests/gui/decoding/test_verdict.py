@@ -1,11 +1,9 @@
 """A verdict's heading and explanation say the decoder's reason once, in two parts."""
 
-import numpy as np
 import pytest
 
-from occ_gui.decoding.verdict import Verdict, share_read
+from occ_gui.decoding.verdict import Verdict
 from occ_gui.widgets.state_look import State
-from occ_model.results import DecodeResult
 
 
 @pytest.mark.parametrize(
@@ -25,12 +23,3 @@ def test_the_reason_is_divided_between_heading_and_explanation(
     assert verdict.heading == heading
     if explanation is not None:
         assert verdict.explanation == explanation
-
-
-def test_the_share_that_was_read_is_that_of_the_right_bits() -> None:
-    sent = (1, 0, 1, 1)
-    for bits, share in (([1, 0, 1, 1], 1.0), ([1, 0, 1, 0], 0.75), ([0, 1, 0, 0], 0.0)):
-        read = DecodeResult("threshold", code=1, bits=np.array(bits, dtype=np.uint8))
-        assert share_read(read, sent) == share
-        assert share_read(read, ()) is None
-    assert share_read(DecodeResult("threshold", failure="No header was found."), sent) == 0.0

@@ -16,6 +16,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
+from occ_gui.detection_map import wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.slider_strip import SliderStrip
@@ -24,7 +25,6 @@ from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.widgets.state_look import State
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
@@ -220,45 +220,36 @@ def colour_at(strip: SliderStrip, place: float) -> list[int]:
     return [seen.red(), seen.green(), seen.blue()]
 
 
-@pytest.mark.parametrize("decoder", ["threshold", "matched"])
-def test_at_the_handle_a_strip_says_what_the_verdict_says(
-    application: Application, user: User, decoder: str
-) -> None:
-    """Wherever it is: a mean over other pictures may be another near a limit."""
-    application.decode.choose_decoder(decoder)
-    strip = application.slider_strips.strips["readout_time"]
-    strip.show_shares((0.5,) * POSITIONS)
-    read, misread = to_colours(np.array([[100.0, 0.0]]), 0.0, 100.0, RATES)[0, :, :3].tolist()
-    for frequency, readout in ((10e3, 8e-6), (100e3, 20e-6)):
-        scene = application.store.scene
-        application.store.put(
-            scene.replace(switching_frequency=frequency, readout_time=readout), "other"
-        )
-        user.wait_until_idle()
-        is_read = application.story.verdict.state is State.GOOD
-        assert is_read == (frequency == 10e3)
-        middle = handle_middle(strip._slider) - strip.x()
-        for side in (-9, 9):
-            assert colour_at(strip, middle + side) == (read if is_read else misread)
-        assert colour_at(strip, middle + 20) not in (read, misread)
+@pytest.fixture
+def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: Any) -> None:
+    """Have workers of the window, whichever of its parts begins to measure first."""
+    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
 
 
-def test_without_a_code_a_strip_says_nothing_at_the_handle(
-    application: Application, user: User
+@pytest.mark.own_window
+def test_strip_and_banner_state_the_rate_of_the_study(
+    workers: None, application: Application, user: User, qtbot: QtBot
 ) -> None:
-    application.store.put(application.store.scene.replace(pattern="10"), "pattern")
+    """At the handle as anywhere: the picture shown is another fact, which the banner states."""
+    application.store.put(
+        application.store.scene.replace(rows=300, switching_frequency=3.4e3), "an edge"
+    )
     user.wait_until_idle()
-    assert {s.present for s in application.slider_strips.strips.values()} == {None}
-    scene = application.store.scene
-    application.store.put(scene.replace(pattern=""), "code")
-    user.wait_until_idle()
-    assert {s.present for s in application.slider_strips.strips.values()} == {1.0}
-    application.story.verdict.show_outdated(True)
-    assert {s.present for s in application.slider_strips.strips.values()} == {None}
-    application.story.verdict.show_outdated(False)
-    assert {s.present for s in application.slider_strips.strips.values()} == {1.0}
-    application.simulation.failed.emit("There is no picture.")
-    assert {s.present for s in application.slider_strips.strips.values()} == {None}
+    scene, strips = application.store.scene, application.slider_strips.strips
+    own = application.measuring.own_rate
+    qtbot.waitUntil(lambda: own.rate is not None)
+    rate = occ.success_rate(scene, 20)
+    assert 5.0 < rate < 99.0
+    assert {round(100.0 * s.present.share, 9) for s in strips.values() if s.present} == {rate}
+    shown = {chip.key: chip.text for chip in application.story.verdict.chips.chips}
+    assert shown["rate"] == f"of 20 pictures: {rate:.3g} %"
+    strip = strips["iso"]
+    assert f"{rate:.3g} % of 20 pictures" in strip.toolTip()
+    strip.show_shares((0.0,) * POSITIONS)
+    wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
+    assert colour_at(strip, handle_middle(strip._slider) - strip.x() + 9) == wanted
+    application.store.change(switching_frequency=14e3)
+    assert {s.present for s in strips.values()} == {None}
 
 
 def test_strips_of_an_earlier_scene_are_marked_until_measured(bench: Bench) -> None:

@@ -1,0 +1,118 @@
+"""Controller of the rate at the scene's own values: of pictures that begin at any time."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import partial
+
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from occ_gui.background.result_age import PAUSE
+from occ_gui.background.signals import JobChannel
+from occ_gui.detection_map.map_controller import UNSEEN
+from occ_gui.detection_map.slider_strip_controller import SliderStripRequest
+from occ_gui.detection_map.worker import rate_settings
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.scene.settings_store import SettingsStore
+from occ_model.parallel.job import Job, Stage
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.study.confidence import interval_of_pictures
+from occ_model.study.sweep.points import MeasuredPoints, measure_points
+
+IMAGES = 20
+"""Pictures of which the rate is: as many as those of the limits."""
+
+_RANK = 1
+"""After a first answer of the map, before all else."""
+
+
+@dataclass(frozen=True, slots=True)
+class OwnRate:
+    """The share of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
+
+    share: float
+    low: float
+    high: float
+    images: int
+
+
+class OwnRateController(QObject):
+    """Measures the rate of the present scene once it rests, while it is seen."""
+
+    changed = Signal(object)
+    """The rate, an :class:`OwnRate`; None where it is not known of the present scene."""
+
+    def __init__(self, scenes: SceneStore, settings: SettingsStore, channel: JobChannel) -> None:
+        super().__init__()
+        self._scenes, self._settings, self._channel = scenes, settings, channel
+        self._decoder = PAPER_DECODER
+        self._seen = False
+        self._asked: SliderStripRequest | None = None
+        self.rate: OwnRate | None = None
+        self._resting = QTimer(self, singleShot=True)
+        self._resting.setInterval(round(1e3 * PAUSE))
+        self._resting.timeout.connect(self._measure)
+        channel.results_ready.connect(self._take)
+        for store in (scenes, settings):
+            store.changed.connect(self._move_on)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether the rate of the present scene is shown."""
+        return self._channel.is_idle and not self._resting.isActive()
+
+    def set_seen(self, seen: bool) -> None:
+        """Measure while the rate is seen."""
+        self._seen = seen
+        if seen:
+            self._move_on()
+        else:
+            self._resting.stop()
+            self._channel.cancel()
+            self._forget()
+
+    def choose_decoder(self, decoder: str) -> None:
+        """Measure with another decoder."""
+        self._decoder = decoder
+        self._move_on()
+
+    def _forget(self) -> None:
+        self._asked = None
+        self._show(None)
+
+    def _show(self, rate: OwnRate | None) -> None:
+        if rate != self.rate:
+            self.rate = rate
+            self.changed.emit(rate)
+
+    def _move_on(self) -> None:
+        scene = self._scenes.scene.replace(**UNSEEN)
+        request = SliderStripRequest(scene, self._settings.settings, self._decoder)
+        if not self._seen or request == self._asked:
+            return
+        self._channel.cancel()
+        self._forget()
+        self._asked = request
+        self._resting.start()
+
+    def _measure(self) -> None:
+        if self._asked is not None:
+            self._channel.put(self._asked, partial(own_rate_stages, self._asked))
+
+    def _take(self, request: SliderStripRequest, results: list[MeasuredPoints]) -> None:
+        if request == self._asked and results:
+            self._show(own_rate(results[-1]))
+
+
+def own_rate_stages(request: SliderStripRequest) -> Iterator[Stage]:
+    """Give the one job that measures the rate."""
+    settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
+    yield Stage(_RANK, (Job(measure_points, (request.scene, settings, ((0, {}),))),))
+
+
+def own_rate(measured: MeasuredPoints) -> OwnRate | None:
+    """Return the rate of a single point; None where the model refuses it."""
+    (point,) = measured.points
+    if not point.sent:
+        return None
+    low, high = interval_of_pictures(point.right[0], point.sent, measured.images)
+    return OwnRate(point.right[0] / point.sent, low / 100.0, high / 100.0, measured.images)

@@ -82,8 +82,11 @@ def _rates(whole: VideoReading) -> list[Figure]:
     found.append(
         Figure(
             _tr("Net rate"),
-            _tr("{rate:.4g} bit/s").format(rate=whole.bits_per_second),
-            _tr("Bits of the payload in the packets read, repetitions included."),
+            _tr("{rate:.4g} bit/s").format(rate=whole.net_bits_per_second),
+            _tr(
+                "Bits that were wanted and arrived: repeats of a packet within a frame count once, "
+                "as if every frame showed another payload."
+            ),
         )
     )
     (counts,) = whole.rates(1)
@@ -93,7 +96,10 @@ def _rates(whole: VideoReading) -> list[Figure]:
             _tr("{share} of {sent} packets").format(
                 share=_share(counts.packets_lost, counts.packets), sent=counts.packets
             ),
-            _tr("Share of the packets sent that were lost."),
+            _tr(
+                "Share of the packets sent that were lost: {cut} were cut off by the edge of a "
+                "frame or fell in the gap, and the frames can all be read all the same."
+            ).format(cut=whole.cut_off),
         )
     )
     if counts.bits:

@@ -108,7 +108,8 @@ def _packets(reading: VideoReading) -> list[str]:
         f"packets           {sent} sent, {reading.read} read, {reading.lost} lost, "
         f"{reading.doubled} doubled",
         f"packet error rate {_rate(reading.lost, sent)}",
-        f"net bits          {reading.bits_per_second:.4g} a second in packets read whole",
+        f"net bits          {reading.net_bits_per_second:.4g} a second, "
+        "repeats within a frame counted once",
     ]
     after = reading.complete_after
     if after is not None:

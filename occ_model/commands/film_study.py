@@ -60,7 +60,7 @@ def _run(options: argparse.Namespace) -> int:
     if options.out:
         make_folder(options.out)  # a refusal must not come after minutes of work
     points = []
-    print("   frequency    gap   bits  packets  received  by counting  bits a second")
+    print("   frequency    gap   bits  packets  received  by counting  with repeats")
     with progress_bar(total=request.points * request.frames, unit="frame") as bar:
         for point in film_study(request, bar.update):
             points.append(point)

@@ -76,7 +76,7 @@ def _draw(points: Sequence[FilmPoint]) -> Figure:
         carried.plot(gaps, rates, linewidth=0.8, markersize=4, **style)
     received.plot([], [], color="black", linewidth=0.8, label="by exact counting")
     _label(received, "packets received (%)")
-    _label(carried, "bits a second in packets read whole")
+    _label(carried, "bits a second, repeats included")
     received.set_ylim(-4.0, 104.0)
     carried.set_ylim(bottom=0.0)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=7)

@@ -234,6 +234,16 @@ class VideoReading:
         return bits / self.duration if self.duration > 0.0 else 0.0
 
     @property
+    def net_bits_per_second(self) -> float:
+        """Bits for each second if every frame showed another payload: repeats within it count once.
+
+        It is the same kind of number as that of a study of single pictures.
+        """
+        right = (one for one in self.packets.in_view if one.is_right)
+        once = {(one.frame, one.part): len(one.bits) for one in right if one.bits is not None}
+        return sum(once.values()) / self.duration if self.duration > 0.0 else 0.0
+
+    @property
     def reception_rate(self) -> float | None:
         """Share of the packets sent that were read right; None where none were counted."""
         return self.read / len(self.packets) if self.packets else None

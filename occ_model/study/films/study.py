@@ -115,7 +115,7 @@ class FilmPoint:
     on_average
         Share of packets that frames show whole, on average over the time of the start.
     bits_per_second
-        Bits of the payload in the packets read, a second.
+        Bits of the payload in the packets read, a second, repeats included.
     complete_at
         Seconds after which the whole payload was joined; None where it was not.
     is_right

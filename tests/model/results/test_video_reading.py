@@ -20,3 +20,6 @@ def test_bits_a_second_are_those_that_were_read_over_the_films_length(
     ]
     film = SimpleNamespace(duration=duration, packets=SentPackets.listed(packets))
     assert VideoReading.bits_per_second.fget(film) == rate  # type: ignore[attr-defined]
+    # The two that are right are repeats in one frame.
+    net: float = VideoReading.net_bits_per_second.fget(film)  # type: ignore[attr-defined]
+    assert net == rate / 2.0

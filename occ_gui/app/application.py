@@ -52,6 +52,7 @@ from occ_model.receiver.decoders import DECODERS, decoders
 from occ_model.results import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.cause import Step
 
 
 class Application(QObject):
@@ -252,6 +253,7 @@ class Application(QObject):
         self.decode.decoder_chosen.connect(self.simulation.read_with)
         self.decode.decoder_chosen.connect(self.measuring.own_rate.choose_decoder)
         self.measuring.own_rate.changed.connect(self.story.verdict.show_rate)
+        self.story.verdict.step_chosen.connect(self._take_step)
 
     @property
     def is_idle(self) -> bool:
@@ -360,6 +362,12 @@ class Application(QObject):
     def _on_snapshot(self, snapshot: Snapshot) -> None:
         self.messages.end_failure()
         self.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
+
+    def _take_step(self, step: Step) -> None:
+        if step.decoder:
+            self.decode.choose_decoder(step.decoder)
+        else:
+            self.store.change(**step.changes)
 
     def _bring_photo_to_front(self) -> None:
         if self._front_next:

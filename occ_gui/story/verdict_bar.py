@@ -1,5 +1,6 @@
 """Verdict bar: whether the code was read, in words, colour and shape, and what holds beside."""
 
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
@@ -10,13 +11,19 @@ from occ_gui.story.state_chips import behind_run, chips_of, computing, of_pictur
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.scene.units import SECOND
+from occ_model.study.cause import Step, cause_of
 
 
 class VerdictBar(StateBar):
     """The verdict on the code that is read from the simulated picture."""
 
+    step_chosen = Signal(object)
+    """The user takes the step that helps, a :class:`Step`."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._step: Step | None = None
+        self.step.clicked.connect(self._take_step)
         self._reading: Reading | None = None
         self._decoder = self._run = self._pictured = ""
         self._is_outdated = self._is_named = False
@@ -79,6 +86,7 @@ class VerdictBar(StateBar):
 
     def _write(self) -> None:
         reading = self._reading
+        self._offer(None)
         if self._failure:
             self.show_state(State.BAD, self.tr("No picture of this scene"), self._failure)
             return
@@ -95,8 +103,23 @@ class VerdictBar(StateBar):
             state, chips = State.WAITING, (computing(), *chips)
         elif self._rate is not None:
             chips = (of_pictures(self._rate), *chips)
-        heading = self._heading(verdict.heading)
-        self.show_state(state, heading, *self._why(verdict, reading), chips=chips)
+        is_unread = verdict.state is State.BAD and verdict.reason
+        cause = cause_of(reading.scene, result.decoder) if is_unread else None
+        if cause is None:
+            heading, why = self._heading(verdict.heading), self._why(verdict, reading)
+        else:
+            heading = self._heading(self.tr("No code: {cause}").format(cause=cause.what))
+            why = [f"{cause.why} {verdict.reason}".strip(), cause.why]
+            self._offer(None if self._is_outdated else cause.step)
+        self.show_state(state, heading, *why, chips=chips)
+
+    def _take_step(self) -> None:
+        if self._step is not None:
+            self.step_chosen.emit(self._step)
+
+    def _offer(self, step: Step | None) -> None:
+        self._step = step
+        self.offer_step(step.label if step else "")
 
     def _heading(self, verdict: str) -> str:
         """Write whose verdict it is, where that is not plain."""
@@ -128,11 +151,12 @@ class VerdictBar(StateBar):
             self.tr("{exposure} of light, {period} a chip: {fewest} or {most} chips a column."),
             self.tr("{exposure} of light, {period} a chip"),
         ]
-        if reading.band_undefined and fewest > 1:
+        if reading.band_undefined and fewest > 1 and verdict.state is State.GOOD:
             texts[:0] = [
                 self.tr(
-                    "Exposed for {exposure}, a chip lasts {period}: each column sees {fewest} or "
-                    "{most} chips, never one alone, so the band model ends; the simulation goes on."
+                    "Exposed for {exposure}, a chip lasts {period}: each column averages {fewest} "
+                    "or {most} chips, and the averages of different codes differ; so it is read, "
+                    "though the band model ends."
                 ),
                 self.tr(
                     "Exposed for {exposure}, a chip lasts {period}: no column sees one chip alone, "

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.widgets.chip_row import Chip, ChipRow
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -45,8 +45,12 @@ class StateBar(QWidget):
         self.wrapped.setAlignment(Qt.AlignmentFlag.AlignTop)
         self._lines = 1
         self.chips = ChipRow()
+        self.step = QPushButton()
+        self.step.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        for part in (self.icon, self.title, self.sentence, self.wrapped, self.chips):
+        for part in (
+            self.icon, self.title, self.sentence, self.wrapped, self.chips, self.step
+        ):  # fmt: skip
             part.setParent(self)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -65,7 +69,12 @@ class StateBar(QWidget):
     def _place(self) -> None:
         """Give the title the width that it needs, and the chips what is left."""
         left = 2 * _PADDING + _ICON
-        room = max(0, self.width() - left - _PADDING)
+        room = whole = max(0, self.width() - left - _PADDING)
+        if not self.step.isHidden():
+            size = self.step.sizeHint()
+            room = max(0, whole - size.width() - _PADDING)
+            top = (self.height() - size.height()) // 2
+            self.step.setGeometry(left + room + _PADDING, top, size.width(), size.height())
         text = self._fitting(room)
         self._take_lines(text, room)
         first, second = self._heights()
@@ -152,6 +161,16 @@ class StateBar(QWidget):
         self._place()
         self.setAccessibleDescription(f"{title}. {self._sentences[0]}".strip())
         self.changed.emit()
+
+    def offer_step(self, label: str) -> None:
+        """Offer a step that helps, by a button with this label; none where it is empty."""
+        if self.step.text() == label and self.step.isHidden() == (not label):
+            return
+        self.step.setText(label)
+        self.step.setAccessibleName(label)
+        self.step.setToolTip(self.tr("Changes the scene or the decoder in one step."))
+        self.step.setVisible(bool(label))
+        self._place()
 
     def _take_colours(self) -> None:
         ink = colours_of(self.state, self.palette()).ink

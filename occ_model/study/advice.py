@@ -4,6 +4,7 @@ from occ_model.results import Limits, RangeEnd, WorkingRange
 from occ_model.results.advice import Advice, EndFacts, RangeFacts, Side, TheoryLimits
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
+from occ_model.study.cause import TWO_HEADERS
 
 
 def advice_of(limits: Limits) -> Advice:
@@ -34,15 +35,11 @@ def _ends(found: WorkingRange) -> tuple[EndFacts, ...]:
     )
 
 
-_TWO_HEADERS = ("threshold", "equalizer")
-"""The decoders whose last step looks for two headers; others read a single packet."""
-
-
 def _frequencies(scene: Scene, decoder: str) -> TheoryLimits:
     return TheoryLimits(
         band_model=theory.band_model_frequency(scene),
         null=theory.null_frequency(scene),
-        two_packets=theory.two_packets_frequency(scene) if decoder in _TWO_HEADERS else None,
+        two_packets=theory.two_packets_frequency(scene) if decoder in TWO_HEADERS else None,
     )
 
 

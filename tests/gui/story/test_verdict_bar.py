@@ -18,6 +18,7 @@ from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.window.theme import palette_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study.cause import Step
 
 SnapshotOf = Callable[..., Snapshot]
 
@@ -116,7 +117,7 @@ def test_the_chips_say_where_the_band_model_ends(bar: VerdictBar, snapshot_of: S
     assert texts(bar)["ratio"] == "t / t<sub>LED</sub> = 1.36"
     assert texts(bar)["band"] == "band model ends here"
     assert (
-        "each column sees 2 or 3 chips, never one alone, so the band model ends"
+        "each column averages 2 or 3 chips, and the averages of different codes differ"
         in bar.accessibleDescription()
     )
 
@@ -235,3 +236,18 @@ def test_what_was_chosen_before_does_not_change_which_decoders_are_named(
     tried_before = replace(snapshot, others=(matched, replace(matched, decoder="sequence")))
     bar.show_reading(tried_before)
     assert bar.chips.chips == before
+
+
+def test_the_cause_comes_first_and_its_step_is_a_button(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    chosen: list[Step] = []
+    bar.step_chosen.connect(chosen.append)
+    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=20e3))
+    assert bar.title.text() == "No code: beyond the null at 14.7 kHz"
+    assert "single chips average out" in bar.accessibleDescription()
+    assert bar.step.text() == "Try the matched decoder"
+    bar.step.click()
+    assert [step.decoder for step in chosen] == ["matched"]
+    bar.show_reading(snapshot_of())
+    assert bar.step.isHidden()

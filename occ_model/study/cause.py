@@ -1,0 +1,141 @@
+"""Why a picture is not read: the cause in the scene, before the symptom that a decoder meets."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from occ_model.camera.photometry import FLAT, WHITE, level_values
+from occ_model.errors import OccError
+from occ_model.receiver.matched.payload_templates import MOST_BITS
+from occ_model.receiver.short_chips import columns_of_chip
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import quantity
+from occ_model.scene.parameters.light import MAX_BITS
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ
+from occ_model.study import theory
+from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.scheme import scheme_of
+
+TWO_HEADERS = ("threshold", "equalizer")
+"""The decoders whose last step looks for two headers; others read a single packet."""
+
+_NEAR_NULL = 0.96
+"""Share of the null's frequency from which what is left of single chips drowns in the rounding."""
+
+_BRIGHT = 200.0
+"""Grey level of the lit panel that a step towards more or less light aims at."""
+
+_ROOM = 1.15
+"""By how much a step goes beyond the limit that theory gives."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One step that helps: parameters to change, in SI units, or another decoder to take."""
+
+    label: str
+    changes: Mapping[str, ParameterValue] = field(default_factory=dict)
+    decoder: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """What is wrong, in a few words; why, in a sentence; and a step that helps, if there is one."""
+
+    what: str
+    why: str
+    step: Step | None = None
+
+
+def cause_of(scene: Scene, decoder: str) -> Cause | None:
+    """Find why a decoder cannot read a scene; None where the scene gives no reason."""
+    if scene.transmitter.pattern:
+        return None
+    try:
+        found = (_light(scene), _short_chips(scene), _few_chips(scene, decoder))
+    except OccError:
+        return None
+    return next((one for one in (*found, _null(scene, decoder)) if one is not None), None)
+
+
+def _light(scene: Scene) -> Cause | None:
+    dark, lit = level_values(scene).tolist()
+    if dark >= WHITE:
+        return Cause(
+            "all is white", "The dark chips are as white as the lit ones.", _to_level(scene, lit)
+        )
+    if lit - dark < FLAT:
+        return Cause(
+            "too dark",
+            f"The lit panel differs from the dark one by {lit - dark:.2g} grey levels: the "
+            "exposure is too short for the light.",
+            _to_level(scene, lit) if lit > dark else None,
+        )
+    return None
+
+
+def _to_level(scene: Scene, lit: float) -> Step:
+    """Return the ISO speed that brings the lit panel to a level, as far as it goes."""
+    iso = quantity("iso")
+    low, high = iso.slider
+    wanted = scene.camera.iso * (_BRIGHT / max(lit, 1e-3)) ** scene.camera.gamma
+    value = float(f"{min(max(wanted, low), high):.3g}")
+    return Step(f"Set ISO {iso.format(value)}", {"iso": value})
+
+
+def _short_chips(scene: Scene) -> Cause | None:
+    columns = columns_of_chip(scene)
+    if columns >= 1.0:
+        return None
+    value = float(f"{theory.row_rate_frequency(scene):.3g}")
+    return Cause(
+        "chips are narrower than a column",
+        f"A chip lasts {columns:.2g} columns: not every chip has a column of its own.",
+        _frequency(value),
+    )
+
+
+def _few_chips(scene: Scene, decoder: str) -> Cause | None:
+    length = len(sent_chips(scene.transmitter))
+    packets = 2 if decoder in TWO_HEADERS else 1
+    shown = theory.panel_readout_time(scene) * scene.transmitter.switching_frequency
+    if shown >= packets * length:
+        return None
+    if not shown:
+        return Cause("the panel is out of the picture", "No column shows it.")
+    needed = packets * length / shown * _ROOM
+    frequency = float(f"{scene.transmitter.switching_frequency * needed:.3g}")
+    exposed = frequency * scene.camera.exposure_time
+    nearer = float(f"{scene.pose.distance / needed:.2g}")
+    if exposed < 2.0 * _NEAR_NULL or decoder != "threshold":
+        step = _frequency(frequency)
+    else:
+        step = Step(f"Come to {quantity('distance').format(nearer)}", {"distance": nearer})
+    return Cause(
+        "too few chips in view",
+        f"The panel's columns show {shown:.0f} chips, and {packets * length} are needed for "
+        f"{'two packets' if packets == 2 else 'a packet'}: come closer, or raise the frequency.",
+        step,
+    )
+
+
+def _frequency(value: float) -> Step:
+    return Step(f"Set {HERTZ.format(value)}", {"switching_frequency": value})
+
+
+def _null(scene: Scene, decoder: str) -> Cause | None:
+    null = theory.null_frequency(scene)
+    ratio = scene.transmitter.switching_frequency / null
+    if decoder != "threshold" or ratio < _NEAR_NULL:
+        return None
+    side = "beyond" if ratio > 1.0 else "at"
+    scheme = scheme_of(scene.transmitter)
+    compared = MAX_BITS if scheme.is_papers else MOST_BITS
+    other = "matched" if scheme.bits <= compared else "sequence"
+    return Cause(
+        f"{side} the null at {HERTZ.format(null, 3)}",
+        f"An exposure covers {math.floor(10.0 * 2.0 * ratio) / 10.0:g} chips: single chips average "
+        "out.",
+        Step(f"Try the {other} decoder", decoder=other),
+    )

@@ -1,0 +1,40 @@
+"""The cause that is named is that of the scene, and the step that is offered helps."""
+
+from typing import Any
+
+import pytest
+
+import occ_model as occ
+from occ_model.study.cause import cause_of
+
+SMALL = {"rows": 400}
+
+
+@pytest.mark.parametrize(
+    ("changes", "what"),
+    [
+        ({"switching_frequency": 20e3}, "beyond the null at 14.7 kHz"),
+        ({"switching_frequency": 2e3}, "too few chips in view"),
+        ({"luminance": 0.2, "illuminance": 1.0, "enhancement": "none"}, "too dark"),
+        ({"iso": 6400.0, "illuminance": 30e3}, "all is white"),
+        ({"readout_time": 80e-6, "switching_frequency": 20e3}, "chips are narrower than a column"),
+    ],
+)
+def test_the_step_that_is_offered_helps(changes: dict[str, Any], what: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(**SMALL, **changes)
+    assert occ.success_rate(scene, 3) < 50.0
+    cause = cause_of(scene, "threshold")
+    assert cause is not None
+    assert cause.what == what
+    assert cause.step is not None
+    helped = scene.replace(**cause.step.changes)
+    again = cause_of(helped, cause.step.decoder or "threshold")
+    assert again is None or again.what != what
+    if what in ("too few chips in view", "beyond the null at 14.7 kHz"):
+        assert occ.success_rate(helped, 3, cause.step.decoder or "threshold") == 100.0
+
+
+def test_a_scene_that_is_read_has_no_cause() -> None:
+    for preset in occ.presets():
+        assert cause_of(occ.load_preset(preset), "threshold") is None
+    assert cause_of(occ.load_preset("phone-136us").replace(pattern="10"), "threshold") is None

@@ -26,7 +26,7 @@ class Window(QMainWindow):
         self.docks: dict[str, QDockWidget] = {}
 
     def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
-        dock = self.docks[name] = QDockWidget(title)
+        dock = self.docks[name] = QDockWidget(title, self)
         dock.setWidget(content)
         dock.hide()
         return dock

@@ -1,6 +1,5 @@
 """Laws of pixels that hold so many electrons and no more."""
 
-
 import numpy as np
 import pytest
 

@@ -1,4 +1,4 @@
-"""The command ``occ-model plan``: list the effects that a scene calls for, and what each changes."""
+"""The command ``occ-model plan``: list the effects a scene calls for, and what each changes."""
 
 import argparse
 

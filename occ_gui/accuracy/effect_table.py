@@ -49,7 +49,7 @@ _ROWS = 11
 
 _PICTURE_WIDTH = 92
 _TIME_WIDTH = 104
-_ERROR_WIDTH = 150
+_ERROR_WIDTH = 116
 _STATES: tuple[bool | None, ...] = (None, True, False)
 """Choices of a switch: the plan decides, on, off."""
 

@@ -170,7 +170,7 @@ class Changes:
         full = saturation_value(self._scene)
         if low < full < high:  # where noise ends, a level of the table
             low -= step * (1.0 - (full - low) / step % 1.0)
-        return low + step * np.arange(_LEVELS)
+        return np.asarray(low + step * np.arange(_LEVELS, dtype=np.float64), dtype=np.float64)
 
     @cached_property
     def variances(self) -> dict[str, FloatArray]:
@@ -190,7 +190,7 @@ class Changes:
         place = np.minimum(np.maximum(place, 0.0), _LEVELS - 1.001)
         below = place.astype(np.int32)
         steps = np.append(np.diff(table), 0.0)
-        return table[below] + (place - below) * steps[below]
+        return np.asarray(table[below] + (place - below) * steps[below])
 
     @cached_property
     def _file(self) -> FileChange | None:
@@ -370,17 +370,26 @@ class Changes:
         weights = np.sqrt(sample.weights)
         levels = np.clip(self.levels, 0.0, WHITE)
 
-        def seen(included: frozenset[str]) -> FloatArray:
-            enhancement = self._enhancement(included)
-            values, spread = self._read_back(included), self.spread(included)
+        optics = frozenset(effect.name for effect in self._lenses)
+        smooth: dict[frozenset[str], tuple[FloatArray, FloatArray]] = {}
+
+        def curve(included: frozenset[str]) -> tuple[FloatArray, FloatArray]:
+            spread = self.spread(included)
             if self._file is not None and self._files[0].name in included:
                 spread = self._file.spread(spread)
+            return self._enhancement(included).moments(levels, spread)[0], spread
+
+        def seen(included: frozenset[str]) -> FloatArray:
+            values, key = self._read_back(included), included - optics
+            if key not in smooth:
+                smooth[key] = curve(included)
+            mean, spread = smooth[key]
             if float(spread.max()) < _SHARP:
                 flat = np.clip(values.ravel(), 0.0, WHITE)
-                mean = enhancement.moments(flat, self._look(spread, flat))[0]
-                smoothed = mean.reshape(values.shape)
+                sharp = self._enhancement(included).moments(flat, self._look(spread, flat))[0]
+                smoothed = sharp.reshape(values.shape)
             else:
-                smoothed = self._look(enhancement.moments(levels, spread)[0], values)
+                smoothed = self._look(mean, values)
             share = sample.covers[included & self._outline]
             if share is not None:
                 smoothed = np.where(share >= 0.5, smoothed, values)
@@ -535,4 +544,4 @@ class Observed:
         alone = np.array([self.alone.get(name, 0.0) + self.doubt.get(name, 0.0) for name in names])
         products = moved @ moved.T
         squares = np.einsum("si,ij,sj->s", members, products, members, optimize=True)
-        return np.maximum(squares + members @ alone, 0.0)
+        return np.asarray(np.maximum(squares + members @ alone, 0.0))

@@ -35,7 +35,7 @@ _MOVED_NODES, _BLURRED_NODES = 2, 3
 _SIDE_NODES = 10
 """Columns across an upright rim."""
 
-_UNSEEN = 0.2
+_UNSEEN = 0.1
 """Blur in pixels below which a pixel receives nothing of its neighbours."""
 
 _STEEP = 1.5
@@ -85,7 +85,7 @@ class Sample:
         """The places in ``columns`` of whole blocks of a file, shape (blocks, 8)."""
         ordered = np.argsort(self.columns, kind="stable")
         column = self.columns[ordered]
-        starts = np.flatnonzero(column[: len(column) - 7] % 8 == 0)
+        starts = np.flatnonzero(column[: max(len(column) - 7, 0)] % 8 == 0)
         starts = starts[column[starts + 7] - column[starts] == 7]
         return np.asarray(ordered[starts[:, None] + np.arange(8)])
 

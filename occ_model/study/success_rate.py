@@ -15,7 +15,7 @@ from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
-from occ_model.results import DecodeResult, RateSettings, Region, SignalPath
+from occ_model.results import DecodeResult, Plan, RateSettings, Region, SignalPath
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import Scene, check_scene
@@ -149,13 +149,16 @@ def right_bits_of_images(
     sent = np.array(transmitter.payload_bits, dtype=np.uint8)
     duration = len(sent_chips(transmitter)) * transmitter.switching_period
     span = panel_span(scene) if settings.path in ("auto", "profile") else None
+    own = SimulationSettings(settings.tolerance, "signal", settings.force)
+    # The images differ in phase alone: all are planned alike.
+    chosen = plan_of(paper_view_of(scene), own.checked(NAMES))
     for image in range(settings.images):
         heartbeat()
         stream = np.random.default_rng(_seed_of(settings.seed, image))
         changes = {"start_time": float(stream.uniform(0.0, duration))}
         if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
             changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
-        read = _read(scene.replace(**changes), settings, span, stream)
+        read = _read(scene.replace(**changes), settings, chosen, span, stream)
         yield tuple(_right_bits(seen, sent) for seen in read)
 
 
@@ -177,12 +180,14 @@ def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
 
 
 def _read(
-    scene: Scene, settings: RateSettings, span: Region | None, random: np.random.Generator
+    scene: Scene,
+    settings: RateSettings,
+    chosen: Plan,
+    span: Region | None,
+    random: np.random.Generator,
 ) -> list[DecodeResult]:
     """Simulate one image, or its profile, and decode it with every decoder."""
     view = paper_view_of(scene)
-    own = SimulationSettings(settings.tolerance, "signal", settings.force)
-    chosen = plan_of(view, own.checked(NAMES))
     if span is not None and "image" not in chosen.kinds:
         observed = observe_profile(view, span, chosen, random)
         return [observed.read(scene, decoder) for decoder in settings.decoders]

@@ -23,11 +23,13 @@ def test_an_error_is_called_measured_predicted_or_promised(frame: Frame) -> None
     costs = MeasuredCosts(shares(4.0))
     plan = frame.plan
     assert picture_sentence(costs, 0.004, None) == "This picture: 4.0 ms."
+    exact = occ.plan(frame.scene, 0.0)
     for expected, words in (
-        (Forecast(plan, 0.004, 0.0, is_measured=True), "exact: nothing is left out"),
+        (Forecast(exact, 0.004, 0.0, is_measured=True), "exact: nothing is left out"),
+        (Forecast(plan, 0.004, 0.0, is_measured=True), "nothing is left out"),
         (Forecast(plan, 0.004, 1.234, is_measured=True), "error 1.2 levels (measured)"),
         (Forecast(plan, 0.004, 1.234, is_measured=False), "error about 1.2 levels (predicted)"),
-        (Forecast(plan, 0.004, None, is_measured=False), "error at most 0 levels (calculated)"),
+        (Forecast(plan, 0.004, None, is_measured=False), "error about 0 levels (estimated)"),
     ):
         assert picture_sentence(costs, 0.004, expected) == f"This picture: 4.0 ms; {words}."
 

@@ -16,7 +16,7 @@ from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import tell_story
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.app.welcome import Welcome
-from occ_gui.core.store import Store
+from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.slider_strip import SliderStrips
@@ -367,7 +367,7 @@ class Application(QObject):
         if step.decoder:
             self.decode.choose_decoder(step.decoder)
         else:
-            self.store.change(**step.changes)
+            self.store.change(NO_GESTURE, **step.changes)
 
     def _bring_photo_to_front(self) -> None:
         if self._front_next:

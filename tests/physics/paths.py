@@ -1,7 +1,7 @@
 """Success rates as studies count them and of whole pictures, side by side at random scenes."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -112,7 +112,7 @@ def shares(scene: Scene, path: SignalPath, images: int, seed: int) -> np.ndarray
     return np.asarray(counts / scene.transmitter.payload_length)
 
 
-def compared(scenes: range, images: int, seed: int) -> Iterator[TwoPaths]:
+def compared(scenes: Iterable[int], images: int, seed: int) -> Iterator[TwoPaths]:
     """Compare a study with whole pictures at some scenes."""
     for number in scenes:
         scene = random_scene(np.random.default_rng([seed, number]))

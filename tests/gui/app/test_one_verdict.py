@@ -158,7 +158,8 @@ def test_five_doors_give_the_same_number(number: int, tmp_path: Path) -> None:
     rate = own_rate(do_job(next(iter(banner)), lambda: None).value)
     assert rate is not None
     wanted = occ.success_rate(scene, images, decoder)
-    at = ((0, {"switching_frequency": frequency}),)
+    own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
+    at = ((0, own_place),)
     elsewhere = scene.replace(switching_frequency=5e3)
     strip = measure_along(
         elsewhere, rate_settings(settings, images, (decoder,), True), "switching_frequency", at,
@@ -167,7 +168,7 @@ def test_five_doors_give_the_same_number(number: int, tmp_path: Path) -> None:
     asked = map_request(
         elsewhere, "switching_frequency", "distance", settings, (decoder,), images=images
     )
-    there = ((0, {"switching_frequency": frequency, "distance": scene.pose.distance}),)
+    there = ((0, own_place | {"distance": scene.pose.distance}),)
     of_map = measure_points(asked.scene, asked.settings, there, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)
     limits = _Search(scene, "switching_frequency", 99.0, counts, lambda: None, lambda _: None)

@@ -1,6 +1,5 @@
 """Why a picture is not read: the cause in the scene, before the symptom that a decoder meets."""
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -135,7 +134,6 @@ def _null(scene: Scene, decoder: str) -> Cause | None:
     other = "matched" if scheme.bits <= compared else "sequence"
     return Cause(
         f"{side} the null at {HERTZ.format(null, 3)}",
-        f"An exposure covers {math.floor(10.0 * 2.0 * ratio) / 10.0:g} chips: single chips average "
-        "out.",
+        f"An exposure covers {2.0 * ratio:.3g} chips: single chips average out.",
         Step(f"Try the {other} decoder", decoder=other),
     )

@@ -1,9 +1,10 @@
-"""What the model gives for the story: light, packets, threshold, and who reads every picture.
+"""What the model gives for the story: light, packets, threshold, readers, why none reads.
 
 The rows draw it; they compute nothing themselves.
 """
 
 from occ_model.receiver.decoders import QUICK_DECODERS as READ_BY_ALL
+from occ_model.study.cause import Step, cause_of
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 from occ_model.teaching.packet_fields import (
     PacketField,
@@ -16,6 +17,8 @@ from occ_model.teaching.packet_fields import (
 __all__ = [
     "READ_BY_ALL",
     "PacketField",
+    "Step",
+    "cause_of",
     "chips_in_exposure",
     "light_over_columns",
     "packet_fields",

@@ -6,12 +6,11 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
 from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.story.column_facts import chips_in_exposure
+from occ_gui.story.column_facts import Step, cause_of, chips_in_exposure
 from occ_gui.story.state_chips import behind_run, chips_of, computing, of_pictures
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.scene.units import SECOND
-from occ_model.study.cause import Step, cause_of
 
 
 class VerdictBar(StateBar):
@@ -23,7 +22,7 @@ class VerdictBar(StateBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._step: Step | None = None
-        self.step.clicked.connect(self._take_step)
+        self.step_taken.connect(self._take_step)
         self._reading: Reading | None = None
         self._decoder = self._run = self._pictured = ""
         self._is_outdated = self._is_named = False

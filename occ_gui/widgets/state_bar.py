@@ -27,6 +27,9 @@ class StateBar(QWidget):
     changed = Signal()
     """It shows something else."""
 
+    step_taken = Signal()
+    """The user presses the button of the step that helps."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._title = ""
@@ -46,6 +49,9 @@ class StateBar(QWidget):
         self._lines = 1
         self.chips = ChipRow()
         self.step = QPushButton()
+        self.step.setAccessibleName(self.tr("A step that helps"))
+        self.step.setToolTip(self.tr("Changes the scene or the decoder in one step."))
+        self.step.clicked.connect(self.step_taken)
         self.step.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         for part in (
@@ -167,8 +173,8 @@ class StateBar(QWidget):
         if self.step.text() == label and self.step.isHidden() == (not label):
             return
         self.step.setText(label)
-        self.step.setAccessibleName(label)
-        self.step.setToolTip(self.tr("Changes the scene or the decoder in one step."))
+        if label:
+            self.step.setAccessibleName(label)
         self.step.setVisible(bool(label))
         self._place()
 

@@ -102,7 +102,7 @@ def test_the_decoding_pane_says_what_the_decoder_does(application: Application, 
 def test_a_picture_that_the_studies_would_contradict_says_what_it_lacks(
     application: Application, user: User
 ) -> None:
-    scene = occ.load_preset("phone-136us").replace(rows=400, switching_frequency=14.6e3)
+    scene = occ.load_preset("phone-136us").replace(rows=800, switching_frequency=14.6e3)
     application.store.put(scene, "another scene")
     user.wait_until_idle()
     lacks = application.decode.left_out

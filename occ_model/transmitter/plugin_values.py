@@ -16,7 +16,10 @@ def excess(what: str, values: object, most: int) -> str | None:
 
     To be asked first: to look at each of millions of values takes as long as to show them.
     """
-    count = len(values) if isinstance(values, Sized) else 0
+    if isinstance(values, np.ndarray):
+        count = values.size
+    else:
+        count = len(values) if isinstance(values, Sized) else 0
     return f"{count:,} {what}; allowed: up to {most:,}" if count > most else None
 
 

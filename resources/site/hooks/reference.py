@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Iterator
+from inspect import unwrap
 
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
@@ -42,7 +43,7 @@ def python_page() -> str:
 def public_places() -> dict[str, str]:
     """Return the module of each public class and function, by name."""
     names = [name for name in occ_model.__all__ if not name.startswith("_")]
-    return {name: getattr(occ_model, name).__module__ for name in names}
+    return {name: unwrap(getattr(occ_model, name)).__module__ for name in names}
 
 
 def command_page() -> str:

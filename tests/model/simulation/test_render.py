@@ -103,8 +103,8 @@ def test_a_plan_takes_one_exposure_and_one_projection(scene: Scene) -> None:
 def test_five_images_take_five_exposures(scene: Scene, path: str, projections: int) -> None:
     with counted() as calls:
         occ.success_rate(scene, images=5, path=path)  # type: ignore[arg-type]
-    # The profile path looks once whether the panel is level.
-    assert calls == {"lit_fraction": 5, "panel_corners": 5 + projections}
+    # One more for the plan of all; the profile path looks once whether the panel is level.
+    assert calls == {"lit_fraction": 1 + 5, "panel_corners": 1 + 5 + projections}
 
 
 def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:

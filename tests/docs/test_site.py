@@ -26,7 +26,7 @@ EXAMPLES = sorted((ROOT / "resources" / "site" / "gallery").glob("*.py"))
 PRINTED = {
     "stripes": r"sent: 718 read: 718",
     "beyond_the_band_model": r"exposure time, 136 µs, is longer than the switching period, 100 µs",
-    "which_effects": r"LED rise and fall: at most .* levels",
+    "which_effects": r"LED rise and fall: about .* levels",
     "light_or_pixel_values": r"largest difference: [1-9]\d*\.\d grey levels",
     "measure_a_camera": r"readout_time: 12\.\d+ µs, standard deviation 0\.\d+ µs",
     "undo_the_exposure": r"threshold: None .*\nequalizer: 718",

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement
@@ -390,9 +391,10 @@ class Changes:
                 smoothed = sharp.reshape(values.shape)
             else:
                 smoothed = self._look(mean, values)
-            share = sample.covers[included & self._outline]
-            if share is not None:
-                smoothed = np.where(share >= 0.5, smoothed, values)
+            inside = self._inside(included)
+            if inside is not None:  # beside the panel nothing is enhanced
+                plain = clipped_mean(self.levels, self.spread(included), WHITE)
+                smoothed = np.where(inside, smoothed, self._look(plain, values))
             return self._mean_of_rows(smoothed) * weights
 
         found = Observed(self.names, seen)
@@ -401,18 +403,35 @@ class Changes:
         for name in self._outline & self.names:
             share = contrast**2 / (region.rows**2 * region.columns)
             found.doubt[name] = self._doubted_pixels(share)
-        if float(self.spread(self.names).max()) < _SHARP:
-            self._doubt_sharp_steps(found)
+        self._doubt_sharp_steps(found)
         return found
 
+    def _inside(self, included: frozenset[str]) -> NDArray[np.bool_] | None:
+        """Return which pixels of the sample are the panel's, None where all are."""
+        share = self.sample.covers[included & self._outline]
+        return None if share is None else share >= 0.5
+
     def _doubt_sharp_steps(self, found: "Observed") -> None:
-        """Doubt how values are rounded that lie between two levels: whole plateaus may be."""
-        curve = self._enhancement(self.names).curve.astype(np.float64)
-        whole = np.clip(self.values(self.names), 0.0, WHITE - 1.0)
-        below = whole.astype(np.int64)
-        near = np.abs(whole - below - 0.5) < _BETWEEN
-        square = np.where(near, (curve[below + 1] - curve[below]) ** 2, 0.0)
-        doubt = float((self._mean_of_rows(square) * self.sample.weights).sum()) / 4.0
+        """Doubt how pixels are rounded that no noise spreads over the enhancement's steps.
+
+        Whole plateaus of values that lie between two levels may be rounded otherwise; in a file
+        whatever its own error reaches, since that is alike in blocks of equal rows.
+        """
+        whole = np.clip(self.values(self.names), 0.0, WHITE)
+        sharp = self._look(self.spread(self.names), whole) < _SHARP
+        if not sharp.any():
+            return
+        enhancement = self._enhancement(self.names)
+        if self._file is None:
+            curve = enhancement.curve.astype(np.float64)
+            below = np.minimum(whole, WHITE - 1.0).astype(np.int64)
+            near = np.abs(whole - below - 0.5) < _BETWEEN
+            reached = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
+        else:
+            error = np.full(whole.size, math.sqrt(self._file.own_change()))
+            reached = enhancement.moments(whole.ravel(), error)[1].reshape(whole.shape)
+        square = self._mean_of_rows(np.where(sharp, reached, 0.0) ** 2)
+        doubt = float((square * self.sample.weights).sum())
         for name in self.names:
             found.doubt[name] = found.doubt.get(name, 0.0) + doubt
 
@@ -431,6 +450,7 @@ class Changes:
         even = np.gradient(mean, step) ** 2
         uneven = np.maximum(np.gradient(jumps, step) - even, 0.0)
         total = spread**2
+        inside = self._inside(everything)
         found = {}
         for effect in self.effects:
             name, linear = effect.name, 0.0
@@ -442,6 +462,8 @@ class Changes:
                 part = even * (own**2 + np.tanh(4.8 * own) / 6.0) + uneven * 0.8 * own
                 part = np.where(own**2 > 0.7 * total, deviation**2, np.minimum(part, deviation**2))
                 part = self._look(part, whole)
+                if inside is not None:
+                    part = np.where(inside, part, self._look(own**2, whole))
             elif file is not None and effect in self._files:
                 linear = file.own_sampling()
                 moved = min(math.sqrt(file.own_change()), 1.0)

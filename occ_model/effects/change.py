@@ -46,6 +46,12 @@ _LEVELS = 129
 _DOUBTED = 1.0
 """Pixels of a rim that may change and that no sample shows."""
 
+_DOUBTED_RIM = 0.5
+"""Share of the pixels of a rim that moves of which no sample shows whether they are enhanced."""
+
+_FLUCTUATION = 3.0
+"""Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
+
 _BETWEEN = 0.02
 """Grey levels from the middle between two levels within which rounding cannot be foretold."""
 
@@ -280,6 +286,15 @@ class Changes:
         """Return what a file adds where an effect moves or softens the panel's rim."""
         if name not in self._outline or self._file is None:
             return 0.0
+        ends = self._moved_rims(name) * 8.0 / self._view.region.rows
+        if plain:
+            return self._file.added_at_rims(min(ends, 1.0), plain)
+        # A rim that moves outwards changes blocks that are observed in part.
+        rims = self._rim_share
+        return self._file.added_at_rims(rims, rims * self._view.swing**2 / 64.0)
+
+    def _moved_rims(self, name: str) -> float:
+        """Return how many rims of a column, 0 to 2, an effect moves or softens in the mean."""
         covers, sample = self.sample.covers, self.sample
         whole, without = covers[self._outline], covers[self._outline - {name}]
         if whole is None or without is None:
@@ -287,12 +302,7 @@ class Changes:
         moved = np.abs(whole - without) > _SEEN_SHARE
         middle = sample.inner.start + 2
         above, below = moved[:, :middle].any(axis=1), moved[:, middle:].any(axis=1)
-        ends = float(((above * 1.0 + below) * sample.weights).sum()) * 8.0 / self._view.region.rows
-        if plain or name not in self._outline:
-            return self._file.added_at_rims(min(ends, 1.0), plain)
-        # A rim that moves outwards changes blocks that are observed in part.
-        rims = self._rim_share
-        return self._file.added_at_rims(rims, rims * self._view.swing**2 / 64.0)
+        return float(((above * 1.0 + below) * sample.weights).sum())
 
     @property
     def _contrast(self) -> float:
@@ -400,9 +410,13 @@ class Changes:
         found = Observed(self.names, seen)
         found.alone.update(self._signal_sampling())
         region, contrast = self._view.region, float(np.ptp(found.complete / weights))
+        method = self._scene.model.enhancement
+        jump = contrast if method == "none" else WHITE
         for name in self._outline & self.names:
             share = contrast**2 / (region.rows**2 * region.columns)
             found.doubt[name] = self._doubted_pixels(share)
+            # A pixel of a rim is enhanced or not.
+            found.doubt[name] += self._moved_rims(name) * (_DOUBTED_RIM * jump / region.rows) ** 2
         self._doubt_sharp_steps(found)
         return found
 
@@ -451,9 +465,14 @@ class Changes:
         uneven = np.maximum(np.gradient(jumps, step) - even, 0.0)
         total = spread**2
         inside = self._inside(everything)
+
+        def mean_of(pixels: FloatArray) -> float:
+            return float((self._mean_of_rows(pixels) * self.sample.weights).sum())
+
+        pixel = mean_of(self._look(even + uneven, whole)) / (rows**2 * self._view.region.columns)
         found = {}
         for effect in self.effects:
-            name, linear = effect.name, 0.0
+            name, linear, moves_few = effect.name, 0.0, False
             if effect in self.noises:
                 own = np.sqrt(self.variances[name])
                 if file is not None:
@@ -469,6 +488,7 @@ class Changes:
                 moved = min(math.sqrt(file.own_change()), 1.0)
                 part = self._look(even / 6.0 + uneven * 0.8 * moved, whole)
             else:
+                moves_few = True
                 without = self.values(everything - {name})
                 change = np.abs(whole - without)
                 if file is not None:
@@ -479,7 +499,9 @@ class Changes:
                 part = part + self._look(uneven, whole) * change
             if linear:
                 part = part + linear * rows * self._look(even, whole)
-            found[name] = float((self._mean_of_rows(part) * self.sample.weights).sum()) / rows
+            found[name] = mean_of(part) / rows
+            if moves_few:
+                found[name] += _FLUCTUATION * math.sqrt(found[name] * pixel)
         return found
 
     # The decision ----------------------------------------------------------------------------

@@ -236,7 +236,7 @@ class LimitCard(QFrame):
         if found.gaps:
             end, after = found.gaps[0]
             more = len(found.gaps) - 1
-            text += self.tr("; not from {end} to {after}").format(
+            text += self.tr("; gap {end} to {after}").format(
                 end=formatted_frequency(end.value), after=formatted_frequency(after.value)
             ) + (self.tr(" and {more} gaps more").format(more=more) if more else "")
         self.range.set_full_text(text)

@@ -49,6 +49,9 @@ _DOUBTED = 1.0
 _DOUBTED_RIM = 0.5
 """Share of the pixels of a rim that moves of which no sample shows whether they are enhanced."""
 
+_UNSURE = 0.25
+"""Share of a mean square by which a file without noise may change it further."""
+
 _FLUCTUATION = 3.0
 """Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
 
@@ -173,7 +176,7 @@ class Changes:
         found = [self.values(self.names), *(self.values(self.names - {e.name}) for e in self.means)]
         low = min(float(values.min()) for values in found)
         high = max(float(values.max()) for values in found)
-        step = max(high - low, 1e-3) / (_LEVELS - 3)
+        step = max(high - low, FLAT) / (_LEVELS - 3)
         full = saturation_value(self._scene)
         if low < full < high:  # where noise ends, a level of the table
             low -= step * (1.0 - (full - low) / step % 1.0)
@@ -233,7 +236,12 @@ class Changes:
         else:
             found = self._profile() if observable == "profile" else self._signal()
         if self._file is not None:
+            found.unsure = _UNSURE * self._file.undithered_share
             doubt = self._file.undithered()
+            rims = self._rim_share  # where no noise spreads it, a rim's blocks round otherwise
+            square = rims * max(self._view.swing, self._contrast) ** 2 / 64.0
+            at_rims = self._file.undithered_share * self._file.added_at_rims(rims, square)
+            doubt += at_rims if observable == "image" else at_rims / self._file.block_rows
             for name in self.names:
                 found.doubt[name] = found.doubt.get(name, 0.0) + doubt
         return found
@@ -328,7 +336,10 @@ class Changes:
         weights = np.sqrt(sample.weights)
 
         def seen(included: frozenset[str]) -> FloatArray:
-            table = clipped_mean(self.levels, self.spread(included), WHITE)
+            spread = self.spread(included)
+            if file is not None and self._files[0].name in included:
+                spread = np.hypot(spread, math.sqrt(file.own_change()))
+            table = clipped_mean(self.levels, spread, WHITE)
             return self._mean_of_rows(self._look(table, self._read_back(included))) * weights
 
         found = Observed(everything, seen)
@@ -449,6 +460,10 @@ class Changes:
         for name in self.names:
             found.doubt[name] = found.doubt.get(name, 0.0) + doubt
 
+    def _mean_of(self, pixels: FloatArray) -> float:
+        """Return the mean over all pixels."""
+        return float((self._mean_of_rows(pixels) * self.sample.weights).sum())
+
     def _signal_sampling(self) -> dict[str, float]:
         """Return the mean square of what a mean of few rows deviates by, for each effect.
 
@@ -465,11 +480,9 @@ class Changes:
         uneven = np.maximum(np.gradient(jumps, step) - even, 0.0)
         total = spread**2
         inside = self._inside(everything)
-
-        def mean_of(pixels: FloatArray) -> float:
-            return float((self._mean_of_rows(pixels) * self.sample.weights).sum())
-
-        pixel = mean_of(self._look(even + uneven, whole)) / (rows**2 * self._view.region.columns)
+        one = 1.0 / (rows**2 * self._view.region.columns)
+        pixel = self._mean_of(self._look(even + uneven, whole)) * one
+        drawn = self._mean_of(self._look(even * total, whole)) * one
         found = {}
         for effect in self.effects:
             name, linear, moves_few = effect.name, 0.0, False
@@ -499,7 +512,9 @@ class Changes:
                 part = part + self._look(uneven, whole) * change
             if linear:
                 part = part + linear * rows * self._look(even, whole)
-            found[name] = mean_of(part) / rows
+            found[name] = self._mean_of(part) / rows
+            if effect in self.noises:  # one pixel whose noise is drawn otherwise
+                found[name] += drawn
             if moves_few:
                 found[name] += _FLUCTUATION * math.sqrt(found[name] * pixel)
         return found
@@ -551,6 +566,8 @@ class Observed:
         The mean square of what is independent in an effect's change, by name.
     doubt
         The mean square of what the sample may not show of it, by name.
+    unsure
+        Share by which any mean square may be larger.
     """
 
     def __init__(self, names: frozenset[str], seen: Callable[[frozenset[str]], FloatArray]) -> None:
@@ -558,6 +575,7 @@ class Observed:
         self._seen = seen
         self.alone: dict[str, float] = {}
         self.doubt: dict[str, float] = {}
+        self.unsure = 0.0
         self.complete = seen(names)
         self._moved = {name: self.complete - seen(names - {name}) for name in sorted(names)}
 
@@ -572,7 +590,7 @@ class Observed:
             change = self.complete - self._seen(self._names - left_out)
         independent = sum(self.alone.get(name, 0.0) for name in left_out)
         doubt = max(self.doubt.get(name, 0.0) for name in left_out)
-        return max(float(change @ change) + independent, 0.0) + doubt
+        return max(float(change @ change) + independent, 0.0) * (1.0 + self.unsure) + doubt
 
     def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
         """Return about the same for many sets of effects, as if their changes added.
@@ -585,7 +603,9 @@ class Observed:
             1 where a set has an effect.
         """
         moved = np.stack([self._moved[name] for name in names])
-        alone = np.array([self.alone.get(name, 0.0) + self.doubt.get(name, 0.0) for name in names])
+        alone = np.array([self.alone.get(name, 0.0) for name in names])
+        doubt = np.array([self.doubt.get(name, 0.0) for name in names])
         products = moved @ moved.T
         squares = np.einsum("si,ij,sj->s", members, products, members, optimize=True)
-        return np.asarray(np.maximum(squares + members @ alone, 0.0))
+        sure = np.maximum(squares + members @ alone, 0.0)
+        return np.asarray(sure * (1.0 + self.unsure) + (members * doubt).max(axis=1))

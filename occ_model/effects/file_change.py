@@ -121,7 +121,7 @@ class FileChange:
         self._others = steps[1:].ravel()
         self._all = steps
         self._noise = math.sqrt(spread**2 + _ROUNDING)
-        self._block_rows = max(block_rows, 1.0)
+        self.block_rows = max(block_rows, 1.0)
         self._rims = rims
         self._whole = whole
         self._contrast = float(np.ptp(whole))
@@ -164,7 +164,7 @@ class FileChange:
         own = self._noise / self._step[0, :, 0]
         square = self._step[0, :, 0] ** 2 * np.minimum(1.0, (own / _DITHERED) ** 2) / 12.0
         rims = self._rims * min(float((self._all**2).mean()) / 12.0, self._contrast**2 / 4.0)
-        return (float(square.sum()) / 64.0 + rims) / self._block_rows
+        return (float(square.sum()) / 64.0 + rims) / self.block_rows
 
     def added(self, values: FloatArray) -> tuple[float, float]:
         """Return what rounding adds to the mean square of a change.
@@ -195,11 +195,17 @@ class FileChange:
         across = (q**2 * _moved_steps_of_noise(flips / q) * _near_half(self._noise / q)).sum()
         rims = self._rims * self._at_rims(math.hypot(size, flips))
         image = (1.0 - self._rims) * (along + float(across)) / 64.0 + rims
-        return image, (max(along, 0.0) / 64.0 + rims) / self._block_rows
+        return image, (max(along, 0.0) / 64.0 + rims) / self.block_rows
 
     def _at_rims(self, size: float) -> float:
         """Return what rounding adds to a change where a rim spreads all coefficients."""
         return float((self._all**2 * _moved_steps_of_noise(size / self._all)).mean())
+
+    @property
+    def undithered_share(self) -> float:
+        """The share of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
+        sharp = np.exp(-_DAMPING[0] * (self._noise / self._step) ** 2)
+        return float(sharp.mean())
 
     def undithered(self) -> float:
         """Return the mean square of what no sample can tell: rounding alike in all blocks.
@@ -252,7 +258,7 @@ class FileChange:
         across = (q**2 * np.minimum(both, apart)).sum()
         rims = self._rims * self._at_rims(own)
         image = float(along + across) / 64.0 + rims
-        return image, (float(along) / 64.0 + rims) / self._block_rows
+        return image, (float(along) / 64.0 + rims) / self.block_rows
 
 
 def _near_half(s: FloatArray) -> FloatArray:

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.camera.photometry import WHITE
+from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.effects.change import Changes, Observed
 from occ_model.effects.cost import seconds_of
 from occ_model.effects.effect import Effect
@@ -131,11 +131,10 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
         estimates = rest.with_sizes_of(estimates)
     free = [e for e in EFFECTS if e.name in estimates.sizes and e.name not in force]
     forced_in = [e for e in EFFECTS if force.get(e.name)]
+    if view.swing <= FLAT:  # far above the tolerance, or hidden to a sample: it cannot tell
+        estimates = estimates.unknown()
     choice = _choose(estimates, free, forced_in, view, settings)
-    decisions = tuple(
-        _decide(effect, estimates.sizes.get(effect.name, 0.0), choice.left_out, settings)
-        for effect in EFFECTS
-    )
+    decisions = tuple(_decide(effect, estimates, choice.left_out, settings) for effect in EFFECTS)
     return Plan(
         tolerance=settings.tolerance,
         observable=settings.observable,
@@ -190,6 +189,10 @@ class _Estimates:
             for effect in changes.effects
         }
         return cls(sizes, seen, stretch, factors)
+
+    def unknown(self) -> "_Estimates":
+        """Return the same where no set of effects is known to be small enough together."""
+        return _Estimates(self.sizes, None, self.stretch, self.factors)
 
     def with_sizes_of(self, other: "_Estimates") -> "_Estimates":
         """Return the same with the sizes of effects that are missing here."""
@@ -287,22 +290,25 @@ def _front(errors: FloatArray, order: IndexArray) -> list[int]:
 
 
 def _decide(
-    effect: Effect, estimate: float, left_out: frozenset[str], settings: SimulationSettings
+    effect: Effect, estimates: _Estimates, left_out: frozenset[str], settings: SimulationSettings
 ) -> Decision:
+    estimate = estimates.sizes.get(effect.name, 0.0)
     by_hand = settings.force.get(effect.name)
     included = bool(estimate) and effect.name not in left_out if by_hand is None else by_hand
     unit = "of the margin" if settings.observable == "decision" else "levels"
     decided = _decided if estimate else _decided_of_nothing
-    return decided(effect, estimate, included, settings.tolerance, by_hand, unit)
+    is_known = estimates.seen is not None
+    return decided(effect, estimate, included, settings.tolerance, by_hand, unit, is_known)
 
 
-def _decided(
+def _decided(  # noqa: PLR0917 - what a sentence tells
     effect: Effect,
     estimate: float,
     included: bool,
     tolerance: float,
     by_hand: bool | None,
     unit: str,
+    is_known: bool,
 ) -> Decision:
     size = f"about {estimate:.2g} {unit}" if estimate else "none in this scene"
     verdict = "taken in" if included else "left out"
@@ -313,7 +319,7 @@ def _decided(
         why = size
         reason = f"{size}: {verdict}"
     else:
-        why = _comparison(estimate, tolerance, included)
+        why = _comparison(estimate, tolerance, included, is_known)
         limit = "" if tolerance == math.inf else f", tolerance {tolerance:g}"
         together = ", " + why if included and estimate <= tolerance else ""
         reason = f"{size}{limit}{together}: {verdict}"
@@ -334,11 +340,13 @@ _decided_of_nothing = lru_cache(maxsize=256)(_decided)
 """The same for effects that a scene does not have, most of them: their sentences are few."""
 
 
-def _comparison(estimate: float, tolerance: float, included: bool) -> str:
+def _comparison(estimate: float, tolerance: float, included: bool, is_known: bool) -> str:
     if tolerance == math.inf:
         return "no tolerance is set"
     if not included:
         return "within the tolerance"
     if estimate > tolerance:
         return "above the tolerance"
+    if not is_known:
+        return "not known, as the stripes span less than a grey level"
     return "leaving out others saves more time"

@@ -50,14 +50,14 @@ def test_an_estimate_is_close_from_both_sides(observable: Observable) -> None:
     ]
     assert len(ratios) > 3 * SCENES
     assert 1.0 <= np.median(ratios) <= 1.5
-    assert np.mean(np.array(ratios) < 0.8) < 0.15
+    assert np.mean(np.array(ratios) < 0.8) < 0.01
 
 
 @pytest.mark.parametrize("observable", OBSERVABLES)
 def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observable) -> None:
     shares = [share for number in range(SCENES) for share in changes(number, observable)[1]]
     assert sum(share > 0.0 for share in shares) > SCENES / 4  # the promise was put to the test
-    assert np.mean(np.array(shares) > 1.0) <= 0.05
+    assert max(shares) <= 1.0
 
 
 @pytest.mark.whole

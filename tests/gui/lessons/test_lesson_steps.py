@@ -186,7 +186,7 @@ def test_the_answers_field_stays_where_it_is_whatever_the_check_says(qtbot: QtBo
     page = StepPage()
     qtbot.addWidget(page)
     page.show_step(lessons().lessons[0], 0, None)
-    page.resize(300, 500)
+    page.resize(300, 700)  # room for all, whatever the font
     page.show()
     qtbot.waitExposed(page)
     given, places = page.answer_field, []

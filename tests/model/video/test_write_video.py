@@ -4,8 +4,8 @@ import resource
 import shutil
 import struct
 import tracemalloc
-from collections.abc import Iterator
-from contextlib import suppress
+from collections.abc import Generator
+from contextlib import closing, suppress
 from itertools import islice
 from pathlib import Path
 
@@ -232,7 +232,7 @@ def test_an_animated_picture_is_played_again_and_again(tmp_path: Path, film: occ
 _NO_LIMIT = (resource.RLIM_INFINITY, resource.RLIM_INFINITY)
 
 
-def full_disk(first: int, last: int) -> Iterator[ByteArray]:
+def full_disk(first: int, last: int) -> Generator[ByteArray, None, None]:
     """Frames during some of which no file may grow, as on a disk that is full for a moment."""
     noise = np.random.default_rng(1).integers(0, 256, (40, 192, 256), dtype=np.uint8)
     try:
@@ -260,8 +260,12 @@ def test_a_disk_that_is_full_for_a_moment_leaves_the_older_file_and_nothing_else
 ) -> None:
     path = tmp_path / f"film{ending}"
     path.write_text("older")
-    with pytest.raises(occ.OutputError, match=r"film\.... cannot be written: |can be begun: "):
-        write_frames(path, full_disk(first, last), 30.0, "")
+    # Closed: what still refers to the frames of a film that failed would leave the disk full.
+    with (
+        pytest.raises(occ.OutputError, match=r"film\.... cannot be written: |can be begun: "),
+        closing(full_disk(first, last)) as frames,
+    ):
+        write_frames(path, frames, 30.0, "")
     assert path.read_text() == "older"
     assert list(tmp_path.iterdir()) == [path]
     # A file that is removed but still open takes space.

@@ -1,20 +1,18 @@
 """Controller of the rate at the scene's own values: of pictures that begin at any time."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
-from PySide6.QtCore import QObject, QTimer, Signal
+from PySide6.QtCore import Signal
 
-from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_controller import UNSEEN
-from occ_gui.detection_map.slider_strip_controller import SliderStripRequest
+from occ_gui.detection_map.measured_at_rest import MeasuredAtRest, RateRequest
 from occ_gui.detection_map.worker import rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.points import MeasuredPoints, measure_points
 
@@ -35,48 +33,18 @@ class OwnRate:
     images: int
 
 
-class OwnRateController(QObject):
+class OwnRateController(MeasuredAtRest):
     """Measures the rate of the present scene once it rests, while it is seen."""
 
     changed = Signal(object)
     """The rate, an :class:`OwnRate`; None where it is not known of the present scene."""
 
     def __init__(self, scenes: SceneStore, settings: SettingsStore, channel: JobChannel) -> None:
-        super().__init__()
-        self._scenes, self._settings, self._channel = scenes, settings, channel
-        self._decoder = PAPER_DECODER
-        self._seen = False
-        self._asked: SliderStripRequest | None = None
+        super().__init__(scenes, settings, channel)
         self.rate: OwnRate | None = None
-        self._resting = QTimer(self, singleShot=True)
-        self._resting.setInterval(round(1e3 * PAUSE))
-        self._resting.timeout.connect(self._measure)
-        channel.results_ready.connect(self._take)
-        for store in (scenes, settings):
-            store.changed.connect(self._move_on)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether the rate of the present scene is shown."""
-        return self._channel.is_idle and not self._resting.isActive()
-
-    def set_seen(self, seen: bool) -> None:
-        """Measure while the rate is seen."""
-        self._seen = seen
-        if seen:
-            self._move_on()
-        else:
-            self._resting.stop()
-            self._channel.cancel()
-            self._forget()
-
-    def choose_decoder(self, decoder: str) -> None:
-        """Measure with another decoder."""
-        self._decoder = decoder
-        self._move_on()
 
     def _forget(self) -> None:
-        self._asked = None
+        super()._forget()
         self._show(None)
 
     def _show(self, rate: OwnRate | None) -> None:
@@ -85,8 +53,8 @@ class OwnRateController(QObject):
             self.changed.emit(rate)
 
     def _move_on(self) -> None:
-        scene = self._scenes.scene.replace(**UNSEEN)
-        request = SliderStripRequest(scene, self._settings.settings, self._decoder)
+        present = self._present()
+        request = replace(present, scene=present.scene.replace(**UNSEEN))
         if not self._seen or request == self._asked:
             return
         self._channel.cancel()
@@ -98,12 +66,12 @@ class OwnRateController(QObject):
         if self._asked is not None:
             self._channel.put(self._asked, partial(own_rate_stages, self._asked))
 
-    def _take(self, request: SliderStripRequest, results: list[MeasuredPoints]) -> None:
+    def _take(self, request: RateRequest, results: list[MeasuredPoints]) -> None:
         if request == self._asked and results:
             self._show(own_rate(results[-1]))
 
 
-def own_rate_stages(request: SliderStripRequest) -> Iterator[Stage]:
+def own_rate_stages(request: RateRequest) -> Iterator[Stage]:
     """Give the one job that measures the rate."""
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
     yield Stage(_RANK, (Job(measure_points, (request.scene, settings, ((0, {}),))),))

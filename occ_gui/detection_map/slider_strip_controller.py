@@ -1,25 +1,17 @@
 """Controller of the slider strips: it measures success rates along each of the main sliders."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Protocol
 
-from PySide6.QtCore import QObject, QTimer
-
-from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
-from occ_gui.detection_map.map_controller import UNSEEN
+from occ_gui.detection_map.measured_at_rest import MeasuredAtRest, RateRequest
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results import SweepPoint
-from occ_model.scene.parameters import quantity
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 
 POSITIONS = 29
 """Positions along a slider."""
@@ -34,30 +26,6 @@ RANKS = (3, 3)
 """After all points of a map that is seen, before further images of them."""
 
 
-@dataclass(frozen=True, slots=True)
-class SliderStripRequest:
-    """What the strips depend on.
-
-    Parameters
-    ----------
-    scene
-        The scene.
-    settings
-        How the window simulates.
-    decoder
-        The decoder.
-    """
-
-    scene: Scene
-    settings: SimulationSettings
-    decoder: str
-
-    def along(self, name: str) -> "SliderStripRequest":
-        """Give the request of one slider's strip, which does not depend on the slider itself."""
-        given = {**UNSEEN, name: quantity(name).default}
-        return SliderStripRequest(self.scene.replace(**given), self.settings, self.decoder)
-
-
 class SliderStripPane(Protocol):
     """Strips, one a slider."""
 
@@ -69,7 +37,7 @@ class SliderStripPane(Protocol):
 
 
 def strip_stages(
-    missing: Mapping[str, "tuple[SliderStripRequest, set[int]]"], present: SliderStripRequest
+    missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
 ) -> Iterator[Stage]:
     """Give the stages of the work that is left.
 
@@ -100,14 +68,14 @@ def _parts(places: list[int], slow: bool) -> list[list[int]]:
     return [places] if places else []
 
 
-def _job(request: SliderStripRequest, name: str, places: list[int]) -> Job:
+def _job(request: RateRequest, name: str, places: list[int]) -> Job:
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
     values = lattice(name, POSITIONS)
     points = tuple((place, {name: values[place]}) for place in places)
     return Job(measure_along, (request.scene, settings, name, points))
 
 
-class SliderStripController(QObject):
+class SliderStripController(MeasuredAtRest):
     """Connects the stores, the job channel and the strips.
 
     The strip under a slider does not change while that slider is moved. The others are measured
@@ -133,44 +101,11 @@ class SliderStripController(QObject):
         pane: SliderStripPane,
         names: Iterable[str],
     ) -> None:
-        super().__init__()
-        self._scenes, self._settings = scenes, settings
-        self._channel, self._pane = channel, pane
+        self._pane = pane
         self._names = tuple(names)
-        self._decoder = PAPER_DECODER
-        self._seen = False
-        self._asked: SliderStripRequest | None = None
-        self._known: dict[str, tuple[SliderStripRequest, dict[int, float | None]]] = {}
-        self._missing: dict[str, tuple[SliderStripRequest, set[int]]] = {}
-        self._resting = QTimer(self, singleShot=True)
-        self._resting.setInterval(round(1e3 * PAUSE))
-        self._resting.timeout.connect(self._measure)
-        channel.results_ready.connect(self._take)
-        for store in (scenes, settings):
-            store.changed.connect(self._move_on)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether all that is measured is shown."""
-        return self._channel.is_idle and not self._resting.isActive()
-
-    def set_seen(self, seen: bool) -> None:
-        """Measure while the strips are seen, and stop when they are not."""
-        self._seen = seen
-        if seen:
-            self._move_on()
-        else:
-            self._resting.stop()
-            self._channel.cancel()
-            self._asked = None
-
-    def choose_decoder(self, decoder: str) -> None:
-        """Measure with another decoder."""
-        self._decoder = decoder
-        self._move_on()
-
-    def _present(self) -> SliderStripRequest:
-        return SliderStripRequest(self._scenes.scene, self._settings.settings, self._decoder)
+        self._known: dict[str, tuple[RateRequest, dict[int, float | None]]] = {}
+        self._missing: dict[str, tuple[RateRequest, set[int]]] = {}
+        super().__init__(scenes, settings, channel)
 
     def _move_on(self) -> None:
         if not self._seen:
@@ -180,12 +115,12 @@ class SliderStripController(QObject):
             return
         is_first, self._asked = self._asked is None, request
         for name in self._names:
-            along = request.along(name)
+            wanted = request.along(name)
             known = self._known.get(name)
-            is_present = known is not None and known[0] == along
+            is_present = known is not None and known[0] == wanted
             self._pane.show_outdated(name, known is not None and not is_present)
             there = set(known[1]) if known is not None and is_present else set()
-            self._missing[name] = (along, set(range(POSITIONS)) - there)
+            self._missing[name] = (wanted, set(range(POSITIONS)) - there)
         if is_first:
             self._measure()
         else:
@@ -198,16 +133,16 @@ class SliderStripController(QObject):
             missing, self._missing = self._missing, {}
             self._channel.put(request, partial(strip_stages, missing, request))
 
-    def _take(self, request: SliderStripRequest, results: list[Along]) -> None:
+    def _take(self, request: RateRequest, results: list[Along]) -> None:
         for result in results:
-            along = request.along(result.name)
+            wanted = request.along(result.name)
             known = self._known.get(result.name)
-            if known is None or known[0] != along:
-                known = self._known[result.name] = (along, {})
+            if known is None or known[0] != wanted:
+                known = self._known[result.name] = (wanted, {})
             known[1].update({point.index: _share(point) for point in result.points})
         for name in {result.name for result in results}:
-            along, shares = self._known[name]
-            self._pane.show_outdated(name, along != self._present().along(name))
+            wanted, shares = self._known[name]
+            self._pane.show_outdated(name, wanted != self._present().along(name))
             self._pane.show_shares(name, tuple(_nearest(shares, p) for p in range(POSITIONS)))
 
 

@@ -8,17 +8,7 @@ _log = logging.getLogger(__name__)
 
 
 def sentence_of(error: Exception, name: str, request: object) -> str:
-    """Say why work has no result; an unexpected error goes to the log with its traceback.
-
-    Parameters
-    ----------
-    error
-        The error.
-    name
-        What the work does.
-    request
-        The request, for the log.
-    """
+    """Say why work has no result; an unexpected error goes to the log with its traceback."""
     if isinstance(error, OccError):
         return str(error)
     _log.error("%s failed for %r", name, request, exc_info=error)

@@ -20,10 +20,6 @@ class FileWriter(QObject, Generic[Request]):
         Writes what a request asks for and returns the file; what is given up leaves nothing.
     name
         What it does, for the thread's name and the log.
-    bar
-        Shows the progress.
-    given_up
-        The sentence when the user cancels.
     """
 
     status_message = Signal(str)

@@ -20,8 +20,6 @@ class ResultAges(Generic[Request]):
 
     Parameters
     ----------
-    request
-        The present request.
     clock
         Returns the time in seconds.
     """
@@ -34,7 +32,6 @@ class ResultAges(Generic[Request]):
         self._is_moving = False
 
     def begin(self, request: Request) -> None:
-        """Make this request the present one."""
         if request == self.present:
             return
         now = self._clock()

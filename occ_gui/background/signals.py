@@ -97,8 +97,6 @@ class WorkQueue(QObject):
 
     Parameters
     ----------
-    channels
-        The number of kinds of work.
     start
         Starts the workers: called off the window's thread, at the first job.
     """

@@ -20,8 +20,6 @@ class WorkerThread:
     ----------
     worker
         What works on the thread, in slots that are called by queued signals.
-    name
-        What it does.
     """
 
     _waited_ms = 0

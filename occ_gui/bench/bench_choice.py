@@ -11,17 +11,7 @@ BITS = (2_560, 10_240, 102_400)
 
 @dataclass(frozen=True, slots=True)
 class BenchChoice:
-    """The choices of the pane.
-
-    Parameters
-    ----------
-    whose
-        PUBLISHED or OF_SCENE.
-    decoders
-        The names of the decoders.
-    bits
-        Bits at each point.
-    """
+    """The choices of the pane."""
 
     whose: str = PUBLISHED
     decoders: tuple[str, ...] = ()

@@ -53,10 +53,6 @@ class BenchController(QObject):
     ----------
     scenes, frame_rate
         Whose code is measured, and the pictures a second.
-    channel
-        Does the work.
-    pane
-        Shows the points.
     """
 
     def __init__(

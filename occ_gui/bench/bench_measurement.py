@@ -15,8 +15,6 @@ def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
 
     Parameters
     ----------
-    choice
-        The choices of the pane.
     scene
         Its scheme, number of bits, switching frequency, readout time and the columns of its
         panel are used, where its own code is measured.

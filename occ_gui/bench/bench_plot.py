@@ -58,8 +58,6 @@ class Drawn:
 
     Parameters
     ----------
-    at
-        Its place on the lower axis.
     value
         The rate, or the bits a second; not a number where no error was seen.
     low, high
@@ -88,15 +86,7 @@ def _power(value: float, floor: int) -> float:
 
 
 class BenchPlots(QWidget):
-    """Two plots beside each other, with a curve for each decoder and the bounds of theory.
-
-    Parameters
-    ----------
-    what
-        RATES or BITS.
-    parent
-        The parent widget.
-    """
+    """Two plots beside each other, with a curve for each decoder and the bounds of theory."""
 
     def __init__(self, what: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)

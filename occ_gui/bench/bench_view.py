@@ -35,17 +35,7 @@ _SAMPLE = QSize(14, 14)
 
 
 class BenchView(QWidget):
-    """The bench.
-
-    Parameters
-    ----------
-    decoders
-        The decoders' names.
-    chosen
-        Those that are measured at first.
-    parent
-        The parent widget.
-    """
+    """The bench."""
 
     choice_changed = Signal(object)
     """The user has chosen what is measured next: a BenchChoice."""
@@ -243,7 +233,6 @@ class BenchView(QWidget):
         self._draw()
 
     def show_points(self, points: list[BenchPoint]) -> None:
-        """Show all points that are known."""
         self._points = list(points)
         self._draw()
 

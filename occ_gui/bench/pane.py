@@ -19,8 +19,6 @@ class BenchPane(Pane[None]):
     ----------
     scenes, frame_rate
         Whose code is measured, and the pictures a second.
-    channel
-        Does the work.
     """
 
     def __init__(self, scenes: SceneStore, frame_rate: FrameRate, channel: JobChannel) -> None:
@@ -35,5 +33,4 @@ class BenchPane(Pane[None]):
         view.frame_rate_edited.connect(frame_rate.change)
 
     def stop(self) -> None:
-        """Stop measuring."""
         self.controller.stop()

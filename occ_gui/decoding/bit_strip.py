@@ -84,7 +84,6 @@ class BitStrip(QWidget):
         return wrong_places(self._sent, self._received)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of two rows of cells."""
         return QSize(_LABEL + 10 * (_CELL + _GAP), 2 * _CELL + 3 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -93,7 +92,6 @@ class BitStrip(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw both rows."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self.isEnabled():  # the bits are those of an earlier scene

@@ -200,7 +200,6 @@ class DecodeView(QWidget):
             self._draw_steps()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw what has been read since the pane was seen."""
         super().showEvent(event)
         self._draw_steps()
 

@@ -16,13 +16,7 @@ _STEPS = {
 
 
 class ColumnPicker(QObject):
-    """Marks a column of a plot, and emits a signal for the column that the user picks.
-
-    Parameters
-    ----------
-    plot
-        A plot over the columns of the picture.
-    """
+    """Marks a column of a plot, and emits a signal for the column that the user picks."""
 
     hovered = Signal(int)
     """The column under the mouse."""
@@ -53,7 +47,6 @@ class ColumnPicker(QObject):
         plot.dress_with(self._dress)
 
     def set_active(self, active: bool) -> None:
-        """Let the user pick columns, or not."""
         self._active = active
         self.marker.setVisible(active)
 

@@ -21,15 +21,7 @@ class EquationPane(Protocol):
 
 
 class EquationController(QObject):
-    """Updates the equations with the scene while they are visible.
-
-    Parameters
-    ----------
-    scenes
-        The scene.
-    pane
-        Shows the equations.
-    """
+    """Updates the equations with the scene while they are visible."""
 
     def __init__(self, scenes: SceneStore, pane: EquationPane) -> None:
         super().__init__()

@@ -30,15 +30,7 @@ class ColumnMark(Protocol):
 
 
 class ExposureController(QObject):
-    """Keeps the chosen column, held or under the mouse, and computes its exposure while visible.
-
-    Parameters
-    ----------
-    pane
-        Shows the exposure.
-    mark
-        Marks the column in the profile.
-    """
+    """Keeps the chosen column, held or under the mouse, and computes its exposure while visible."""
 
     held = Signal(int)
     """The column that the user has chosen, until another is."""
@@ -81,7 +73,6 @@ class ExposureController(QObject):
             self.choose(self._column + columns)
 
     def choose(self, column: int) -> None:
-        """Hold a column."""
         self._choose(column, held=True)
         self.held.emit(self._column)
 

@@ -59,7 +59,6 @@ class ExposurePlot(QWidget):
         layout.addWidget(self.plot, 1)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Fit the least height to the new width."""
         super().resizeEvent(event)
         if event.size().width() != event.oldSize().width():
             self._fit_height()

@@ -32,15 +32,7 @@ class ExplanationView(QWidget):
 
 
 class ExplanationPane(Pane[Snapshot]):
-    """Connects the equations of the scene, and the exposure of the column under the mouse.
-
-    Parameters
-    ----------
-    scenes
-        The scene.
-    plot
-        The plot of the profile, in which the user picks a column.
-    """
+    """Connects the equations of the scene, and the exposure of the column under the mouse."""
 
     def __init__(self, scenes: SceneStore, plot: Plot) -> None:
         pane = ExplanationView()

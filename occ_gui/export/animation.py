@@ -31,19 +31,7 @@ class _Film:
 
 
 class AnimationExport(QObject):
-    """Writes animations on a thread, with a bar that shows how far it is and cancels it.
-
-    Parameters
-    ----------
-    window
-        The parent of the dialog.
-    scenes, settings
-        The scene and the settings of its simulation.
-    preferences
-        Stores the folder of the last export.
-    bar
-        Shows the progress.
-    """
+    """Writes animations on a thread, with a bar that shows how far it is and cancels it."""
 
     def __init__(
         self,

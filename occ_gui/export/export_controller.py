@@ -30,21 +30,6 @@ class ExportController(QObject):
     """Draws figures on a background thread, one job after another, and saves or copies them.
 
     A figure is drawn of the scene that the controls show, once its results are there.
-
-    Parameters
-    ----------
-    window
-        The parent of the dialogs.
-    figures
-        The sources of the figures.
-    present
-        Gives the results of the present scene.
-    preferences
-        Stores the folder of the last export.
-    current_pane
-        The pane whose figure is copied.
-    shown_decoder
-        Returns the name of the decoder that the pane of the decoders shows.
     """
 
     status_message = Signal(str)

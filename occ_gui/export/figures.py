@@ -71,8 +71,6 @@ class BenchFigureRequest(FigureRequest):
 
     Parameters
     ----------
-    measured
-        What was measured.
     frames_a_second
         Pictures a second.
     """
@@ -120,18 +118,8 @@ class Figures(QObject):
 
     Parameters
     ----------
-    settings
-        The store of the settings of the simulation.
     comparison
         Returns the comparison of the photo's profile with the simulated one, if there is one.
-    overlay
-        The photo over the picture.
-    profile, accuracy
-        The panes that determine the content of their figures.
-    decoders
-        Names of the decoders.
-    shown_decoder
-        Returns the name of the decoder whose threshold is shown.
     """
 
     def __init__(
@@ -219,13 +207,11 @@ class Figures(QObject):
         )
 
     def add(self, name: str, title: str, source: Source) -> None:
-        """Add a figure."""
         self._sources[name] = source
         self.titles[name] = title
 
     @property
     def sources(self) -> Mapping[str, Source]:
-        """The sources of the figures, by their names."""
         return self._sources
 
     @property

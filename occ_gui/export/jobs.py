@@ -26,8 +26,6 @@ class FigureRequest:
     ----------
     scene, settings
         What it shows, for its provenance.
-    date
-        When it was asked for.
     draw
         Makes the drawing; it must not touch a widget.
     """
@@ -52,12 +50,8 @@ class ExportJob:
 
     Parameters
     ----------
-    requests
-        The figures.
     path
         The file of the only figure; None for the clipboard.
-    folder
-        The folder that every figure is written to in every format.
     """
 
     requests: Sequence[FigureRequest]
@@ -67,17 +61,7 @@ class ExportJob:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Exported:
-    """What became of a job.
-
-    Parameters
-    ----------
-    job
-        The job.
-    files
-        The files that were written.
-    png
-        The figure for the clipboard, else nothing.
-    """
+    """What became of a job."""
 
     job: ExportJob
     files: Sequence[Path] = ()

@@ -21,17 +21,7 @@ LONGEST_WAIT_MS = 1000
 
 
 class Autosave(QObject):
-    """Writes the session of a window to its file; before :meth:`resume` it writes nothing.
-
-    Parameters
-    ----------
-    store, settings
-        The stores of the scene and of the settings of its simulation.
-    document
-        Knows the file of the scene.
-    present
-        Returns what the user is working on.
-    """
+    """Writes the session of a window to its file; before :meth:`resume` it writes nothing."""
 
     status_message = Signal(str)
     """What has been restored, or why the session cannot be written; the latter is not repeated."""
@@ -113,7 +103,6 @@ class Autosave(QObject):
             self._timer.start()
 
     def write(self) -> None:
-        """Write the session now."""
         self._write(in_use=True)
 
     def _write(self, in_use: bool) -> None:

@@ -12,17 +12,7 @@ from occ_model.scene.scene import Scene
 
 
 class Document(QObject):
-    """The file that the scene is saved to, and whether the scene has changed since.
-
-    Parameters
-    ----------
-    window
-        The window whose title shows it.
-    store
-        The store of the scene.
-    files
-        Opens and saves the scene.
-    """
+    """The file that the scene is saved to, and whether the scene has changed since."""
 
     def __init__(self, window: QWidget, store: SceneStore, files: FileController) -> None:
         super().__init__(window)
@@ -49,8 +39,6 @@ class Document(QObject):
 
         Parameters
         ----------
-        path
-            The file.
         saved
             The scene in it; None where it cannot be read.
         """

@@ -75,14 +75,6 @@ class FileController(QObject):
 
     Parameters
     ----------
-    window
-        The parent of the dialogs.
-    store
-        The store of the scene.
-    photos
-        Opens photos.
-    preferences
-        Stores the recent files and the folder.
     when_present
         Calls a function with the results of the present scene, once they are there.
     """
@@ -147,7 +139,6 @@ class FileController(QObject):
             self.open_film(Path(name))
 
     def open_film(self, path: Path) -> None:
-        """Open a film, and remember it."""
         self._preferences.add(path)
         self.film_asked.emit(path)
 
@@ -264,7 +255,6 @@ class FileController(QObject):
             self.save_scene(path if path.suffix else path.with_suffix(SCENE_ENDING))
 
     def save_scene(self, path: Path) -> None:
-        """Write the scene to a file."""
         scene = self._store.scene
         if self._save(path, lambda: write_scene_file(path, scene)):
             self._preferences.add(path)

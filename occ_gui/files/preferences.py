@@ -70,7 +70,6 @@ class Preferences(QObject):
         return self._value(_MARGINS) != _NO
 
     def keep_slider_strips(self, shown: bool) -> None:
-        """Store whether the strips are shown."""
         self._write(_MARGINS, "yes" if shown else _NO)
 
     def add(self, path: Path) -> None:

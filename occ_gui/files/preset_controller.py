@@ -32,17 +32,7 @@ def _differences(one: Scene, other: Scene) -> int:
 
 
 class PresetController(QObject):
-    """Keeps the list of presets and carries out the commands for them.
-
-    Parameters
-    ----------
-    window
-        The parent of the dialogs.
-    store
-        The store of the scene.
-    matching
-        Provides the result of a match that is to be saved.
-    """
+    """Keeps the list of presets and carries out the commands for them."""
 
     status_message = Signal(str)
     """The outcome of a command."""
@@ -85,11 +75,6 @@ class PresetController(QObject):
 
     def follow(self, scene: Scene) -> tuple[str | None, str | None]:
         """Follow the scene from change to change.
-
-        Parameters
-        ----------
-        scene
-            The present scene.
 
         Returns
         -------

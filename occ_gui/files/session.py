@@ -39,13 +39,6 @@ class SessionFile:
     """The session file of one window, locked while the window is open.
 
     A file that says it is in use, but is not locked, belongs to a window that crashed.
-
-    Parameters
-    ----------
-    folder
-        The folder of the session files.
-    effects
-        Names of the effects that the settings may refer to.
     """
 
     def __init__(self, folder: Path, effects: Collection[str]) -> None:
@@ -96,13 +89,6 @@ class SessionFile:
 
     def write(self, session: Session, in_use: bool) -> None:
         """Write the session.
-
-        Parameters
-        ----------
-        session
-            The session.
-        in_use
-            Whether the window stays open.
 
         Raises
         ------

@@ -29,15 +29,7 @@ _MOST_OF_HISTORY = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class UserState:
-    """What the user is working on, or was before a lesson began.
-
-    Parameters
-    ----------
-    scene, settings
-        The scene, and the settings of its simulation with the forced effects.
-    photo
-        The photo that is open, if any.
-    """
+    """What the user is working on, or was before a lesson began."""
 
     scene: Scene
     settings: SimulationSettings
@@ -50,22 +42,8 @@ class Session:
 
     Parameters
     ----------
-    scene
-        The scene.
-    settings
-        The settings of its simulation.
-    scene_file
-        The file that the scene is saved to.
-    photo
-        The photo that is open.
-    region
-        The rectangle of the photo that was drawn by hand.
-    film
-        The film that is open.
     preset
         The preset that the scene is, or was before some of its values were changed.
-    pins
-        The states that are pinned.
     history
         The steps that can be undone, which a window that has come to its end does not leave.
     """

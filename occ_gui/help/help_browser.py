@@ -13,13 +13,7 @@ _UNKNOWN = QTextDocument.ResourceType.UnknownResource
 
 
 class HelpBrowser(QTextBrowser):
-    """Shows Markdown files of this computer; other links open in the system's browser.
-
-    Parameters
-    ----------
-    parent
-        The parent widget.
-    """
+    """Shows Markdown files of this computer; other links open in the system's browser."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -73,7 +67,6 @@ class HelpBrowser(QTextBrowser):
         return fitted
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Fit the pictures to the new width."""
         super().resizeEvent(event)
         if event.size().width() == event.oldSize().width():
             return
@@ -83,7 +76,6 @@ class HelpBrowser(QTextBrowser):
         document.markContentsDirty(0, document.characterCount())
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Take the colours of a new theme."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             self._style()

@@ -14,19 +14,7 @@ if TYPE_CHECKING:  # made when it is first asked for: the application starts so 
 
 
 class HelpMenu(QObject):
-    """Opens the manual: as a whole, or where it explains the current pane.
-
-    Parameters
-    ----------
-    window
-        The application's window.
-    menu
-        Its menu Help; the manual comes before the entries that are there.
-    current_pane
-        Gives the name of the pane that the user is at.
-    pages
-        Page and heading of each pane, by name.
-    """
+    """Opens the manual: as a whole, or where it explains the current pane."""
 
     status_message = Signal(str)
     """Why the manual cannot be shown."""

@@ -27,13 +27,6 @@ _FILE = Qt.ItemDataRole.UserRole
 class HelpWindow(QMainWindow):
     """Shows the pages of the manual.
 
-    Parameters
-    ----------
-    folder
-        Where the pages are.
-    parent
-        The window above which it stays, and with which it closes.
-
     Raises
     ------
     OSError

@@ -69,7 +69,6 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             self.update()
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
-        """Return the rectangle of the image in the view."""
         return self._rect
 
     @guarded

@@ -55,13 +55,7 @@ class WipedImage(AveragedImage):
 
 
 class BeforeWipe(QObject):
-    """Compares the picture with the one before the latest change; off at first.
-
-    Parameters
-    ----------
-    box
-        The view of the current picture.
-    """
+    """Compares the picture with the one before the latest change; off at first."""
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()

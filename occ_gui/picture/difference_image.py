@@ -90,8 +90,6 @@ def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArr
 
     Parameters
     ----------
-    first, second
-        Each an image and its rectangle.
     most
         Most cells a side; none is smaller than a unit of the rectangles.
 
@@ -119,10 +117,6 @@ def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, i
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The image.
-    rect
-        The rectangle of the image.
-    grid
-        The rectangle of the grid, within ``rect``.
     shape
         Rows and columns of the grid.
 

@@ -34,13 +34,7 @@ def rect_of(image: ByteArray, placement: Placement) -> QRectF:
 
 
 class PhotoOverlay(QObject):
-    """The items drawn over the simulated picture while a photo is shown over it.
-
-    Parameters
-    ----------
-    box
-        The view of the simulated picture.
-    """
+    """The items drawn over the simulated picture while a photo is shown over it."""
 
     placed = Signal(object)
     """The user moved or scaled the photo: a Placement."""

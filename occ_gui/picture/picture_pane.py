@@ -25,15 +25,7 @@ _LEAST_SPAN = 0.5
 
 
 class PicturePane(QWidget):
-    """One picture with its caption, and the region that was decoded.
-
-    Parameters
-    ----------
-    caption
-        What the picture shows.
-    parent
-        The parent widget.
-    """
+    """One picture with its caption, and the region that was decoded."""
 
     def __init__(self, caption: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -99,7 +91,6 @@ class PicturePane(QWidget):
         return int(image[row, column])
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the palette, as when the theme changes."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
             self.graphics.setBackground(self.palette().dark().color())
@@ -118,7 +109,6 @@ class PicturePane(QWidget):
             )
 
     def fit(self) -> None:
-        """Show the whole picture."""
         self.box.setRange(self._picture.boundingRect(), padding=0.01)
 
 

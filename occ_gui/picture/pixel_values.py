@@ -20,19 +20,10 @@ def draw_pixel_values(painter: QPainter, image: ByteArray, part: QRect, target: 
 
     Parameters
     ----------
-    painter
-        Draws in the coordinates of ``target``.
     image : ndarray of uint8, shape (rows, columns)
         The image.
     part
         The pixels in view.
-    target
-        Where they lie.
-
-    Returns
-    -------
-    int
-        The number of values that were written.
     """
     to_screen = painter.worldTransform()
     place = to_screen.mapRect(target)

@@ -38,12 +38,10 @@ class PlacementStore(QObject):
 
     @property
     def placement(self) -> Placement:
-        """The current placement."""
         return self._automatic if self._by_hand is None else self._by_hand
 
     @property
     def is_by_hand(self) -> bool:
-        """Whether the user chose the placement."""
         return self._by_hand is not None
 
     def suggest(self, placement: Placement) -> None:
@@ -56,7 +54,6 @@ class PlacementStore(QObject):
         self._put(self._automatic, Placement(placement.column, placement.row, scale))
 
     def reset(self) -> None:
-        """Return to the automatic placement."""
         self._put(self._automatic, None)
 
     def _put(self, automatic: Placement, by_hand: Placement | None) -> None:

@@ -34,13 +34,6 @@ class PinController(QObject):
     """Keeps up to two states, A and B.
 
     What is pinned is the present state: while it is being computed, the pin waits for it.
-
-    Parameters
-    ----------
-    scenes
-        The scene, which a return to A or B replaces.
-    is_present
-        Returns whether results are those of the present scene and settings.
     """
 
     status_message = Signal(str)

@@ -14,14 +14,10 @@ class Pin:
 
     Parameters
     ----------
-    request
-        The scene, the settings of its simulation, and the decoders that read it.
     profile : ndarray of float64, shape (columns,)
         Its profile in grey levels.
     first_column, packet_columns
         The first column of the panel, and the columns of one period of the signal sent.
-    outputs
-        The outputs, each as its name, its text and its meaning.
     """
 
     request: SimulationRequest
@@ -32,28 +28,16 @@ class Pin:
 
     @property
     def scene(self) -> Scene:
-        """The scene."""
         return self.request.scene
 
     @property
     def settings(self) -> SimulationSettings:
-        """The settings of its simulation."""
         return self.request.settings
 
 
 @dataclass(frozen=True, slots=True)
 class ComparedRow:
-    """One quantity that differs between the two states.
-
-    Parameters
-    ----------
-    what
-        The name of the quantity.
-    a, b
-        Its value in each state.
-    meaning
-        Its meaning.
-    """
+    """One quantity that differs between the two states."""
 
     what: str
     a: str
@@ -69,8 +53,6 @@ class Pinned:
     ----------
     a, b
         The states, None if not pinned.
-    inputs, outputs
-        The inputs and outputs that differ.
     """
 
     a: Pin | None = None

@@ -19,8 +19,6 @@ class ChipStrip(QWidget):
 
     Parameters
     ----------
-    plot
-        The plot whose columns the cells lie under.
     left
         Pixels of the plot's axis, where the button has its place.
     """
@@ -86,7 +84,6 @@ class _Cells(QWidget):
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of a line of text."""
         return QSize(100, self.fontMetrics().height() + 6)
 
     def rectangles(self) -> list[tuple[int, QRectF]]:
@@ -110,7 +107,6 @@ class _Cells(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the cells in view."""
         painter = QPainter(self)
         certain = self.reading is not None and self.reading.confidence >= _CERTAIN
         draw_chips(painter, self.rectangles(), QColor(PHOTO), self.palette(), certain)

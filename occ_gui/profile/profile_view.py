@@ -178,7 +178,6 @@ class ProfileView(QWidget):
         return residual
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Keep room for the numbers in a larger font."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and "chips" in vars(self):
             width = self._axis_width()

@@ -20,15 +20,7 @@ _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
 
 
 class ResidualPlot(QWidget):
-    """Photo minus simulation over column, with their correlation and RMSE.
-
-    Parameters
-    ----------
-    linked
-        The plot of the profiles, whose column range this one shares.
-    parent
-        The parent widget.
-    """
+    """Photo minus simulation over column, with their correlation and RMSE."""
 
     def __init__(self, linked: pg.PlotWidget, parent: QWidget | None = None) -> None:
         super().__init__(parent)

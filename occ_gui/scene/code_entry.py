@@ -118,7 +118,6 @@ class CodeEntry(QWidget):
         self.notices[0].show_refusal(sentence)
 
     def show_problem(self, sentence: str) -> None:
-        """Show what is wrong with the present code."""
         self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:

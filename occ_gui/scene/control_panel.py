@@ -36,15 +36,11 @@ class ControlPanel(QWidget):
 
     Parameters
     ----------
-    presets
-        Names and titles of the presets.
     effects
         The parameters of the effects, which have their own page, in the order that light travels.
     stages
         By the name of an effect's parameter what the light passes there: ``"light"``,
         ``"optics"``, ``"sensor"`` or ``"processing"``; each has a heading on that page.
-    parent
-        The parent widget.
     """
 
     preset_chosen = Signal(str)
@@ -132,8 +128,6 @@ class ControlPanel(QWidget):
 
         Parameters
         ----------
-        presets
-            Names and titles.
         unreadable
             Names of presets that cannot be loaded, with the reasons; they cannot be chosen.
         own

@@ -15,13 +15,6 @@ class CountEdit(QSpinBox):
     """A number field that lets any text be typed, and refuses what is no allowed number.
 
     Qt's own would read ``1,5`` as 15, and leave out the characters that it does not allow.
-
-    Parameters
-    ----------
-    declared
-        The declaration.
-    parent
-        The parent widget.
     """
 
     accepted = Signal()

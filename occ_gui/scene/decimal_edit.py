@@ -13,15 +13,6 @@ class DecimalEdit(QDoubleSpinBox):
     """A number field that lets any text be typed, and refuses what is no allowed number.
 
     Qt's own would read ``1,5`` as 15, and leave out the characters that it does not allow.
-
-    Parameters
-    ----------
-    declared
-        The declaration.
-    decimals
-        Digits after the point.
-    parent
-        The parent widget.
     """
 
     accepted = Signal()

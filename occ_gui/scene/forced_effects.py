@@ -7,15 +7,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWi
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
-    """Say in words how an effect is switched: on or off by hand, or by the plan (None).
-
-    Parameters
-    ----------
-    effect, included
-        The effect's name, and how it is switched.
-    labels
-        The effects' names on the screen.
-    """
+    """Say in words how an effect is switched: on or off by hand, or by the plan (None)."""
     texts = {
         True: QCoreApplication.translate("ForcedEffects", "{effect} on by hand"),
         False: QCoreApplication.translate("ForcedEffects", "{effect} off by hand"),
@@ -29,8 +21,6 @@ def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
 
     Parameters
     ----------
-    force
-        The effects' names, and whether each is on.
     labels
         The names on the screen of all effects, in the order of the list.
     """

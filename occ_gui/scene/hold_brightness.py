@@ -11,13 +11,7 @@ _EXPOSURE, _ISO = "exposure_time", "iso"
 
 
 class HoldBrightness(QObject):
-    """While it is on, the product S t of equation (1) stays constant as the exposure changes.
-
-    Parameters
-    ----------
-    store
-        The store of the scene.
-    """
+    """While it is on, the product S t of equation (1) stays constant as the exposure changes."""
 
     switched = Signal(bool)
     """Whether the brightness is held from now on."""
@@ -37,7 +31,6 @@ class HoldBrightness(QObject):
 
     @property
     def is_on(self) -> bool:
-        """Whether the brightness is held."""
         return self._on
 
     def switch(self, on: bool) -> None:

@@ -9,15 +9,7 @@ from occ_model.teaching.marked_values import marked_values
 
 
 class MarkController(QObject):
-    """Moves the marks with the scene.
-
-    Parameters
-    ----------
-    scenes
-        The store of the scene.
-    controls
-        The controls with the sliders.
-    """
+    """Moves the marks with the scene."""
 
     def __init__(self, scenes: SceneStore, controls: ControlPanel) -> None:
         super().__init__(controls)

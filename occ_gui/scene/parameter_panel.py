@@ -20,19 +20,7 @@ _MARGINS = (9, 9, 9, 2)
 
 
 class ParameterPanel(QWidget):
-    """Rows of controls for some of the parameters, created from their declarations.
-
-    Parameters
-    ----------
-    names
-        The parameters, in the order shown.
-    headings
-        Headings by the name of the parameter that they stand above.
-    with_scales
-        Whether each slider has a scale and a button that runs it.
-    parent
-        The parent widget.
-    """
+    """Rows of controls for some of the parameters, created from their declarations."""
 
     def __init__(
         self,

@@ -149,7 +149,6 @@ class QuantityRow(ParameterRow):
         return self._quantity.at(round(fraction * _SLIDER_STEPS) / _SLIDER_STEPS)
 
     def end_run(self) -> None:
-        """End the run of the slider."""
         self._is_running = False
         self._gestures.end()
 
@@ -234,7 +233,6 @@ class OpenChoiceBox(QComboBox):
         self._declared = declared
 
     def showPopup(self) -> None:  # noqa: N802 - Qt's name
-        """Open the list, with the plug-ins that are installed."""
         for choice in self._declared.all_choices():
             if self.findText(choice) < 0:
                 self.addItem(choice)

@@ -9,15 +9,7 @@ _ICON = 12
 
 
 class PlayButton(IconButton):
-    """Shows whether a slider runs; the right mouse button asks for a menu.
-
-    Parameters
-    ----------
-    name, label
-        The slider's parameter, and its label.
-    parent
-        The parent widget.
-    """
+    """Shows whether a slider runs; the right mouse button asks for a menu."""
 
     switched = Signal(str, bool)
     """The parameter, and whether its slider is to run."""

@@ -24,8 +24,6 @@ class Player(QObject):
     ----------
     rows, buttons
         The rows of the sliders and the buttons that run them, by the names of their parameters.
-    parent
-        The parent.
     """
 
     film_asked = Signal(str)

@@ -19,13 +19,6 @@ class QuantityEdit(QAbstractSpinBox):
 
     A number without a unit is read in the unit shown. The value keeps all digits; only the text is
     rounded.
-
-    Parameters
-    ----------
-    quantity
-        The declaration.
-    parent
-        The parent widget.
     """
 
     edited = Signal(float)
@@ -78,14 +71,12 @@ class QuantityEdit(QAbstractSpinBox):
         self.edited.emit(value)
 
     def stepBy(self, steps: int) -> None:  # noqa: N802 - Qt's name
-        """Step along the slider's scale, linear or logarithmic."""
         self.take_typed()  # the step starts from the typed value
         fraction = self._quantity.fraction(self._value) + steps * _STEP
         self.set_value(self._quantity.at(min(max(fraction, 0.0), 1.0)))
         self.edited.emit(self._value)
 
     def stepEnabled(self) -> QAbstractSpinBox.StepEnabledFlag:  # noqa: N802 - Qt's name
-        """Allow steps within the slider's range."""
         enabled = QAbstractSpinBox.StepEnabledFlag.StepNone
         low, high = self._quantity.slider
         if self._value > low:
@@ -99,7 +90,6 @@ class QuantityEdit(QAbstractSpinBox):
         return QValidator.State.Acceptable, text, position
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a size that fits the widest value."""
         width = self.fontMetrics().horizontalAdvance(_WIDEST) + 28
         return QSize(width, super().sizeHint().height())
 

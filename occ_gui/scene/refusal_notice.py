@@ -30,11 +30,6 @@ class RefusalNotice(QLabel):
 
     It lies over what is below the field, so that nothing moves when it comes or goes; a click on it
     removes it. Screen readers announce it, and read it as the description of the field.
-
-    Parameters
-    ----------
-    field
-        The field, which a frame is drawn round while there is a sentence.
     """
 
     dismissed = Signal()
@@ -97,14 +92,12 @@ class RefusalNotice(QLabel):
         return super().eventFilter(watched, event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Give way to what lies below."""
         self.end()
         self.dismissed.emit()
         event.accept()
 
     @guarded
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the sentence on an opaque plate."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(self.palette().color(self.foregroundRole()))
@@ -122,7 +115,6 @@ class RefusalNotice(QLabel):
             self.hide()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self.text():
             self._take_colour()
@@ -161,14 +153,12 @@ class _Frame(QWidget):
         self.setGeometry(field.rect())
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Follow the size of the field."""
         if event.type() == QEvent.Type.Resize and isinstance(watched, QWidget):
             self.setGeometry(watched.rect())
         return False
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the frame."""
         painter = QPainter(self)
         painter.setPen(QPen(seen_on(self.palette(), _RED), _FRAME_WIDTH))
         half = _FRAME_WIDTH // 2

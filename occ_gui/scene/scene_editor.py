@@ -8,13 +8,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 
 
 class SceneEditor(QObject):
-    """Receives the edits of all controls and changes the scene in the store.
-
-    Parameters
-    ----------
-    store
-        The store of the scene.
-    """
+    """Receives the edits of all controls and changes the scene in the store."""
 
     edit_started = Signal()
     """A value was entered, whether or not it differs from the scene's."""
@@ -32,8 +26,6 @@ class SceneEditor(QObject):
 
         Parameters
         ----------
-        name
-            The parameter.
         value
             Its value in SI units.
         gesture

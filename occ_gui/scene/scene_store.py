@@ -35,7 +35,6 @@ class SceneStore(QObject):
 
     @property
     def scene(self) -> Scene:
-        """The current scene."""
         return self.store.workspace.scene
 
     def change(self, gesture: int = NO_GESTURE, **changes: ParameterValue) -> None:

@@ -35,7 +35,6 @@ class SettingsStore(QObject):
 
     @property
     def settings(self) -> SimulationSettings:
-        """The current settings."""
         return self._store.workspace.settings
 
     def set_tolerance(self, tolerance: float) -> None:

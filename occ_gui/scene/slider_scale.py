@@ -27,17 +27,7 @@ _NEAR = 6.0
 
 
 class SliderScale(QWidget):
-    """The end values of a slider, and its marks with their names where there is space.
-
-    Parameters
-    ----------
-    slider
-        The slider, above the scale and as wide.
-    quantity
-        The declaration of its parameter.
-    parent
-        The parent widget.
-    """
+    """The end values of a slider, and its marks with their names where there is space."""
 
     def __init__(self, slider: QSlider, quantity: Quantity, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -65,7 +55,6 @@ class SliderScale(QWidget):
         return font
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of a line of small text."""
         return QSize(60, round(QFontMetricsF(self._font()).height() + _TICK + 2))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -90,7 +79,6 @@ class SliderScale(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the end values and the marks."""
         painter = QPainter(self)
         font = self._font()
         metrics = QFontMetricsF(font)

@@ -14,13 +14,7 @@ _MARGIN = 4
 
 
 class Spotlight(QObject):
-    """Marks one control of the panel.
-
-    Parameters
-    ----------
-    controls
-        The panel.
-    """
+    """Marks one control of the panel."""
 
     def __init__(self, controls: ControlPanel) -> None:
         super().__init__(controls)
@@ -118,14 +112,12 @@ class _Frame(QWidget):
         self.raise_()
 
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Stay around the row."""
         if event.type() in (QEvent.Type.Move, QEvent.Type.Resize):
             self._follow()
         return False
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the frame."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.setPen(QPen(self.palette().color(QPalette.ColorRole.Highlight), 2))

@@ -81,13 +81,6 @@ class SnapshotView(Protocol):
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
     """Simulate a scene and decode its picture.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-    settings
-        The settings of its simulation.
-
     Raises
     ------
     ParameterError
@@ -105,8 +98,6 @@ class SimulationController(QObject):
     ----------
     scenes
         The store of the scene, which is simulated at once and after every change.
-    settings
-        The store of the settings of the simulation.
     """
 
     picture_ready = Signal(object)
@@ -156,15 +147,7 @@ class SimulationController(QObject):
         return self.runner.is_idle
 
     def show_in(self, views: Sequence[SnapshotView], readers: Sequence[ReadingView] = ()) -> None:
-        """Set the panes that show the results; none arrives before the event loop runs.
-
-        Parameters
-        ----------
-        views
-            Panes that show pictures, and what follows from them alone; they come first.
-        readers
-            Panes that show readings, early ones too.
-        """
+        """Set the panes that show the results; none arrives before the event loop runs."""
         self._views, self._readers = views, readers
 
     def prepare_picture(self, whose: str) -> None:

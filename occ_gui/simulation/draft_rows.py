@@ -37,8 +37,6 @@ class DraftRows:
 
         Parameters
         ----------
-        rows
-            Rows of the picture.
         rows_per_pixel
             Rows of the picture that share a pixel of the screen.
         """

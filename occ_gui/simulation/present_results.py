@@ -16,11 +16,6 @@ class PresentResults(QObject):
 
     Results of an earlier scene are never given: whoever asks while a scene is computed waits for
     it. Where a scene has no picture, they are told so, and what they asked for is not done.
-
-    Parameters
-    ----------
-    simulation
-        Computes the results.
     """
 
     status_message = Signal(str)

@@ -24,8 +24,6 @@ class PictureView:
         The pixels.
     rows
         The rows of the whole picture that they show; a draft has some of them.
-    size
-        Rows and columns of the whole picture.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in the whole picture, each as (column, row).
     smallest
@@ -49,8 +47,6 @@ class Picture:
 
     Parameters
     ----------
-    frame
-        The frame.
     whose
         Whose picture of the frame it is, the ``"camera"``'s or the ``"receiver"``'s.
     halves : tuple of ndarray of uint8

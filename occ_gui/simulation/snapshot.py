@@ -25,16 +25,8 @@ class SimulationRequest:
 
     Parameters
     ----------
-    scene
-        The scene.
-    settings
-        The settings of its simulation.
-    whose
-        Whose picture is shown first, the ``"camera"``'s or the ``"receiver"``'s.
     draft_step
         A draft shows one of so many rows of the picture.
-    more
-        Decoders that are not quick, and read it as well.
     """
 
     scene: Scene
@@ -61,14 +53,8 @@ class ColumnView:
         Means of the panel's pixels in each column, before the receiver's enhancement and after it.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners in the picture, each as (column, row).
-    decoded
-        The result of the paper's decoder.
-    others
-        The results of the other quick decoders for the same signal.
     sent
         The transmitted bits in order of time; empty where a raw pattern is transmitted.
-    packet_columns
-        Columns that one period of the transmitted signal spans in the picture.
     has_edges
         Whether the light rises and falls in a time that is seen.
     band : ndarray of float64, shape (columns,), or None
@@ -116,17 +102,11 @@ class Reading(ColumnView):
 
     Parameters
     ----------
-    request
-        The scene and the settings that it was computed from.
     source
         What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
         exact ``"picture"``, which has the last word.
-    plan
-        The effects that were simulated.
     called_for
         Effects that were left out and the studies of the same scene take in, by label.
-    has_picture
-        Whether the exact picture is shown with it.
     """
 
     request: SimulationRequest
@@ -138,15 +118,7 @@ class Reading(ColumnView):
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Snapshot(Reading):
-    """The results for one scene with its exact picture.
-
-    Parameters
-    ----------
-    frame
-        The simulated picture.
-    reading_seconds
-        Computing time of the paper's decoder.
-    """
+    """The results for one scene with its exact picture."""
 
     frame: Frame
     reading_seconds: float

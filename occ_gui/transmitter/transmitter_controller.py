@@ -27,17 +27,7 @@ _BOARD = "transmitter/board"
 
 
 class TransmitterController(QObject):
-    """Fills the dialog, which follows the scene, and carries out what it asks for.
-
-    Parameters
-    ----------
-    window
-        The parent of the dialogs.
-    store
-        The store of the scene.
-    preferences
-        Stores the board and the folder.
-    """
+    """Fills the dialog, which follows the scene, and carries out what it asks for."""
 
     status_message = Signal(str)
     """What became of saving, where the dialog is closed."""
@@ -92,7 +82,6 @@ class TransmitterController(QObject):
         self._follow(self._store.scene)
 
     def _follow(self, scene: Scene) -> None:
-        """Show what the board makes of a scene."""
         if self.dialog is None:
             return
         self.dialog.show_note("")

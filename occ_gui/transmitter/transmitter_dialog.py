@@ -21,15 +21,7 @@ _FIGURE = QSize(700, 553)
 
 
 class TransmitterDialog(QDialog):
-    """Shows what a board makes of the present scene.
-
-    Parameters
-    ----------
-    boards
-        The boards' titles by their names.
-    parent
-        The window.
-    """
+    """Shows what a board makes of the present scene."""
 
     board_chosen = Signal(str)
     """The name of the board that the user has chosen."""

@@ -12,17 +12,7 @@ _LEAST_SIDE = 208
 
 
 class Door(QPushButton):
-    """Leads to one way of using the program.
-
-    Parameters
-    ----------
-    picture
-        Name of its drawing in ``resources/icons``.
-    title, sentence
-        What one finds behind it.
-    parent
-        The parent widget.
-    """
+    """Leads to one way of using the program."""
 
     def __init__(
         self, picture: str, title: str, sentence: str, parent: QWidget | None = None
@@ -57,7 +47,6 @@ class Door(QPushButton):
         self._picture.setPixmap(pixmap(self._name, colour, _PICTURE, self.devicePixelRatioF()))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
         super().changeEvent(event)
         if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange):
             self._draw()

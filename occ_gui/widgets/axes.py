@@ -34,8 +34,6 @@ class LogAxis(Axis):
 
     Parameters
     ----------
-    side
-        The side of the plot, ``"left"`` or ``"bottom"``.
     least
         The exponent at which all smaller values are drawn, too; it is labelled with ≤.
     """
@@ -71,7 +69,6 @@ class LogAxis(Axis):
     def tickStrings(  # noqa: N802 - pyqtgraph's name
         self, values: list[float], _scale: float, spacing: float
     ) -> list[str]:
-        """Return the numbers of the ticks."""
         if spacing < 1.0:
             return [""] * len(values)
         signs = ["≤ " if value == self._least else "" for value in values]

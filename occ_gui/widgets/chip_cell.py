@@ -31,10 +31,6 @@ def draw_digits(
 
     Parameters
     ----------
-    painter
-        Draws.
-    cells
-        The chips, each with its place.
     within
         The area that is seen: a digit that it would cut off is left out.
     """

@@ -25,14 +25,8 @@ class Chip:
 
     Parameters
     ----------
-    key
-        What it is about.
     text
         A few words, as HTML with ``sub`` only.
-    meaning
-        A sentence.
-    state
-        Its colours and its icon; a neutral one has no icon.
     """
 
     key: str
@@ -70,19 +64,16 @@ class ChipLabel(QWidget):
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of icon and text."""
         size = self._text.size()
         return QSize(math.ceil(self._left + size.width() + _PADDING), math.ceil(size.height()))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Measure the text in another font."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self._text.prepare(font=self.font())
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the rounded area, the icon and the text."""
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         colours = colours_of(self.chip.state, self.palette())
@@ -150,18 +141,15 @@ class ChipRow(QWidget):
             right -= width + _GAP
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show as many chips as fit."""
         super().resizeEvent(event)
         self._place()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of all chips."""
         hints = [label.sizeHint() for label in self._labels]
         width = sum(hint.width() + _GAP for hint in hints)
         return QSize(width, self.fontMetrics().height() + 6)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the width of the chip that counts the others."""
         return QSize(_MORE_WIDTH, self.sizeHint().height())
 
 

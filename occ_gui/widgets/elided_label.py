@@ -9,17 +9,7 @@ from occ_model.errors import one_line
 
 
 class ElidedLabel(QLabel):
-    """Shows as much of a text as fits, and the whole text in the tooltip.
-
-    Parameters
-    ----------
-    text
-        The text.
-    how
-        The position of the dots.
-    parent
-        The parent widget.
-    """
+    """Shows as much of a text as fits, and the whole text in the tooltip."""
 
     def __init__(
         self,
@@ -35,7 +25,6 @@ class ElidedLabel(QLabel):
         self.set_full_text(text)
 
     def set_full_text(self, text: str) -> None:
-        """Show a text in one line."""
         full = one_line(text, LONGEST)
         if full != self._full:
             self._full = full
@@ -49,14 +38,12 @@ class ElidedLabel(QLabel):
             self.setText(self.fontMetrics().elidedText(self._full, self._how, wanted[1]))
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Fit the text in another font."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange and hasattr(self, "_how"):
             self._fitted = None
             self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Fit the text to the new size."""
         super().resizeEvent(event)
         self._fit()
 

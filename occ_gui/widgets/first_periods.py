@@ -6,13 +6,7 @@ from occ_gui.widgets.plot import PACKETS_IN_VIEW
 
 
 def first_periods(has_packets: bool) -> tuple[str, str]:
-    """Return the text of the button and its tooltip.
-
-    Parameters
-    ----------
-    has_packets
-        Whether packets are sent, and not a raw pattern of chips.
-    """
+    """Return the text of the button and its tooltip."""
     if has_packets:
         text, tip = _tr("{count} packets"), _tr("Show the panel's first packets, and follow them.")
     else:

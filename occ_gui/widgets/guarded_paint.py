@@ -10,13 +10,7 @@ Paint = TypeVar("Paint", bound=Callable[..., None])
 
 
 def guarded(paint: Paint) -> Paint:
-    """Report an exception of a paint method as an unhandled one, and continue.
-
-    Parameters
-    ----------
-    paint
-        A method that Qt calls, such as ``paint`` or ``paintEvent``.
-    """
+    """Report an exception of a paint method as an unhandled one, and continue."""
 
     @wraps(paint)
     def draw(*arguments: Any) -> None:

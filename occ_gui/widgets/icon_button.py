@@ -13,12 +13,8 @@ class IconButton(QToolButton):
 
     Parameters
     ----------
-    drawing
-        The name of the icon.
     size
         Its width and height, independent of the screen.
-    parent
-        The parent widget.
     """
 
     def __init__(self, drawing: str, size: int, parent: QWidget | None = None) -> None:
@@ -28,7 +24,6 @@ class IconButton(QToolButton):
         self.setIconSize(QSize(size, size))
 
     def show_drawing(self, drawing: str) -> None:
-        """Show another icon."""
         self._drawing = drawing
         if self._is_drawn:
             self._draw()
@@ -45,7 +40,6 @@ class IconButton(QToolButton):
         super().paintEvent(event)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self._is_drawn:
             self._draw()

@@ -28,10 +28,6 @@ def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
 
     Parameters
     ----------
-    name
-        The file's name in ``resources/icons``, without its ending.
-    palette
-        The colours: that of text, and that of disabled text.
     size
         Width and height, independent of the screen.
     ratio

@@ -12,19 +12,7 @@ _BESIDE = 36
 
 
 class KeyedComboBox(QComboBox):
-    """A combo box that emits the key of the chosen word.
-
-    Parameters
-    ----------
-    name
-        The accessible name.
-    meaning
-        The tooltip.
-    words
-        The words by their keys.
-    parent
-        The parent widget.
-    """
+    """A combo box that emits the key of the chosen word."""
 
     chosen = Signal(str)
     """The key that the user has chosen."""
@@ -50,7 +38,6 @@ class KeyedComboBox(QComboBox):
         super().showPopup()
 
     def key(self) -> str:
-        """Return the key of the word shown."""
         return str(self.currentData())
 
     def show_key(self, key: str) -> None:

@@ -19,13 +19,7 @@ _PADDING = 8
 
 
 class OutdatedMark(QWidget):
-    """Dims a pane while its result belongs to an earlier scene, and says so.
-
-    Parameters
-    ----------
-    pane
-        The pane, which still receives all input.
-    """
+    """Dims a pane while its result belongs to an earlier scene, and says so."""
 
     def __init__(self, pane: QWidget) -> None:
         super().__init__(pane)
@@ -45,8 +39,6 @@ class OutdatedMark(QWidget):
         ----------
         age
             For how many seconds it has been outdated; zero if it is not.
-        text
-            Why it is outdated.
         """
         if age == 0.0 and self.isHidden() and not self._waiting.isActive():
             return
@@ -74,14 +66,12 @@ class OutdatedMark(QWidget):
             self.raise_()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Cover the pane whatever its size."""
         if event.type() == QEvent.Type.Resize:
             self.setGeometry(self._pane.rect())
         return super().eventFilter(watched, event)
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the veil, and the text on a plate at the top."""
         painter = QPainter(self)
         palette = self.palette()
         painter.setOpacity(_OPACITY)

@@ -90,8 +90,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
 
         Parameters
         ----------
-        side
-            The axis, ``"left"`` or ``"bottom"``.
         farthest
             The largest distance from zero in view, in the axis's unit.
         least_span
@@ -102,7 +100,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
         self.getViewBox().setLimits(**ends, **{f"min{axis}Range": least_span})
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the palette, as when the theme changes."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self.plotItem is not None:
             self.dress(self.palette())
@@ -153,12 +150,6 @@ def new_plot(
 
     Parameters
     ----------
-    name
-        The accessible name.
-    x, y
-        The names of the axes.
-    palette
-        The palette of its colours.
     left, bottom
         The axes; by default linear ones.
     """

@@ -9,12 +9,8 @@ class ScrollPane(QScrollArea):
 
     Parameters
     ----------
-    content
-        The content.
     least
         The least size in pixels.
-    parent
-        The parent widget.
     """
 
     def __init__(self, content: QWidget, least: QSize, parent: QWidget | None = None) -> None:
@@ -26,7 +22,6 @@ class ScrollPane(QScrollArea):
         self.setWidget(content)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Ask for another width when the content needs one."""
         handled = super().eventFilter(watched, event)
         if event.type() == QEvent.Type.LayoutRequest and watched is self.widget():
             self.updateGeometry()

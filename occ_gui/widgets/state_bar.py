@@ -60,7 +60,6 @@ class StateBar(QWidget):
             part.setParent(self)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of title and sentence."""
         return QSize(400, self.minimumSizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -125,7 +124,6 @@ class StateBar(QWidget):
         return next(fitting, self._sentences[-1])
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Place the parts anew."""
         super().resizeEvent(event)
         self._place()
 
@@ -146,14 +144,8 @@ class StateBar(QWidget):
 
         Parameters
         ----------
-        state
-            The state.
         title
             The state in a few words.
-        sentences
-            Why it is so; the same more briefly, where there is less room.
-        chips
-            What holds beside.
         """
         shown = (state, title, sentences, tuple(chips))
         if shown == self._shown:
@@ -187,7 +179,6 @@ class StateBar(QWidget):
         self.update()
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme and the size of text."""
         super().changeEvent(event)
         if not hasattr(self, "chips"):
             return

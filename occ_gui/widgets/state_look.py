@@ -26,15 +26,7 @@ class State(Enum):
 
 @dataclass(frozen=True, slots=True)
 class StateColours:
-    """The colours of a state.
-
-    Parameters
-    ----------
-    ink
-        Of text and lines on ``paper``.
-    paper
-        Of the area behind them.
-    """
+    """The colours of a state."""
 
     ink: QColor
     paper: QColor
@@ -144,8 +136,6 @@ class StateIcon(QWidget):
     ----------
     side
         Its side in pixels.
-    parent
-        The parent widget.
     """
 
     def __init__(self, side: int, parent: QWidget | None = None) -> None:
@@ -156,7 +146,6 @@ class StateIcon(QWidget):
 
     @property
     def state(self) -> State:
-        """The state that is shown."""
         return self._state
 
     def show_state(self, state: State) -> None:
@@ -167,7 +156,6 @@ class StateIcon(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the icon."""
         painter = QPainter(self)
         draw_state(
             painter, QRectF(self.rect()), self._state, colours_of(self._state, self.palette())

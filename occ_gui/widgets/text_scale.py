@@ -19,10 +19,6 @@ def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
 
     Parameters
     ----------
-    font
-        The application's font, whose size is that of the body.
-    size
-        The size.
     bold
         Whether it is a heading's weight.
     """

@@ -11,15 +11,7 @@ _PATIENCE_MS = 300
 
 
 class WorkBar(QWidget):
-    """A progress bar and a cancel button, hidden while there is no work.
-
-    Parameters
-    ----------
-    what
-        The accessible name of the bar.
-    parent
-        The parent widget.
-    """
+    """A progress bar and a cancel button, hidden while there is no work."""
 
     cancelled = Signal()
 
@@ -53,6 +45,5 @@ class WorkBar(QWidget):
         self.progress.setValue(round(_STEPS * share))
 
     def end(self) -> None:
-        """Hide the bar."""
         self._patience.stop()
         self.hide()

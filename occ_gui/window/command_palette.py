@@ -34,19 +34,7 @@ _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A command that can be found by its text.
-
-    Parameters
-    ----------
-    title
-        Its menu and name.
-    hint
-        Its keyboard shortcut.
-    run
-        Carries it out.
-    words
-        What it can be found by besides.
-    """
+    """A command that can be found by its text."""
 
     title: str
     hint: str
@@ -60,15 +48,7 @@ class Command:
 
 
 class CommandPalette(QDialog):
-    """Lists the commands that match the typed text; Enter carries out the selected one.
-
-    Parameters
-    ----------
-    commands
-        All commands.
-    parent
-        The window.
-    """
+    """Lists the commands that match the typed text; Enter carries out the selected one."""
 
     def __init__(self, commands: Sequence[Command], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -152,17 +132,7 @@ def shortcuts_of(bar: QMenuBar) -> Iterator[tuple[str, str, str]]:
 def commands_of(
     bar: QMenuBar, controls: ControlPanel, bring_to_front: Callable[[str], None]
 ) -> list[Command]:
-    """List the enabled menu entries, and a command for each parameter that selects its field.
-
-    Parameters
-    ----------
-    bar
-        The menus.
-    controls
-        The controls of the parameters.
-    bring_to_front
-        Shows the pane of a name.
-    """
+    """List the enabled menu entries, and a command for each parameter that selects its field."""
     found = [
         Command(
             f"{path}: {plain(action.text())}",

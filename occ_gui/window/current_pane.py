@@ -10,15 +10,7 @@ PICTURE = "picture"
 
 
 class CurrentPane(QObject):
-    """Follows the keyboard focus and the tabs from pane to pane.
-
-    Parameters
-    ----------
-    window
-        The window, with the picture in its middle.
-    docks
-        Its docks, by name.
-    """
+    """Follows the keyboard focus and the tabs from pane to pane."""
 
     def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
         super().__init__(window)

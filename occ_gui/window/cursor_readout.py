@@ -87,15 +87,7 @@ class _ProfileFollower(_Follower):
 
 
 class CursorReadout(QObject):
-    """Reports position and grey level under the mouse.
-
-    Parameters
-    ----------
-    profile
-        The pane of the column profile.
-    image
-        The pane of the picture and the photo.
-    """
+    """Reports position and grey level under the mouse."""
 
     moved = Signal(str)
     """Position and grey level as a text; empty outside of the panes."""

@@ -22,17 +22,7 @@ def beside(place: QRect, screen: QRect) -> QRect:
 
 
 class Dock(QDockWidget):
-    """A pane that can be moved, hidden and floated.
-
-    Parameters
-    ----------
-    name, title
-        Its name in the program and its title on the screen.
-    content
-        Its widget.
-    parent
-        The window.
-    """
+    """A pane that can be moved, hidden and floated."""
 
     opened_by_user = Signal()
     """Its entry in the menu has shown it."""
@@ -51,12 +41,10 @@ class Dock(QDockWidget):
             self.opened_by_user.emit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Note its place."""
         super().resizeEvent(event)
         self._note_place()
 
     def moveEvent(self, event: QMoveEvent) -> None:  # noqa: N802 - Qt's name
-        """Note its place."""
         super().moveEvent(event)
         self._note_place()
 

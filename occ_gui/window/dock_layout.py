@@ -11,17 +11,7 @@ _GEOMETRY, _MODE, _STATE = "window/geometry", "window/mode", "window/layout"
 
 
 class DockLayout(QObject):
-    """Stores position and size of the window, its mode, and the layout of each mode.
-
-    Parameters
-    ----------
-    window
-        The window.
-    modes
-        Its modes.
-    preferences
-        Where they are stored.
-    """
+    """Stores position and size of the window, its mode, and the layout of each mode."""
 
     def __init__(self, window: QMainWindow, modes: ModeSwitch, preferences: Preferences) -> None:
         super().__init__(window)

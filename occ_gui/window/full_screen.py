@@ -6,15 +6,7 @@ from PySide6.QtWidgets import QMainWindow
 
 
 class FullScreen(QObject):
-    """Connects the entry of the menu with the window's state, whoever changes it.
-
-    Parameters
-    ----------
-    window
-        The window.
-    action
-        The entry, which is checked while the window is in full screen.
-    """
+    """Connects the entry of the menu with the window's state, whoever changes it."""
 
     def __init__(self, window: QMainWindow, action: QAction) -> None:
         super().__init__(window)
@@ -30,7 +22,6 @@ class FullScreen(QObject):
         self._window.setWindowState(state | flag if full else state & ~flag)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Follow a change that the desktop made."""
         if watched is self._window and event.type() == QEvent.Type.WindowStateChange:
             self._action.setChecked(self._window.isFullScreen())
         return False

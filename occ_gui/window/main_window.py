@@ -44,15 +44,7 @@ _LEAST_DECODING = QSize(320, 264)
 
 
 class MainWindow(QMainWindow):
-    """Docks, menus and status bar; :mod:`occ_gui.app.application` connects them.
-
-    Parameters
-    ----------
-    controls, story, profile, decode, photo, accuracy, detection
-        The panes.
-    undo_stack
-        The steps that the edit menu undoes and redoes.
-    """
+    """Docks, menus and status bar; :mod:`occ_gui.app.application` connects them."""
 
     closing = Signal()
     """The window is about to close."""
@@ -130,15 +122,7 @@ class MainWindow(QMainWindow):
             QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))
 
     def add_pane(self, name: str, title: str, content: QWidget) -> Dock:
-        """Add a pane, and its entry in the view menu, before the window is shown.
-
-        Parameters
-        ----------
-        name, title
-            Its name in the program and its title on the screen.
-        content
-            Its widget.
-        """
+        """Add a pane, and its entry in the view menu, before the window is shown."""
         dock = self._dock(name, title, content)
         self.docks[name] = dock
         leave_drops_to_window(dock)
@@ -230,8 +214,6 @@ class MainWindow(QMainWindow):
 
         Parameters
         ----------
-        sentence
-            The sentence.
         until
             The event that removes it, which :meth:`happened` reports; by default the next sentence.
         """
@@ -248,7 +230,6 @@ class MainWindow(QMainWindow):
             self._status_line.clearMessage()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Lay out the panes as soon as the window has a size."""
         super().showEvent(event)
         if not self.modes.is_shown:
             self.modes.begin()
@@ -274,17 +255,14 @@ class MainWindow(QMainWindow):
                 QTimer.singleShot(0, self, lambda: self.resize(size))
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
-        """Accept what may be files."""
         if event.mimeData().hasUrls():
             event.acceptProposedAction()
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
-        """Emit the paths of the dropped files."""
         event.acceptProposedAction()
         urls = [url for url in event.mimeData().urls() if url.isLocalFile()]
         self.dropped.emit([Path(url.toLocalFile()) for url in urls])
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
-        """Emit a signal before the window closes."""
         self.closing.emit()
         super().closeEvent(event)

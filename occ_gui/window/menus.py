@@ -29,17 +29,7 @@ _WITH_MATCH = ("apply_match", "save_match")
 
 
 class Menus(QObject):
-    """The menus of a window.
-
-    Parameters
-    ----------
-    window
-        The window.
-    undo_stack
-        The steps that the edit menu undoes and redoes.
-    docks
-        The docks that the view menu shows and hides.
-    """
+    """The menus of a window."""
 
     def __init__(
         self, window: QMainWindow, undo_stack: QUndoStack, docks: Iterable[QDockWidget]
@@ -109,13 +99,7 @@ class Menus(QObject):
         self._add(self._export, "export_all", self.tr("A&ll figures…"), keys)
 
     def add_figures(self, titles: Mapping[str, str]) -> None:
-        """Add figures to the export menu.
-
-        Parameters
-        ----------
-        titles
-            The figures' titles by their names; each gets the action ``export_NAME``.
-        """
+        """Add figures to the export menu."""
         for name, title in titles.items():
             action = QAction(self.tr("{figure}…").format(figure=title), self._export)
             action.setToolTip(self.tr("As PNG, SVG, PDF or CSV, with the scene inside."))
@@ -125,15 +109,7 @@ class Menus(QObject):
             give_words(f"export_{name}", action)
 
     def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
-        """Offer an animation of each of these sliders in the export menu.
-
-        Parameters
-        ----------
-        labels
-            The labels of the parameters by their names.
-        ask
-            Asks for the file of the animation of a parameter.
-        """
+        """Offer an animation of each of these sliders in the export menu."""
         menu = QMenu(self.tr("A&nimation of a slider"), self._export)
         self._export.insertMenu(self._after_figures, menu)
         menu.setToolTipsVisible(True)

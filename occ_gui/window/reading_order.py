@@ -20,13 +20,9 @@ def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWid
 
     Parameters
     ----------
-    window
-        The window.
     after
         The widget that has the focus; one that the Tab key does not reach, or none, stands before
         the first and after the last.
-    forward
-        Whether to go on, as Tab does, or back.
     """
     stops = list(focus_stops(window))
     if not stops:

@@ -52,7 +52,6 @@ class StatusLine(QStatusBar):
         self._show_sentence()
 
     def clearMessage(self) -> None:  # noqa: N802 - Qt's name
-        """Remove the message."""
         self.showMessage("")
 
     def currentMessage(self) -> str:  # noqa: N802 - Qt's name
@@ -89,7 +88,6 @@ class StatusLine(QStatusBar):
         )
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Share the width."""
         super().resizeEvent(event)
         self._sentence.setMinimumWidth(round(_MESSAGE_SHARE * self.width()))
         self.pointed.setMaximumWidth(round(_POINTED_SHARE * self.width()))
@@ -123,6 +121,5 @@ class _Readout(ElidedLabel):
         self.updateGeometry()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of the whole text."""
         width = self.fontMetrics().horizontalAdvance(self._full) + _GAP + 1
         return QSize(width if self._full else 0, super().sizeHint().height())

@@ -13,16 +13,10 @@ class Board:
 
     Parameters
     ----------
-    name
-        The identifier.
-    title
-        The name of its makers.
     clock
         Frequency in Hz of the clock that its timer counts.
     clock_error
         How far that frequency may be off, in parts per million, by the data sheet of what makes it.
-    prescalers
-        By what the timer can divide the clock.
     largest_count
         The largest number of divided cycles that it counts for a chip.
     least_cycles
@@ -39,10 +33,6 @@ class Board:
         A MOSFET that this voltage switches on wholly.
     table_bytes
         Room for the packet, in bytes.
-    language
-        What the sketch is written in.
-    ending
-        Of the sketch's file.
     """
 
     name: str

@@ -23,8 +23,6 @@ class ChipTiming:
     ----------
     clock
         Frequency of the board's clock in Hz.
-    prescaler
-        By what the timer divides it.
     count
         How many divided cycles a chip lasts.
     asked
@@ -67,14 +65,8 @@ def best_timing(board: Board, frequency: float) -> ChipTiming:
 
     Parameters
     ----------
-    board
-        The board.
     frequency
         The switching frequency in Hz.
-
-    Returns
-    -------
-    ChipTiming
 
     Raises
     ------

@@ -21,10 +21,6 @@ class Transmission:
 
     Parameters
     ----------
-    scene
-        The scene, as it was asked for.
-    board
-        The board.
     chips : ndarray of uint8, shape (chips,)
         One period, first sent first; 1 is lit.
     timing

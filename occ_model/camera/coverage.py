@@ -37,8 +37,6 @@ class CoveredPart:
 
     Parameters
     ----------
-    columns
-        The columns.
     share
         The share of the light in each pixel that comes from the panel: one for all pixels, or an
         array of float32, shape (rows, columns).
@@ -87,8 +85,6 @@ class Coverage:
     ----------
     outline : ndarray of float64, shape (corners, 2)
         (column, row) of each corner, in order round the panel; it may be concave.
-    rows, columns
-        Size of the picture.
     blur
         Standard deviation of the blur in pixels; 0 for none.
     """
@@ -295,8 +291,6 @@ def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArr
     ----------
     outline : ndarray of float64, shape (corners, 2)
         (column, row) of each corner, in order.
-    rows, columns
-        Size of the picture.
 
     Returns
     -------

@@ -210,8 +210,6 @@ def enhance(profile: FloatArray, method: str) -> ByteArray:
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
-    method
-        As for :class:`Enhancement`.
 
     Returns
     -------

@@ -32,8 +32,6 @@ def column_phases(
 
     Parameters
     ----------
-    scene
-        The scene.
     period
         The number of chips of one sent period.
     shift
@@ -86,8 +84,6 @@ def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
 
     Parameters
     ----------
-    scene
-        The scene.
     frequency
         Of the signal, in Hz.
     delay

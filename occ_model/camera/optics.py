@@ -14,8 +14,6 @@ class Gain:
 
     Parameters
     ----------
-    stage
-        The stage that its time is counted under.
     at
         Gives the factors at some rows, which may lie between pixels, and in some columns.
     """
@@ -54,10 +52,6 @@ class Optics:
         The panel's outline in the picture, (column, row) of each corner.
     blur
         Standard deviation of the lens's blur in pixels.
-    emission
-        Factors of the panel's own light.
-    transmission
-        Factors of all light.
     cover_stage
         The stage that the time to compute the panel's coverage is counted under.
     """

@@ -42,8 +42,6 @@ class Rim:
 
     Parameters
     ----------
-    columns
-        The columns.
     values : ndarray of float32, shape (rows, columns)
         Mean pixel values before saturation.
     inside : ndarray of bool, shape (rows, columns)
@@ -67,8 +65,6 @@ class Rows:
         Mean pixel values before saturation at the nodes; one row where all rows are alike.
     weights : ndarray of float32, shape (rows, nodes), or None
         What makes the rows of the nodes; None where these are the rows themselves, or one.
-    rims
-        The columns that differ from this.
     inside
         The columns in which all rows show the panel.
     """
@@ -95,8 +91,6 @@ class Rows:
 
         Parameters
         ----------
-        operation
-            Such as a sum or a product.
         target : ndarray of float32, shape (rows, columns)
             The pixels.
         nodes, rims
@@ -128,10 +122,6 @@ class PictureRows:
 
     Parameters
     ----------
-    scene
-        The scene.
-    optics
-        The imaging of the panel.
     panel, surroundings : ndarray of float64, shape (columns,)
         Pixel values of each column before saturation.
     """

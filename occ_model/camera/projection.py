@@ -121,8 +121,6 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
     ----------
     corners : ndarray of float64, shape (corners, 2)
         (column, row) of each, in order.
-    rows, columns
-        Size of the image.
 
     Returns
     -------

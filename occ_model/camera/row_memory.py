@@ -42,10 +42,6 @@ class RowMemory:
 
         Parameters
         ----------
-        key
-            All that it depends on.
-        make
-            Makes it.
         arrays
             Returns the arrays that it has, which nobody may write to from now on.
         """

@@ -73,8 +73,6 @@ def deviation(
     ----------
     values : ndarray of float64
         Mean pixel values before saturation.
-    scene
-        The scene.
     variance
         Gives the variance of electrons for their mean number.
 

@@ -39,12 +39,6 @@ class Written:
 
     Parameters
     ----------
-    what
-        Its name in messages.
-    ending
-        Its usual ending.
-    refused
-        Endings of other kinds of files.
     names
         The files that are written, where the path is that of their folder.
     """

@@ -14,13 +14,7 @@ _SETTINGS = "TQDM_"
 
 
 def progress_bar(**options: Any) -> Any:
-    """Return a bar of tqdm's, whatever the user's environment holds for tqdm.
-
-    Parameters
-    ----------
-    **options
-        As for ``tqdm.tqdm``, but ``file``.
-    """
+    """Return a bar of tqdm's, whatever the user's environment holds for tqdm."""
     return _bar_class()(file=sys.stderr, **options)
 
 

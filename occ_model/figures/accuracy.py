@@ -33,10 +33,6 @@ def write_accuracy_figure(
 
     Parameters
     ----------
-    folder
-        The folder to write to.
-    scene, settings
-        The scene and the settings that were measured.
     points
         As :func:`occ_model.study.accuracy.accuracy` gives them.
 

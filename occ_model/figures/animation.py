@@ -71,16 +71,12 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     ----------
     path
         The file: .gif, .mp4 or .png. The scene is kept inside.
-    scene
-        The scene.
     name, values
         The parameter, a quantity, and its values in SI units, one a frame.
     settings
         The settings of the simulation; by default the standard ones.
     rate
         Frames a second.
-    decoder
-        The decoder's name.
     progress
         Called with the number of frames done after each one; what it raises ends the work.
 

@@ -27,13 +27,6 @@ def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
     """Draw the steps of decoding, up to the code or to the step that failed.
 
     The table gives columns of the region, as they are drawn, and of the whole picture.
-
-    Parameters
-    ----------
-    scene
-        The scene.
-    result
-        The decoder's result.
     """
     message = printable(result.failure or f"{_read(result)} read by the {result.decoder} decoder")
 

@@ -114,12 +114,8 @@ class Drawing:
     ----------
     name
         The file's name without ending.
-    title
-        What the figure shows.
     draw
         Function that draws the figure, to be called within :func:`house_style`.
-    header
-        Names of the table's columns, with units.
     rows
         Function that gives the table's rows.
     """
@@ -163,17 +159,8 @@ def write_all(
 
     Parameters
     ----------
-    folder
-        The folder to write to.
-    drawings
-        The drawings.
     provenance
         Function that gives the provenance of each.
-
-    Returns
-    -------
-    list of Path
-        The files.
 
     Raises
     ------

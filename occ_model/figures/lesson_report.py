@@ -39,10 +39,6 @@ def write_lesson_report(
     path
         The file: .pdf, or .md with its figures in a folder beside it; .png or .svg where one page
         holds it all.
-    lesson
-        The lesson.
-    steps
-        Its steps with the answers, in order.
     author, date
         Who wrote it, and when; each may be empty.
 

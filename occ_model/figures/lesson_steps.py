@@ -58,12 +58,6 @@ def draw_page(
 
     Parameters
     ----------
-    title, about
-        The heading and the line below it.
-    foot
-        The line at the bottom.
-    steps
-        The steps on this page.
     first
         The number of the first of them.
     """

@@ -95,12 +95,8 @@ def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, .
 
     Parameters
     ----------
-    ax
-        The axes of the picture.
     cells : ndarray of float64, shape (cell rows, cell columns)
         The part of the photo that is seen, averaged for print.
-    layer
-        Place and opacity of the photo.
     shape
         Rows and columns of the whole photo.
     """

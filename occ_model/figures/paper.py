@@ -140,12 +140,6 @@ def write_rate_figure(
 
     Parameters
     ----------
-    folder
-        The folder to write to.
-    number
-        The figure's number.
-    device
-        The device's name.
     tables
         The rates of each of the device's presets, measured alike.
     """

@@ -55,10 +55,6 @@ def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> 
     ----------
     path
         The file: PNG, PDF or SVG, with its provenance inside.
-    table
-        The rates.
-    shown
-        What is drawn.
 
     Raises
     ------
@@ -79,15 +75,7 @@ def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> 
 
 
 def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
-    """Draw a table's success rates, or bits a second, over one axis or two.
-
-    Parameters
-    ----------
-    table
-        The rates.
-    shown
-        What is drawn; the table holds both.
-    """
+    """Draw a table's success rates, or bits a second, over one axis or two."""
     names = list(table.axes)
 
     def rows() -> Iterable[tuple[object, ...]]:

@@ -16,14 +16,8 @@ def write_table(
 
     Parameters
     ----------
-    path
-        The file.
-    header
-        Names of the columns, with units.
     rows
         The rows; None becomes an empty cell.
-    provenance
-        Written first, each line after a ``#``.
 
     Raises
     ------

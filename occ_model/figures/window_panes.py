@@ -56,10 +56,6 @@ def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
 
     Parameters
     ----------
-    figure
-        The figure.
-    scene
-        The scene.
     about
         A sentence on the photo; empty without one.
     """
@@ -88,8 +84,6 @@ def picture_drawing(
 
     Parameters
     ----------
-    frame
-        The simulated picture.
     region
         The rectangle that the decoder read, None where it read none.
     photo : ndarray of uint8, shape (rows, columns), or None
@@ -193,8 +187,6 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
 
     Parameters
     ----------
-    frame
-        The simulation.
     band : ndarray of float64, shape (columns,), or None
         The band model's profile, None where it is undefined.
     undefined

@@ -17,8 +17,6 @@ class Container:
 
     Parameters
     ----------
-    name
-        Its name.
     reader
         What reads it: OpenCV with its FFmpeg, or Pillow.
     time_step

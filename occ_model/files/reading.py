@@ -32,8 +32,6 @@ def read_bytes(path: Path, largest: int) -> bytes:
 
     Parameters
     ----------
-    path
-        The file; a symbolic link is followed.
     largest
         Bytes that are allowed.
 
@@ -53,8 +51,6 @@ def read_start(path: Path, count: int) -> bytes:
 
     Parameters
     ----------
-    path
-        The file; a symbolic link is followed.
     count
         Bytes that are read at most.
 
@@ -87,8 +83,6 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
 
     Parameters
     ----------
-    path
-        The file; a symbolic link is followed.
     largest
         Bytes that are allowed.
 

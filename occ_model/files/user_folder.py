@@ -9,8 +9,6 @@ def user_folder(variable: str, name: str) -> Path:
 
     Parameters
     ----------
-    variable
-        The environment variable that names another folder.
     name
         The folder's name within the program's own.
     """

@@ -55,8 +55,6 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
 
     Parameters
     ----------
-    path
-        The file.
     image : ndarray of uint8, shape (rows, columns)
         The image.
     description

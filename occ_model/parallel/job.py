@@ -28,8 +28,6 @@ class WorkersLostError(OccError):
 
     Parameters
     ----------
-    reason
-        How the last workers ended.
     times
         How often workers ended one after the other without a result.
     """
@@ -48,8 +46,6 @@ class Job:
     function
         A function of some module. It takes a :data:`Heartbeat` after the arguments and must not
         need Qt.
-    arguments
-        Values that can be sent to a process.
     counter
         The counter that the job's heartbeats are added to.
     """
@@ -175,14 +171,10 @@ def counting_heartbeat(
 
     Parameters
     ----------
-    job
-        The job that the heartbeat is for.
     channel, run
         Where the job belongs.
     first_runs
         The earliest run of each channel that is still wanted.
-    counts
-        The heartbeats of each counter.
     """
 
     def heartbeat() -> None:

@@ -11,12 +11,8 @@ class Reports:
 
     Parameters
     ----------
-    listener
-        Receives the results.
     interval
         Seconds between two reports of a channel, at least.
-    stage_interval
-        The same during an uninterruptible stage.
     clock
         Gives the time in seconds.
     """

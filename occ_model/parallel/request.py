@@ -48,12 +48,8 @@ class Run:
 
     Parameters
     ----------
-    channel
-        The channel.
     number
         The number of the run; later runs of a channel have higher ones.
-    stages
-        Gives the stages.
     """
 
     channel: int

@@ -39,8 +39,6 @@ class Scheduler:
     ----------
     start
         Starts the workers; called at the first job.
-    listener
-        Receives the results.
     fallback
         Starts workers that replace processes where none can be started. None: the runs fail.
     interval

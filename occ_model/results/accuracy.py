@@ -29,10 +29,6 @@ class AccuracyPoint:
     ----------
     part
         The part of the study: a name from ``ACCURACY_PARTS``.
-    name
-        The way to simulate.
-    seconds
-        Its time.
     error
         Root mean square difference from the most exact way, in levels of the stretched profile.
     current

@@ -41,12 +41,6 @@ class EndFacts:
 
     Parameters
     ----------
-    parameter
-        The parameter's name.
-    side
-        Which end of the range it is.
-    works
-        The last value at which the decoder reads.
     fails
         The first value beyond at which it does not: reading stopped. None: the search stopped, at
         the end of the values that it tries.
@@ -77,12 +71,8 @@ class RangeFacts:
 
     Parameters
     ----------
-    found
-        The range found by trial.
     ends
         Its lowest end and its highest; empty where the decoder reads nowhere.
-    theory
-        The limits that theory gives.
     """
 
     found: WorkingRange
@@ -96,8 +86,6 @@ class Advice:
 
     Parameters
     ----------
-    limits
-        The search's answer, with its settings.
     frequency, exposure
         The facts on the switching frequency and on the exposure time.
     """

@@ -12,8 +12,6 @@ def assumption(name: str, value: float, chips: int) -> str:
 
     Parameters
     ----------
-    name
-        The parameter that was taken as known.
     value
         Its value in SI units.
     chips

@@ -38,8 +38,6 @@ class BenchRequest:
         Rows that are read out while a symbol lasts.
     payload_bits
         Bits of a payload; each picture shows another one.
-    bits
-        Bits at each point at the least.
     seed
         Seed of payloads, start times and noise.
     preamble, error_correction
@@ -84,14 +82,8 @@ class BenchPoint:
 
     Parameters
     ----------
-    scheme
-        As in the request.
-    axis
-        ``"exposure"`` or ``"noise"``: what is varied.
     exposure, decibels
         The exposure in symbols and the signal-to-noise ratio.
-    errors
-        The bit errors.
     note
         Why the first payload was not read that was not; empty where all were.
     """

@@ -91,8 +91,6 @@ def bits_a_second(share: float, bits: int, frames_a_second: float, readout_time:
     ----------
     share
         Of the pictures of which every bit is right.
-    bits
-        Bits of a payload.
     frames_a_second
         Pictures a second.
     readout_time

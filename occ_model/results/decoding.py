@@ -43,8 +43,6 @@ class Location:
 
     Parameters
     ----------
-    region
-        The rectangle.
     bright_level
         The grey level from which a pixel counts as bright.
     contours

@@ -93,8 +93,6 @@ class EffectCrop:
         The camera's pixels, both stretched in the same way to the full range of grey.
     difference : ndarray of uint8, shape (rows, columns)
         The first less the second in grey levels, multiplied by ``amplification``, around 128.
-    amplification
-        Factor of the difference.
     is_averaged
         Whether it is the whole panel, reduced by averaging areas; otherwise real pixels.
     """
@@ -112,8 +110,6 @@ class EffectDifference:
 
     Parameters
     ----------
-    effect
-        The effect's name.
     error
         Root mean square of the change of the observable, in levels of the stretched profile.
     change : ndarray of float64, shape (samples,)
@@ -135,14 +131,10 @@ class MeasuredCosts:
 
     Parameters
     ----------
-    picture
-        The times of the picture that is shown.
     others
         Those of pictures of its scene that were made in turn, among them one with all effects and
         one with none: the first gives the times of effects that the picture leaves out, the second
         that of everything else where no effect makes rows differ.
-    differences
-        What each effect changes, by its name.
     errors
         Errors measured as a whole, by the effects of the scene that are included.
     """
@@ -190,16 +182,12 @@ class Forecast:
 
     Parameters
     ----------
-    plan
-        Its plan.
     seconds
         Its expected time, None where a time is not known yet.
     error
         Its expected error, root mean square in levels of the stretched profile: that of the changes
         of all effects left out, added up as if none influenced another. None where a change is not
         known yet.
-    is_measured
-        Whether the error was measured as a whole.
     """
 
     plan: Plan

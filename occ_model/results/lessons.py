@@ -45,16 +45,6 @@ class Step:
 
     Parameters
     ----------
-    goal
-        What to reach, in one sentence.
-    text
-        What to look at.
-    question
-        What to find out.
-    answer
-        The explanation, to compare with.
-    scene
-        The scene to show.
     pane
         The pane to show it in, empty for the current one.
     photo
@@ -115,14 +105,8 @@ class Lesson:
 
     Parameters
     ----------
-    name
-        The file's name.
-    title
-        Its title.
     summary
         What one can do after it, in one sentence.
-    steps
-        Its steps, in order.
     is_sheet
         Whether it is a lab sheet, which ends with a measurement of one's own.
     """
@@ -140,12 +124,8 @@ class CheckedAnswer:
 
     Parameters
     ----------
-    text
-        As it was typed.
     outcome
         Whether it is right, near, wrong, or no number; None where the answer is in words.
-    sentence
-        What to tell the student.
     """
 
     text: str
@@ -175,8 +155,6 @@ class AnsweredStep:
 
     Parameters
     ----------
-    step
-        The step.
     answer
         The answer; None where there is none.
     scene
@@ -184,8 +162,6 @@ class AnsweredStep:
         where there is no answer.
     match
         The match of the photo that was open, where the step is about one; the report draws it.
-    photo
-        The name of that photo.
     """
 
     step: Step

@@ -15,8 +15,6 @@ class Trial:
     ----------
     value
         The parameter, in SI units.
-    right, sent
-        Bits read rightly, and bits sent.
     low, high
         The 95 % interval of the success rate, percent, which counts images.
     images
@@ -47,8 +45,6 @@ class RangeEnd:
 
     Parameters
     ----------
-    works
-        The last value at which the decoder reads.
     fails
         The first value beyond, at which it does not; None where it reads to the end of the search.
     inside
@@ -85,15 +81,9 @@ class WorkingRange:
 
     Parameters
     ----------
-    parameter
-        Its name.
-    searched
-        The lowest and the highest value tried.
     step
         Ratio of neighbouring values of the search: a gap or an interval narrower than that can be
         missed.
-    own
-        All images at the scene's own value.
     intervals
         Where the decoder reads, rising; between them are gaps. Empty where it reads nowhere.
     failure

@@ -24,8 +24,6 @@ class PhotoRow:
 
     Parameters
     ----------
-    path
-        The file.
     verdict
         One of :data:`VERDICTS`.
     note

@@ -26,10 +26,6 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
 
     Parameters
     ----------
-    table
-        The table.
-    more
-        Further comment lines.
     condition
         The value that the estimates rest on where it is only assumed, as ``"if f = 10 kHz: "``;
         empty where it is known.

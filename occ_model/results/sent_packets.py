@@ -68,8 +68,6 @@ class FilmPart:
     ----------
     start, duration
         When its first frame began by the film's clock, and how long it is, in seconds.
-    count
-        Packets that began and ended in it.
     begin, step
         When the first of them began after ``start``, and the time from one to the next, in seconds.
     first_part
@@ -93,12 +91,8 @@ class SentPackets(Sequence[PacketReading]):
 
     Parameters
     ----------
-    parts
-        The parts of the film.
     in_view
         The packets of which frames show chips, in order.
-    sub_packets
-        Sub-packets of a payload.
     """
 
     parts: tuple[FilmPart, ...] = ()

@@ -23,10 +23,6 @@ class SweepRow:
     ----------
     point
         The varied parameters, in SI units.
-    decoder
-        The decoder's name.
-    right, sent
-        Bits read rightly, and bits sent.
     rate
         Percent; None where the model refuses the scene.
     low, high

@@ -60,10 +60,6 @@ def point_text(
 
     Parameters
     ----------
-    request
-        The sweep.
-    point
-        The point's counts.
     intervals
         The interval of each decoder's rate, percent; not a number where the model refuses the
         scene.
@@ -81,13 +77,7 @@ def point_text(
 
 
 class PointReader:
-    """Reads the text that :func:`point_text` writes.
-
-    Parameters
-    ----------
-    request
-        The sweep.
-    """
+    """Reads the text that :func:`point_text` writes."""
 
     def __init__(self, request: SweepRequest) -> None:
         self._axes = [

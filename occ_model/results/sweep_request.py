@@ -48,16 +48,8 @@ class RateSettings:
 
     Parameters
     ----------
-    images
-        Number of images.
-    decoders
-        The decoders' names; all read the same images.
     seed
         Seed of the images' start times and noise.
-    tolerance, force
-        As for :func:`occ_model.plan`.
-    path
-        As for :func:`occ_model.success_rate`.
     frames_a_second
         Images a second by which bits a second are counted; it changes no rate.
     """
@@ -81,8 +73,6 @@ class SweepRequest:
         The scene, which gives the parameters that are not varied.
     axes
         The values of each parameter that is varied, in SI units.
-    settings
-        How each rate is measured.
     """
 
     scene: Scene
@@ -111,13 +101,6 @@ class SweepRequest:
         """Give the net bits a second of a point; None where the model refuses the scene.
 
         Each image shows another payload, and counts where all its bits are right.
-
-        Parameters
-        ----------
-        point
-            The point's counts.
-        decoder
-            The decoder's place.
         """
         if not point.sent or not point.whole:
             return None

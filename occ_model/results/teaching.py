@@ -15,8 +15,6 @@ class Term:
     ----------
     text
         As HTML with ``sub`` and ``sup`` only.
-    parameters
-        The parameters that it depends on, by name.
     """
 
     text: str
@@ -62,10 +60,6 @@ class ExposureWindow:
 
     Parameters
     ----------
-    column
-        Its number.
-    start, end
-        When the exposure begins and ends.
     edges : ndarray of float64, shape (chips + 1,)
         Start of each chip around the exposure, and end of the last one.
     lit : ndarray of uint8, shape (chips,)
@@ -187,8 +181,6 @@ class MarkedValue:
     ----------
     value
         The value, in SI units.
-    label
-        A short name; an index follows an underscore.
     meaning
         What happens there, in a sentence.
     """

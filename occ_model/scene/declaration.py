@@ -18,8 +18,6 @@ class Declaration:
         The field's term for it, as on screen.
     symbol
         The symbol in the paper's equations, empty where it has none.
-    meaning
-        One line that says what it is.
     """
 
     name: str

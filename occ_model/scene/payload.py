@@ -133,8 +133,6 @@ class Piece:
     ----------
     sent, received
         How it is written; ``received`` is empty where its bits were not received.
-    is_right
-        Whether all its bits are those sent.
     first, last
         Its first bit among those sent, and the one after its last.
     """

@@ -25,12 +25,6 @@ class Preset:
 
     Parameters
     ----------
-    name
-        The name to load it by.
-    title
-        A short description.
-    scene
-        The scene.
     sources
         Where a parameter's value comes from, by the parameter's name.
     assumed

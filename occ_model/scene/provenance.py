@@ -42,14 +42,8 @@ class Provenance:
 
     Parameters
     ----------
-    title
-        Title of the figure or table.
-    scenes
-        The scenes by name.
     seed
         Seed of all random numbers, None where there are none.
-    notes
-        Further lines.
     date
         When they were made; empty for a file that must not depend on it.
     """

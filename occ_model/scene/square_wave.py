@@ -30,8 +30,6 @@ def blinking(scene: Scene, cycles: float) -> Scene:
 
     Parameters
     ----------
-    scene
-        The scene.
     cycles
         Cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
     """

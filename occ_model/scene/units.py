@@ -44,8 +44,6 @@ class Unit:
     ----------
     symbol
         The SI unit, empty for a pure number.
-    prefixes
-        The prefixes used for display, from the smallest.
     smallest_plain
         From this magnitude (in the unit itself) up to the next prefix no prefix is used.
     spellings

@@ -105,8 +105,6 @@ def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    scene
-        The scene.
     profile : ndarray of float64, shape (columns,)
         What :func:`band_profile` returns for it.
 

@@ -41,10 +41,6 @@ def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = Non
     ----------
     view
         The paper's view of the scene, which holds the exposure.
-    chosen
-        Its column effects are simulated.
-    timer
-        Times each stage.
     """
     timer = timer or StageTimer()
     scene, light, panel = view.scene, view.light, view.values

@@ -85,12 +85,8 @@ class PixelExposure:
     ----------
     view
         The paper's view of the scene.
-    plan
-        Its effects are simulated.
     columns
         The pixel values of each column.
-    timer
-        Times each stage.
     bands
         The rows that are exposed, in order, each a whole number of blocks of a JPEG file but the
         last; None for the whole picture.

@@ -90,8 +90,6 @@ class PlannedScene:
     ----------
     view
         The paper's view of the scene.
-    plan
-        The effects that are simulated.
     timings
         Seconds of each stage so far.
     """
@@ -166,12 +164,6 @@ def render_plan(
     ----------
     view
         The paper's view of the scene.
-    chosen
-        Its effects are simulated.
-    seed, noise, rows_step
-        As for :func:`render`.
-    timer
-        Times each stage.
     heartbeat
         Called before each band of rows that differ; what it raises ends the work.
 
@@ -249,14 +241,8 @@ def observe(
 
     Parameters
     ----------
-    scene
-        The scene.
     chosen
         Its effects are simulated, and its observable is given.
-    seed, noise
-        As for :func:`render`.
-    timer
-        Times each stage.
 
     Returns
     -------

@@ -78,8 +78,6 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     ----------
     view
         The paper's view of the scene.
-    plan
-        Its effects are simulated.
     seed
         Seed of the noise.
 

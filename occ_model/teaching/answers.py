@@ -33,19 +33,12 @@ def check_answer(
 
     Parameters
     ----------
-    step
-        The step.
     text
         The answer; a number without a unit is in the quantity's ``asked_in``.
     match
         The match of the photo that is open, None where there is none.
     scene
         The scene that is shown; None: the one that the question is about.
-
-    Returns
-    -------
-    CheckedAnswer
-        The outcome, with a sentence for the student.
     """
     text = text.strip()
     check = step.check

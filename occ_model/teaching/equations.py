@@ -27,11 +27,6 @@ _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
 def equations(scene: Scene) -> tuple[Equation, ...]:
     """Give the equations that determine a scene's stripes, with its numbers in them.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-
     Returns
     -------
     tuple of Equation

@@ -10,13 +10,6 @@ _MOST_NAMED = 2
 def explanation(step: Step, scene: Scene) -> str:
     """Give a step's explanation beside another scene than its own.
 
-    Parameters
-    ----------
-    step
-        The step.
-    scene
-        The scene that the explanation stands beside.
-
     Returns
     -------
     str

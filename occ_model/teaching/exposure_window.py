@@ -21,8 +21,6 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
 
     Parameters
     ----------
-    scene
-        The scene.
     column
         A column of the picture, from 0.
 

@@ -25,8 +25,6 @@ def light_over_columns(
 
     Parameters
     ----------
-    scene
-        The scene.
     first, last
         The columns from which and to which the light is given.
     most

@@ -8,13 +8,6 @@ from occ_model.study.theory import band_model_frequency, null_frequency
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     """Give the values to mark on the slider of a parameter, all else as in a scene.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-    parameter
-        Name of the parameter.
-
     Returns
     -------
     tuple of MarkedValue

@@ -109,8 +109,6 @@ def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, 
     ----------
     profile : ndarray of float64, shape (columns,)
         The profile of the whole picture.
-    result
-        The decoder's result.
 
     Returns
     -------

@@ -26,10 +26,6 @@ class LessonQuantity:
 
     Parameters
     ----------
-    meaning
-        What it is, in words.
-    unit
-        Its unit.
     asked_in
         The unit of an answer that is a number alone.
     compute

@@ -11,8 +11,6 @@ def result_text(unit: Unit, value: float) -> str:
 
     Parameters
     ----------
-    unit
-        Its unit.
     value
         The result in the SI unit.
     """

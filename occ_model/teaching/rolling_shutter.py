@@ -19,8 +19,6 @@ def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
 
     Parameters
     ----------
-    scene
-        The scene.
     shown
         Number of columns; fewer where the picture has fewer.
 

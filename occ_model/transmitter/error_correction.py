@@ -47,8 +47,6 @@ def correct(bits: ByteArray, count: int) -> ByteArray | None:
     ----------
     bits : ndarray of uint8, shape (protected_bits,)
         As received.
-    count
-        Bits of the payload.
 
     Returns
     -------

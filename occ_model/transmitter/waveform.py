@@ -53,8 +53,6 @@ class Windows:
 
     Parameters
     ----------
-    first, last : ndarray of int64
-        The chips.
     before, end : ndarray of float64
         Part of the first chip after the start, and of the last one before the end. Where a short
         window crosses a chip's edge, their error shrinks with the window.
@@ -104,8 +102,6 @@ class Waveform:
         ----------
         starts
             Where the windows start.
-        duration
-            Length of every window.
 
         Returns
         -------

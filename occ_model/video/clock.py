@@ -34,14 +34,10 @@ def fits_of(
 
     Parameters
     ----------
-    phases
-        Of the frames whose place is known.
     readout_time
         A rough value in seconds.
     tolerance
         The share by which it may be wrong.
-    columns
-        Of a frame.
     period
         The frame period in seconds: reading out a frame takes no longer.
     """
@@ -63,12 +59,8 @@ def state(
     ----------
     fits
         The likeliest first; at least one.
-    phases
-        That they were fitted to.
     times, part
         The frames' times, and the part of the film that the phases are those of.
-    columns
-        Of a frame.
     """
     best = fits[0]
     readout = best.step / best.frequency

@@ -44,8 +44,6 @@ class ShutterTiming:
 
         Parameters
         ----------
-        scene
-            The scene.
         columns
             The first column that shows the panel and the one after the last; by default all.
 
@@ -95,8 +93,6 @@ def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -
 
     Parameters
     ----------
-    timings
-        The timing and the start of each frame.
     period
         Chips after which what is sent repeats.
 
@@ -120,8 +116,6 @@ def packets_received(
 
     Parameters
     ----------
-    timing
-        Of each frame.
     frame_period
         T in seconds.
     length

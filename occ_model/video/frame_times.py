@@ -58,8 +58,6 @@ class FrameTimes:
         How many periods each frame lies after the first one of its part.
     parts
         The parts of the film, between which the times jump.
-    problems
-        Sentences.
     """
 
     period: Measured

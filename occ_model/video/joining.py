@@ -50,13 +50,7 @@ class Place:
 
 
 class Joined:
-    """The chips of one period, as frames show them.
-
-    Parameters
-    ----------
-    period
-        What is known of them before.
-    """
+    """The chips of one period, as frames show them."""
 
     def __init__(self, period: SentPeriod) -> None:
         self._period = period
@@ -91,8 +85,6 @@ class Joined:
 
         Parameters
         ----------
-        frame
-            The frame.
         foretold, deviation
             The place that the clock foretells, and its standard deviation in chips; None where it
             does not.

@@ -19,8 +19,6 @@ class PlacedFrame:
 
     Parameters
     ----------
-    reading
-        The frame.
     first
         The number of its first chip among all that were sent.
     """
@@ -59,8 +57,6 @@ def packets_of(
     parts
         The parts of the film. Of each count the packets that start after its first chip and end
         before its last one.
-    period
-        What is sent.
     bits : ndarray of uint8
         The payload, joined from all frames; empty where it was not read.
     frequency

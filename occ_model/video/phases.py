@@ -85,8 +85,6 @@ class ClockFit:
         Phases less those of the fit, in chips; of frames that are ``kept``.
     kept : ndarray of bool, shape (frames,)
         Frames whose phase agrees with the others'.
-    jumps
-        The jumps of the phase.
     chi_squared
         Sum of the squared residuals over the variances of the phases alone.
     noise

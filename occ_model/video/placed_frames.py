@@ -37,8 +37,6 @@ class PlacedFrames:
 
     Parameters
     ----------
-    period
-        What is sent.
     readout_time, tolerance
         A rough readout time in seconds, and the share by which it may be wrong.
     """

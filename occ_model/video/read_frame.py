@@ -40,8 +40,6 @@ class TimedFrame:
 
     Parameters
     ----------
-    reading
-        What the frame shows.
     middle, middle_error
         Where the exposure of ``column`` has its middle, in chips from the first chip's start.
     column
@@ -93,8 +91,6 @@ def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER)
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The camera's picture.
-    scene
-        What the receiver knows.
     decoder
         A name from ``DECODERS``.
 
@@ -124,8 +120,6 @@ class FrameReader:
 
     Parameters
     ----------
-    scene
-        What the receiver knows, roughly.
     decoder
         The name of the decoder that finds the chips.
     """

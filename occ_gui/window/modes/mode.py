@@ -19,14 +19,6 @@ class Mode:
     ----------
     centre
         The page in the middle; empty where the panes around it fill the window.
-    left, right, bottom
-        The panes of the three areas.
-    main
-        The pane that the mode is about, or PICTURE.
-    is_bottom_wide
-        Whether the panes at the bottom reach below those at the left.
-    is_right_high
-        Whether the panes at the right reach down beside those at the bottom.
     widths, heights
         First sizes in pixels by pane, of those whose size matters.
     """

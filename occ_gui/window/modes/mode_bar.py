@@ -18,8 +18,6 @@ class ModeBar(QTabBar):
     ----------
     modes
         The menu entries of the modes; each has the name of its icon as data.
-    parent
-        The parent widget.
     """
 
     def __init__(self, modes: QActionGroup, parent: QWidget | None = None) -> None:
@@ -42,7 +40,6 @@ class ModeBar(QTabBar):
         self.currentChanged.connect(self._choose)
 
     def _follow(self) -> None:
-        """Show which mode is active."""
         for place, action in enumerate(self._actions):
             if action.isChecked() and place != self.currentIndex():
                 self.blockSignals(True)

@@ -18,8 +18,6 @@ class ModeSwitch(QObject):
 
     Parameters
     ----------
-    window
-        The window.
     docks
         Its docks, by name; they may still be added to until the first mode is shown.
     show_page

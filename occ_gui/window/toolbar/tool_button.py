@@ -14,17 +14,7 @@ _NATIVE = QKeySequence.SequenceFormat.NativeText
 
 
 class ToolButton(QToolButton):
-    """Carries out an action, or opens a menu; it is named, enabled and checked as the action is.
-
-    Parameters
-    ----------
-    drawing
-        The name of its icon.
-    action
-        The menu entry; for a menu its own action.
-    parent
-        The toolbar.
-    """
+    """Carries out an action, or opens a menu; it is named, enabled and checked as the action is."""
 
     def __init__(self, drawing: str, action: QAction, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -24,17 +24,6 @@ class ToolBar(QToolBar):
     """The modes, and icons of entries and menus that are in the menu bar, too.
 
     The icons are drawn after the toolbar is first shown, so that the window opens no later.
-
-    Parameters
-    ----------
-    actions
-        The menu entries, by name.
-    menus
-        The menus that a button opens, by name.
-    modes
-        The menu entries of the modes.
-    parent
-        The window.
     """
 
     def __init__(
@@ -73,12 +62,10 @@ class ToolBar(QToolBar):
                     self.addWidget(self.buttons[name])
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the icons as soon as the window is open."""
         super().showEvent(event)
         QTimer.singleShot(0, self, self._draw)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the icons in the colours of another theme."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self._is_drawn:
             QTimer.singleShot(0, self, self._redraw)

@@ -62,8 +62,6 @@ def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray
     ----------
     chips : ndarray of uint8
         Its chips, from its preamble on.
-    form
-        The format.
 
     Returns
     -------

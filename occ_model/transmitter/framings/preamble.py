@@ -37,8 +37,6 @@ def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:
         The chips; those after the payload do not count.
     level
         The preamble's last chip.
-    form
-        The format.
     """
     read = form.line_code.decode(data[: form.line_code.chips_for(form.bits)], level)
     bits, padding = read.bits[: form.bits], read.bits[form.bits :]

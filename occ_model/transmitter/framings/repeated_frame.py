@@ -40,12 +40,6 @@ def read_repeated(
         Chips of a period.
     form
         The format, whose line code tells whether a payload may contain the preamble.
-    read
-        Reads what follows it.
-
-    Returns
-    -------
-    Framed
     """
     headers = find_preambles(chips, preamble)
     unique = is_unique(preamble, form.line_code)

@@ -53,8 +53,6 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
         left out.
     rate
         Frames a second.
-    note
-        What the film shows, kept inside.
 
     Returns
     -------

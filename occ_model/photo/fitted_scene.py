@@ -11,6 +11,8 @@ from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import distorted
 from occ_model.errors import MatchError, ParameterError
+from occ_model.photo.evidence.doubts import told_apart
+from occ_model.photo.evidence.hypothesis import runs_of
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
@@ -34,6 +36,14 @@ _NOMINAL = 0.012
 
 _STRAIGHTENINGS = 40
 """Fixed-point steps of the inverse distortion: each leaves a few percent of the error."""
+
+_MOST_UNSURE, _MOST_UNKNOWN = 0.03, 0.1
+"""Relative standard deviations of the readout time, or the frequency, above which it is not sure,
+and above which it is not known."""
+
+_OF_PULSE = 0.25
+"""Share of the shortest pulse by which the first and the last edge may be off, if the chips explain
+the stripes."""
 
 _NOTED = ("iso", "f_number")
 """Parameters in a photo's EXIF data besides the exposure time, which is fitted."""
@@ -72,15 +82,17 @@ def described(
     Raises
     ------
     MatchError
-        A value found is outside its parameter's range.
+        A value found is outside its parameter's range, or it is hardly known.
     """
     region = stripes.region
     better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
     explanation = replace(explanation, fits=better.fits)
-    fit = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
+    best = explanation.nearest(lambda one: exposure_time(one, scene, estimate), photo.exposure_time)
+    fit = _within_pulse(best, min(runs_of(explanation.chips)))
     scene = _with_timing(scene, fit, explanation, estimate, region)
     scene = with_levels(at_the_photo(scene, photo, region), fit)
     uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
+    unsure = _doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
     scene = _rounded(scene, uncertainties)
     camera = scene.camera
     return Match(
@@ -97,15 +109,35 @@ def described(
         profile=fit.profile,
         correlation=fit.correlation,
         other_exposures=tuple(
-            exposure_time(other, scene, estimate) for other in explanation.fits if other is not fit
+            exposure_time(other, scene, estimate) for other in explanation.fits if other is not best
         ),
-        reasons=better.doubts,
+        reasons=(*better.doubts, *unsure),
         exposure_reasons=(
             *better.exposure_doubts,
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
     )
+
+
+def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
+    """Compare a readout time's or frequency's error with what such an error is worth.
+
+    Raises
+    ------
+    MatchError
+        It is hardly known.
+    """
+    share = deviation / value
+    if share <= _MOST_UNSURE:
+        return []
+    limit = _MOST_UNSURE if share <= _MOST_UNKNOWN else _MOST_UNKNOWN
+    shown, most = told_apart(100.0 * share, 100.0 * limit)
+    what = PARAMETERS[estimate].label.lower()
+    sentence = f"The stripes tell the {what} only to {shown} %; at most {most} % are allowed."
+    if share > _MOST_UNKNOWN:
+        raise MatchError(sentence)
+    return [sentence]
 
 
 def _doubts_by_others(photo: Photo, explanation: Explanation) -> list[str]:
@@ -128,6 +160,17 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
         f"The exposure time found, {unit.format(exposure)}, and the one that the camera noted, "
         f"{unit.format(noted)}, are {off / deviation:.1f} standard deviations apart."
     ]
+
+
+def _within_pulse(fit: StripeFit, shortest: int) -> StripeFit:
+    """Let a step be no more uncertain than by what edges are at the right chips.
+
+    Sharp edges that lie exactly between columns leave a fit no slope that tells the step.
+    """
+    most = _OF_PULSE * shortest / len(fit.profile)
+    factor = np.ones(4)
+    factor[0] = min(1.0, most / max(math.sqrt(float(fit.covariance[0, 0])), 1e-300))
+    return replace(fit, covariance=fit.covariance * np.outer(factor, factor))
 
 
 def _with_timing(
@@ -185,14 +228,15 @@ def _uncertainties(
 
 
 def _rounded(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
-    """Round what was estimated to the digits that its uncertainty leaves."""
+    """Round what was estimated to the digits that its uncertainty leaves, at least to one of it."""
+
+    def rounded(name: str, declared: Quantity) -> float:
+        value = float(scene.value(name))
+        return declared.unit.rounded_estimate(value, min(uncertainties[name], abs(value)))
+
     found = {name: PARAMETERS[name] for name in uncertainties}
     return scene.replace(
-        **{
-            name: declared.unit.rounded_estimate(float(scene.value(name)), uncertainties[name])
-            for name, declared in found.items()
-            if isinstance(declared, Quantity)
-        }
+        **{n: rounded(n, one) for n, one in found.items() if isinstance(one, Quantity)}
     )
 
 

@@ -196,7 +196,8 @@ class Candidates:
         other = explain_near(
             self.stripes, chips, self._checked_cameras(), found.fit.timing, self.fit_gamma
         )
-        return self._supposed(f"{self._named(chips)} instead", other, bits=bits, was_read=True)
+        supposed = self._supposed(f"{self._named(chips)} instead", other, bits=bits, was_read=True)
+        return supposed and replace(supposed, rate=found.rate)
 
     def _checked(self, tone: Tone) -> Tone:
         """Check too whenever a fit evaluates the camera's response."""

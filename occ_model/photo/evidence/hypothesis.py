@@ -74,6 +74,16 @@ class Hypothesis:
         """Number of parameters of the fit: its levels, step, exposure and phase."""
         return 3 + 2 * level_freedom(self.chips_in_view)
 
+    def shares_timing_with(self, other: "Hypothesis", *, is_given: bool) -> bool:
+        """Whether other chips take the same time, so that they change no timing if they are right.
+
+        That of what is given is known; so is that of a pulse whose frequency is given, whatever
+        its duty.
+        """
+        same = math.isclose(len(self.chips) / self.rate, len(other.chips) / other.rate)
+        known = not self.was_read or self.rate != 1.0
+        return same and (is_given or (known and is_single_pulse(self.chips)))
+
     def residual(self, profile: FloatArray) -> FloatArray:
         """Give a profile less that of the fit."""
         return profile - self.fit.profile

@@ -21,6 +21,13 @@ _LEAST_ALIKE = 0.7
 """Correlation of the rows' stripes with each other from which they can be those of the time."""
 
 
+PLAIN_STRIPES = (
+    "These look like the plain stripes of one lamp: if it is a lamp, say that it sends a square "
+    "wave."
+)
+"""What to do about a refused pulse that repeats."""
+
+
 @dataclass(frozen=True, slots=True)
 class Surroundings:
     """What is compared with a hypothesis.
@@ -71,15 +78,15 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
     if found.was_read and not blinks and is_single_pulse(found.chips):
         share = 100.0 * float(found.chips.mean())
         columns = len(found.chips) / found.fit.timing.step
-        reasons.append(
-            f"The stripes repeat after {columns:.1f} columns and are bright for {share:.0f} % of "
-            "them, as those of any regular object are, such as a blind; if a lamp blinks so, say "
-            "that it sends a square wave."
-        )
+        reasons += [
+            PLAIN_STRIPES,
+            f"They repeat after {columns:.1f} columns and are bright for {share:.0f} % of them, as "
+            "those of any regular object are, such as a blind.",
+        ]
     elif found.was_read and not blinks and beside.likelihood < beside.wave.likelihood:
         reasons.append(
-            f"A repeated wave of {beside.wave.numbers} numbers, as of any regular object, explains "
-            f"the stripes better than: {found.sent}."
+            "A wave of another shape that repeats as often, as of any regular object, explains the "
+            f"stripes better than {found.sent}."
         )
     if found.information < _LEAST_INFORMATION:
         reasons.append(
@@ -88,8 +95,8 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
         )
     if beside.likelihood < beside.smooth.likelihood:
         reasons.append(
-            f"A smooth curve of {beside.smooth.numbers} numbers, without any code, explains the "
-            f"stripes better than: {found.sent}."
+            "Light that varies slowly, without any code, explains the stripes better than "
+            f"{found.sent}."
         )
     if beside.rows_alike < _LEAST_ALIKE:
         reasons.append(

@@ -8,7 +8,7 @@ import numpy as np
 from occ_model.errors import MatchError
 from occ_model.photo.evidence.doubts import doubts, exposure_doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
-from occ_model.photo.evidence.refusal import Surroundings, refusals
+from occ_model.photo.evidence.refusal import PLAIN_STRIPES, Surroundings, refusals
 from occ_model.photo.evidence.repeated_wave import repeated_wave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
 from occ_model.results import Stripes
@@ -79,6 +79,8 @@ class Judge:
             # What holds but is decidedly less likely than what was refused explains nothing.
             if not why and likelihoods[i] > best - _DECIDEDLY:
                 return hypotheses[i]
+        # What a user can do about it stands first, with what it rests on.
+        reasons.sort(key=lambda why: PLAIN_STRIPES not in why)
         sentences = [sentence for why in reasons for sentence in why]
         raise MatchError(*dict.fromkeys(sentences))
 
@@ -105,14 +107,11 @@ class Judge:
             f"Nearly as likely is {other.sent}, with a correlation of {other.fit.correlation:.3f} "
             f"beside {found.fit.correlation:.3f}."
             for other, more in beside
-            if more > -_DECIDEDLY and not (is_given and len(other.chips) == len(found.chips))
+            if more > -_DECIDEDLY and not found.shares_timing_with(other, is_given=is_given)
         ]
         smooth = self._smooth(found, everyone)
         if likelihoods[0] - smooth.likelihood < _DECIDEDLY:
-            reasons.append(
-                f"A smooth curve of {smooth.numbers} numbers, without any code, is nearly as "
-                "likely."
-            )
+            reasons.append("Light that varies slowly, without any code, is nearly as likely.")
         of_exposure = exposure_doubts(found, self._stripes)
         return Verdict(found, tuple(reasons), tuple(of_exposure), tuple(beside))
 

@@ -15,6 +15,10 @@ taken for the only one. What is usual of a camera has no such error: it counts i
 _VANISHED = 2e-3
 """Exposure in chips that is as good as none."""
 
+_UNTOLD_STEP = 5.0
+"""Ratio to the smallest deviation of the step from which a fit tells none: the distances of edges
+are the same by every model, and so is how well they are known."""
+
 _UNTOLD = 1e3
 """Variance of gamma's logarithm of a fit that ended at gamma's bound, where it has no slope."""
 
@@ -24,11 +28,14 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
 
     The estimate is the fit of the median exposure: where an edge is either blur's or the
     exposure's, the mean of both is neither. The deviation is that of densities which are trusted
-    less, since they are of noise alone. An exposure that has shrunk to nothing, or a gamma at its
-    bound, has no slope, which tells no covariance: such a fit counts only where there is no other.
+    less, since they are of noise alone. An exposure that has shrunk to nothing, a gamma at its
+    bound, or a step that is far less known than by another fit, has no slope, which tells no
+    covariance: such a fit counts only where there is no other.
     """
-    tell = [one for one in fits if one.exposure > _VANISHED and one.covariance[3, 3] < _UNTOLD]
-    fits = sorted(tell or fits, key=lambda fit: fit.exposure)
+    most = _UNTOLD_STEP**2 * min(one.covariance[0, 0] for one in fits)
+    known = [one for one in fits if one.covariance[0, 0] <= most]
+    tell = [one for one in known if one.exposure > _VANISHED and one.covariance[3, 3] < _UNTOLD]
+    fits = sorted(tell or known, key=lambda fit: fit.exposure)
     likeliest = min(fits, key=lambda fit: fit.misfit)
     likely = np.cumsum(_weights(np.array([fit.misfit for fit in fits])))
     middle = fits[int(np.searchsorted(likely, 0.5))].values

@@ -37,6 +37,13 @@ def test_an_unusual_camera_is_no_more_likely_where_the_data_tell_little() -> Non
     assert unusual.deviation == pytest.approx(0.01, rel=1e-3)
 
 
+def test_a_fit_that_hardly_tells_the_step_is_no_fit() -> None:
+    """A blur that is held too large leaves no exposure to fit, and a slope of nothing."""
+    told, untold = fit(1.0, 10.0), fit(1.1, 10.0)
+    told.covariance[0, 0], untold.covariance[0, 0] = 1e-6, 49.0
+    assert averaged([told, untold]).covariance[0, 0] == pytest.approx(1e-6)
+
+
 def test_starts_that_end_in_the_same_minimum_count_once() -> None:
     best, again, other = fit(1.0, 10.0), fit(1.004, 10.5), fit(1.4, 12.0)
     assert distinct([other, again, best]) == [best, other]

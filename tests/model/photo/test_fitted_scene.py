@@ -11,7 +11,10 @@ from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fitted_scene import (
     ESTIMATES,
+    _doubts_by_error,
+    _rounded,
     _uncertainties,
+    _within_pulse,
     exposure_time,
     readout_and_frequency,
     with_allowed,
@@ -75,6 +78,30 @@ def test_a_gamma_that_was_given_has_no_uncertainty() -> None:
     covariance[3, :] = covariance[:, 3] = 0.0
     stated = _uncertainties(fit_of(covariance=covariance), "readout_time", occ.Scene(), 0)
     assert "gamma" not in stated
+
+
+def test_a_readout_time_that_is_hardly_known_is_doubtful_or_refused() -> None:
+    assert _doubts_by_error("readout_time", 1.0, 0.03) == []
+    (why,) = _doubts_by_error("readout_time", 1.0, 0.0301)
+    assert why.startswith("The stripes tell the readout time only to 3.01 %; at most 3.00 %")
+    assert _doubts_by_error("switching_frequency", 1.0, 0.1)
+    with pytest.raises(occ.MatchError, match=r"switching frequency only to 11.0 %; at most 10.0 %"):
+        _doubts_by_error("switching_frequency", 1.0, 0.11)
+
+
+def test_edges_at_the_right_chips_bound_the_error_of_the_step() -> None:
+    """Where a fit has no slope over the step, its covariance is that of nothing."""
+    wild = COVARIANCE.copy()
+    wild[0, 0] = 49.0
+    bound = math.sqrt(_within_pulse(fit_of(covariance=wild), 2).covariance[0, 0])
+    assert bound == pytest.approx(0.5 / COLUMNS)
+    np.testing.assert_array_equal(_within_pulse(fit_of(), 1).covariance, COVARIANCE)
+
+
+def test_no_value_is_rounded_to_a_wild_error() -> None:
+    scene = occ.Scene().replace(exposure_time=15.04e-6)
+    assert _rounded(scene, {"exposure_time": 1340e-6}).camera.exposure_time == 15e-6
+    assert _rounded(scene, {"exposure_time": 2e-6}).camera.exposure_time == 15e-6
 
 
 def test_one_of_readout_time_and_frequency_is_the_scenes() -> None:

@@ -1,6 +1,7 @@
 """A match says how sure it is, and why, and refuses what is no lamp's."""
 
 import pickle
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,8 @@ from simulated_photos import photo_of, random_scene, take
 from verdicts import Said, said_of, said_of_negative, said_of_other_code
 
 import occ_model as occ
-from occ_model.photo.evidence.hypothesis import pulse, runs_of
+from occ_model.photo.evidence.hypothesis import Hypothesis, pulse, runs_of
+from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.joint_fit import JointModel
 from occ_model.photo.fit.timing import Timing
@@ -87,8 +89,10 @@ def test_an_exposure_of_many_chips_is_never_sure() -> None:
 def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     bars = np.tile(np.repeat([30, 210], 20).astype(np.uint8), (80, 20))
     scene = occ.load_preset("phone-136us")
-    with pytest.raises(occ.MatchError, match="as those of any regular object are"):
+    with pytest.raises(occ.MatchError, match="as those of any regular object are") as refused:
         occ.match_photo(photo_of(bars), scene)
+    assert refused.value.reasons[0] == PLAIN_STRIPES
+    assert str(refused.value).count("square wave") == 1
     read = occ.match_photo(photo_of(bars), scene, sent="read")
     assert (read.pattern, read.verdict) == ("10", "doubtful")
     given_one = occ.match_photo(photo_of(bars), scene.replace(pattern="10"))
@@ -110,6 +114,27 @@ def test_the_duty_of_a_dimmed_lamp_comes_out(percent: int) -> None:
     assert match.duty == pytest.approx(percent / 100.0, abs=0.03)
     assert match.readout_time == pytest.approx(10e-6, rel=1e-3)
     assert match.exposure_time == pytest.approx(80e-6, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("found", "other", "is_given", "shared"),
+    [
+        (("10", False, 1.0), ("1" * 13 + "0" * 12, True, 12.5), False, True),
+        (("1" * 13 + "0" * 12, True, 12.5), ("1" * 14 + "0" * 11, True, 12.5), False, True),
+        (("10", False, 1.0), ("100", True, 1.0), False, False),
+        (("100", True, 1.0), ("110", True, 1.0), False, False),
+        (("1101000", False, 1.0), ("1100100", True, 1.0), False, False),
+        (("1101000", False, 1.0), ("1100100", True, 1.0), True, True),
+    ],
+)
+def test_another_duty_of_the_same_period_tells_the_same_timing(
+    found: tuple[str, bool, float], other: tuple[str, bool, float], is_given: bool, shared: bool
+) -> None:
+    def hypothesis(chips: str, was_read: bool, rate: float) -> Hypothesis:
+        explanation = SimpleNamespace(chips=np.array([int(one) for one in chips], dtype=np.uint8))
+        return Hypothesis(chips, explanation, None, 0.0, was_read, rate)  # type: ignore[arg-type]
+
+    assert hypothesis(*found).shares_timing_with(hypothesis(*other), is_given=is_given) == shared
 
 
 def test_a_refusal_holds_its_reasons_also_in_another_process() -> None:

@@ -9,6 +9,8 @@ import pytest
 import occ_model as occ
 from occ_model.photo.evidence import candidates
 from occ_model.photo.evidence.candidates import Candidates
+from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 
 SENT = np.array([1, 0, 0, 1, 1, 0], dtype=np.uint8)
@@ -104,3 +106,18 @@ def test_white_pixels_are_told_to_who_reads(
 
 def test_stripes_that_do_not_repeat_are_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
     assert Reading(monkeypatch, 0.99).of(None, period=None) == 0
+
+
+def test_other_chips_are_as_many_a_second_as_those_they_replace(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A dimmed lamp's 25 chips take the time of two: their readout time is 12.5 times smaller."""
+    monkeypatch.setattr(candidates, "nearest_other", lambda *_: OTHER)
+    explained = Explanation(OTHER, (), CameraTone("light", "none", lambda lit, _: lit))
+    monkeypatch.setattr(candidates, "explain_near", lambda *_: explained)
+    stripes: Any = SimpleNamespace(profile=np.zeros(10))
+    made = Candidates(stripes, occ.Scene(), [], False, lambda _: None, lambda: None)  # type: ignore[arg-type,return-value]
+    found: Any = SimpleNamespace(bits=1.0, rate=12.5, fit=SimpleNamespace(timing=None))
+    other = made.nearest_other(found)
+    assert other is not None
+    assert other.rate == 12.5

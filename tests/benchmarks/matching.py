@@ -2,10 +2,11 @@
 
 ``--full`` does all of these in turn, with as many photos as stand here; ``first`` is the seed to
 begin with. ``coverage``: how well stated errors hold, on 600 photos of a world that is wider than
-the model. ``negatives``: 400 pictures without stripes of an LED. ``others``: 200 photos of another
-code than the scene's. ``unknown``: 300 photos of unknown chips, 1.5 to 20 periods in view, half of
-them saturated. ``known`` (the default): 500 simulated photos with noise, vignetting, blur and JPEG
-of quality 60 to 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three.
+the model; with ``--world lamps`` of single lamps as they are found in rooms. ``negatives``: 400
+pictures without stripes of an LED. ``others``: 200 photos of another code than the scene's.
+``unknown``: 300 photos of unknown chips, 1.5 to 20 periods in view, half of them saturated.
+``known`` (the default): 500 simulated photos with noise, vignetting, blur and JPEG of quality 60 to
+95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three.
 ``--plot FILE`` draws the errors of ``coverage`` beside their Cramer-Rao bounds.
 """
 
@@ -21,9 +22,9 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from photo_world.trials import trials
+from photo_world.trials import WORLDS
 from round_trips import Found, round_trips
-from stated_errors import plot, table
+from stated_errors import plot, told
 from verdicts import Said, said_of, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 
@@ -77,7 +78,7 @@ def tally(said: list[Said]) -> list[str]:
 
 
 WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterator[Any]], Callable[..., list[str]]]] = {
-    "coverage": (600, trials, table),
+    "coverage": (600, WORLDS["wide"], told),
     "negatives": (400, partial(said_of, said_of_negative), tally),
     "others": (200, partial(said_of, said_of_other_code), tally),
     "unknown": (300, partial(said_of, said_of_unknown_chips), tally),
@@ -93,10 +94,13 @@ def main() -> None:
     parser.add_argument("count", nargs="?", type=int, help="number of photographs")
     parser.add_argument("first", nargs="?", type=int, default=0, help="seed to begin with")
     parser.add_argument("--full", action="store_true", help="everything, as many as are asked for")
+    parser.add_argument("--world", choices=list(WORLDS), default="wide", help="of coverage")
     parser.add_argument("--plot", type=Path, help="picture of the errors of coverage")
     words = parser.parse_args()
     for what in WHAT if words.full else [words.what]:
         most, match, tell = WHAT[what]
+        if what == "coverage":
+            match = WORLDS[words.world]
         count = most if words.full or words.count is None else words.count
         found = match(range(words.first, words.first + count))
         results = list(tqdm(found, what, count))

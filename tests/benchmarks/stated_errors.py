@@ -14,6 +14,9 @@ HEAD = (
 
 _SMALL = 9.95e-5
 
+_WRONG = 0.01
+"""Relative error of a readout time from which it is wrong."""
+
 
 def row(name: str, found: list[Trial], what: str) -> str:
     """Write a line of the table, each share with its own standard deviation."""
@@ -45,6 +48,18 @@ def within(off: np.ndarray, most: float) -> str:
     likely = (share * len(off) + 2.0) / (len(off) + 4.0)
     chance = np.sqrt(likely * (1.0 - likely) / (len(off) + 4.0))
     return f"{100.0 * share:.0f} ± {100.0 * chance:.0f} %"
+
+
+def told(found: list[Trial]) -> list[str]:
+    """Count the verdicts, name what is surely wrong, and write the table."""
+    wrong = [one for one in found if one.is_sure and abs(one.readout) > _WRONG]
+    refused, sure = sum(bool(one.failure) for one in found), sum(one.is_sure for one in found)
+    return [
+        f"sure: {sure}, doubtful: {len(found) - sure - refused}, refused: {refused}",
+        f"sure, and wrong by more than {100.0 * _WRONG:g} %: {len(wrong)}",
+        *(f"  seed {one.seed}: by {100.0 * one.readout:.2g} %" for one in wrong),
+        *table(found),
+    ]
 
 
 def table(found: list[Trial]) -> list[str]:

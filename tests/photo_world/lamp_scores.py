@@ -1,6 +1,6 @@
 """Compare the lamps found in simulated photographs with those that are there."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from simulated_photos import photo_of
@@ -28,6 +28,7 @@ class Score:
     reported: int = 0
     invented: int = 0
     found_doubtful: int = 0
+    surely_wrong: int = 0
     doubtful_invented: int = 0
     steady: int = 0
     steady_found: int = 0
@@ -48,7 +49,9 @@ class Score:
             self.found_doubtful += best.is_doubtful
             assert best.switching_frequency_times_readout is not None
             ratio = best.switching_frequency_times_readout * counted_chip(thing)
-            self.right += abs(ratio - 1.0) < FREQUENCY
+            is_right = abs(ratio - 1.0) < FREQUENCY
+            self.right += is_right
+            self.surely_wrong += not is_right and not best.is_doubtful
         self.there += len(scene.lamps)
         self.reported += len(blinking)
         doubtful = sum(lamp.is_doubtful for lamp in left)
@@ -65,10 +68,12 @@ class Score:
 
     def lines(self) -> list[str]:
         """Write the score."""
+        there = max(self.there, 1)
         return [
-            f"lamps found: {100 * self.found / self.there:.1f} % of {self.there}",
+            f"lamps found: {100 * self.found / there:.1f} % of {self.there}",
             f"of these marked as doubtful: {self.found_doubtful}",
-            f"frequency within {100 * FREQUENCY:g} %: {100 * self.right / self.there:.1f} %",
+            f"frequency within {100 * FREQUENCY:g} %: {100 * self.right / there:.1f} %",
+            f"frequency wrong, and not doubtful: {self.surely_wrong}",
             f"invented: {100 * self.invented / max(self.reported, 1):.1f} % of {self.reported}",
             f"invented but marked as doubtful: "
             f"{100 * self.doubtful_invented / max(self.reported, 1):.1f} %",
@@ -94,10 +99,10 @@ def overlap(thing: Thing, region: occ.Region) -> float:
     return shared / ((bottom - top) * (right - left) + region.rows * region.columns - shared)
 
 
-def score_of(seeds: Iterable[int]) -> Score:
+def score_of(seeds: Iterable[int], draw: Callable[[int], LampScene] = lamp_scene) -> Score:
     """Find the lamps of some scenes, and count."""
     score = Score()
     for seed in seeds:
-        scene = lamp_scene(seed)
+        scene = draw(seed)
         score.add(seed, scene, occ.find_lamps(photo_of(scene.image)))
     return score

@@ -9,10 +9,13 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from photo_world.bounds import bound_of_light, bound_of_picture
+from photo_world.hot_lamps import hot_lamps
 from photo_world.photograph import KNOWN_GAMMA, World, photograph, random_world
 
 SATURATION_THIRDS = (0.0, 0.2, 0.4, 0.6)
 """Shares of saturated pixels that divide the photographs."""
+_READOUT = 10e-6
+"""Seconds of a column of those photographs whose lengths are counted in columns."""
 
 
 @dataclass(frozen=True)
@@ -21,6 +24,8 @@ class Trial:
 
     Parameters
     ----------
+    world
+        Its truth; or the number by which it is drawn.
     saturated
         Share of the lamp's pixels that are white.
     readout, exposure
@@ -36,7 +41,7 @@ class Trial:
         Why there is none.
     """
 
-    world: World
+    world: World | int
     saturated: float
     readout: float = np.nan
     exposure: float = np.nan
@@ -47,6 +52,11 @@ class Trial:
     doubts: tuple[str, ...] = ()
     exposure_doubts: tuple[str, ...] = ()
     failure: str = ""
+
+    @property
+    def seed(self) -> int:
+        """The number by which it is drawn."""
+        return self.world if isinstance(self.world, int) else self.world.seed
 
     @property
     def is_sure(self) -> bool:
@@ -98,6 +108,45 @@ def trial_of(seed: int) -> Trial:
     return trial(random_world(seed))
 
 
+def hot_trial_of(seed: int) -> Trial:
+    """Match the photograph of one lamp as it is found in a room, told what it sends."""
+    drawn = hot_lamps(seed)
+    ((sent,), (thing,)) = drawn.sent, drawn.lamps
+    top, bottom, left, right = (max(0, round(side)) for side in thing.box)
+    saturated = float(np.mean(drawn.image[top:bottom, left:right] >= 254))
+    is_pulse = "01" not in sent.chips
+    period = len(sent.chips) * sent.chip * _READOUT
+    scene = occ.load_preset("phone-68us").replace(
+        pattern="10" if is_pulse else sent.chips,
+        switching_frequency=(2 if is_pulse else len(sent.chips)) / period,
+        gamma=KNOWN_GAMMA, readout_time=1e-6, exposure_time=1.0, start_time=0.0,
+    )  # fmt: skip
+    try:
+        match = occ.match_photo(photo_of(drawn.image), scene)
+    except occ.MatchError as why:
+        return Trial(seed, saturated, failure=str(why))
+    exposure = drawn.exposure * _READOUT
+    return Trial(
+        seed,
+        saturated,
+        match.readout_time / _READOUT - 1.0,
+        match.exposure_time / exposure - 1.0,
+        match.uncertainties["readout_time"] / _READOUT,
+        match.uncertainties["exposure_time"] / exposure,
+        doubts=match.reasons,
+        exposure_doubts=match.exposure_reasons,
+    )
+
+
+def hot_trials(seeds: Iterable[int]) -> Iterator[Trial]:
+    """Match the photographs of single lamps of some seeds."""
+    return on_both_cores(hot_trial_of, seeds)
+
+
 def trials(seeds: Iterable[int]) -> Iterator[Trial]:
     """Match the photographs of some seeds."""
     return on_both_cores(trial_of, seeds)
+
+
+WORLDS = {"wide": trials, "lamps": hot_trials}
+"""Matches of the photographs of some seeds, by the world that they are drawn from."""

@@ -50,12 +50,15 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.receiver.read_payload import read_payload as read_payload
     from occ_model.results import (
         Alternative as Alternative,
+        BandAdvice as BandAdvice,
+        BandDepth as BandDepth,
         BitErrors as BitErrors,
         ChipReading as ChipReading,
         Clock as Clock,
         Comparison as Comparison,
         Decision as Decision,
         DecodeResult as DecodeResult,
+        EyeFlicker as EyeFlicker,
         FilmProgress as FilmProgress,
         Frame as Frame,
         FrameReading as FrameReading,
@@ -91,6 +94,10 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     )
     from occ_model.simulation.render import render as render
     from occ_model.study.accuracy import accuracy as accuracy
+    from occ_model.study.bands.advice import band_advice as band_advice
+    from occ_model.study.bands.depth import band_depth as band_depth
+    from occ_model.study.bands.eye import eye_flicker as eye_flicker
+    from occ_model.study.bands.pulse import pulse_depth as pulse_depth
     from occ_model.study.bit_error_rate import bit_error_rate as bit_error_rate
     from occ_model.study.confidence import wilson_interval as wilson_interval
     from occ_model.study.limits import limits as limits
@@ -126,6 +133,8 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
 
 _MODULES = {
     "Alternative": "results",
+    "BandAdvice": "results",
+    "BandDepth": "results",
     "BandModelUndefined": "errors",
     "BitErrors": "results",
     "ChipReading": "results",
@@ -136,6 +145,7 @@ _MODULES = {
     "DecodeResult": "results",
     "Decoded": "transmitter.line_codes.line_code",
     "Decoder": "receiver.decoder",
+    "EyeFlicker": "results",
     "FilmProgress": "results",
     "Frame": "results",
     "FrameFormat": "transmitter.framings.framing",
@@ -174,6 +184,8 @@ _MODULES = {
     "VideoReading": "results",
     "Waypoint": "scene.recording",
     "accuracy": "study.accuracy",
+    "band_advice": "study.bands.advice",
+    "band_depth": "study.bands.depth",
     "band_lengths": "simulation.band_model",
     "band_profile": "simulation.band_model",
     "bit_error_rate": "study.bit_error_rate",
@@ -184,6 +196,7 @@ _MODULES = {
     "decode_video": "video.decode",
     "decoders": "receiver.decoders",
     "delete_preset": "scene.presets",
+    "eye_flicker": "study.bands.eye",
     "find_lamps": "photo.lamps.find",
     "find_stripes": "photo.stripes.find",
     "framings": "transmitter.framings.registry",
@@ -201,6 +214,7 @@ _MODULES = {
     "panel_corners": "camera.projection",
     "plan": "effects.plan",
     "presets": "scene.presets",
+    "pulse_depth": "study.bands.pulse",
     "read_chips": "photo.chips.read",
     "read_payload": "receiver.read_payload",
     "render": "simulation.render",

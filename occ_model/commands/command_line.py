@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from occ_model.commands import (
     accuracy,
     animate,
+    bands,
     bench,
     codes,
     decode,
@@ -30,8 +31,8 @@ from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
 _COMMANDS = (
-    render, animate, film, film_study, plan, accuracy, sweep, limits, bench, most_bits, decode,
-    match, figures, transmit, codes, listing,
+    render, animate, film, film_study, plan, accuracy, sweep, limits, bench, most_bits, bands,
+    decode, match, figures, transmit, codes, listing,
 )  # fmt: skip
 
 

@@ -28,14 +28,14 @@ class Flicker(LightEffect):
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether an exposure leaves anything of the flicker."""
-        return _seen_depth(scene) != 0.0
+        return seen_depth(scene) != 0.0
 
     def apply(self, scene: Scene, light: ColumnLight) -> ColumnLight:
         """Vary the external light from column to column."""
         return replace(light, ambient=light.ambient * ambient_shares(scene))
 
 
-def _seen_depth(scene: Scene) -> float:
+def seen_depth(scene: Scene) -> float:
     """Return the flicker's depth in the mean light of an exposure."""
     depth = scene.surroundings.flicker_depth
     return depth * abs(response(scene)) if depth else 0.0

@@ -7,6 +7,7 @@ from occ_model.results.accuracy import (
     LEAST_ERROR,
     AccuracyPoint,
 )
+from occ_model.results.bands import BandAdvice, BandDepth, Depth, EyeFlicker, SpeedDepth
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.decoding import DecodeResult, Location, Region, RunHistogram, Runs
 from occ_model.results.effect_costs import (
@@ -43,6 +44,8 @@ __all__ = [
     "LEAST_ERROR",
     "AccuracyPoint",
     "Alternative",
+    "BandAdvice",
+    "BandDepth",
     "BitErrors",
     "ChipReading",
     "Clock",
@@ -50,8 +53,10 @@ __all__ = [
     "Comparison",
     "Decision",
     "DecodeResult",
+    "Depth",
     "EffectCrop",
     "EffectDifference",
+    "EyeFlicker",
     "FilmProgress",
     "Forecast",
     "Frame",
@@ -76,6 +81,7 @@ __all__ = [
     "Runs",
     "SentPackets",
     "SignalPath",
+    "SpeedDepth",
     "Stripes",
     "SweepPoint",
     "SweepRequest",

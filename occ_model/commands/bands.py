@@ -1,0 +1,113 @@
+"""The command ``occ-model bands``: how deep the bars are, and which settings show none."""
+
+import argparse
+
+from occ_model.commands.options import Commands, add_scene_options, number, scene_of
+from occ_model.results.bands import BARELY, BandAdvice, BandDepth, EyeFlicker
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND, Unit
+from occ_model.study.bands.advice import band_advice
+from occ_model.study.bands.depth import band_depth
+from occ_model.study.bands.eye import eye_flicker
+
+_DIGITS = 4
+
+_RANGES = 6
+"""Ranges that are listed before the last one."""
+
+
+def add_to(commands: Commands) -> None:
+    """Add the command."""
+    parser = commands.add_parser(
+        "bands", help="tell how deep the bars of a picture are, and which settings show none"
+    )
+    add_scene_options(parser)
+    parser.add_argument(
+        "--limit", type=number, default=100.0 * BARELY, metavar="PERCENT",
+        help="depth below which there are no bars; default: %(default)g",
+    )  # fmt: skip
+    parser.set_defaults(command=_run)
+
+
+def _run(options: argparse.Namespace) -> int:
+    scene = scene_of(options)
+    advice = band_advice(scene, options.limit / 100.0)
+    for line in (*_depth(scene, band_depth(scene)), *_advice(scene, advice)):
+        print(line)
+    for line in _eye(eye_flicker(scene)):
+        print(line)
+    return 0
+
+
+def _depth(scene: Scene, found: BandDepth) -> list[str]:
+    exposure = SECOND.format(scene.camera.exposure_time)
+    columns = f"{found.period:.4g} columns" if found.period < scene.camera.columns else "none"
+    return [
+        f"Bars at {exposure}: {_percent(found.peak_to_peak)} of the mean light peak to peak, "
+        f"{_percent(found.rms)} RMS;",
+        f"  in pixel values {_percent(found.pixel.peak_to_peak)} and {_percent(found.pixel.rms)}; "
+        f"from bar to bar: {columns}; "
+        f"{'visible' if found.is_visible else 'not visible'} "
+        f"(contrast {_percent(found.contrast)}, seen from {_percent(found.threshold)}).",
+    ]
+
+
+def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
+    limit = f"{100.0 * advice.limit:.3g} %"
+    frequency = HERTZ.format(scene.transmitter.switching_frequency, _DIGITS)
+    exposure = SECOND.format(scene.camera.exposure_time)
+    valley = SECOND.format(advice.valley, _DIGITS)
+    exposures = [_range(SECOND, ends) for ends in advice.exposures]
+    frequencies = [_range(HERTZ, ends) for ends in advice.frequencies]
+    lines = [
+        f"The lamp's bars vanish at whole multiples of {valley}.",
+        f"At {frequency} exposures with less than {limit}: "
+        f"{_listed(exposures, advice.all_exposures, SECOND)}.",
+        f"At {exposure} switching frequencies with less than {limit}: "
+        f"{_listed(frequencies, advice.all_frequencies, HERTZ)}.",
+    ]
+    if scene.transmitter.edge_time:
+        lines.append("  Both for sharp edges; with the LED's edges the ranges are wider.")
+    lines.append("shutter speed  depth     at the power of two nearby")
+    for each in advice.speeds:
+        best = max(each.at_nominal, each.at_real)
+        least = min(each.at_nominal, each.at_real)
+        verdict = "no bars" if best < advice.limit else ""
+        if not verdict and least < advice.limit:
+            verdict = (
+                "no bars if the camera keeps the former"
+                if each.at_nominal == least
+                else ("no bars if the camera keeps the latter")
+            )
+        row = (
+            f"{each.name:13}  {_percent(each.at_nominal):8}  {_percent(each.at_real):8}  {verdict}"
+        )
+        lines.append(row.rstrip())
+    return lines
+
+
+def _eye(found: EyeFlicker) -> list[str]:
+    repeats = HERTZ.format(found.frequency, _DIGITS)
+    return [
+        f"For the eye: percent flicker {found.percent_flicker:.3g} %, flicker index "
+        f"{found.flicker_index:.3g}, SVM {found.visibility:.3g} (1: half of the observers see it);",
+        f"  by IEEE 1789-2015: {found.risk} as a whole, repeated at {repeats}; "
+        f"{found.parts_risk} by each of its sines.",
+    ]
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.3g} %" if share > 1e-9 else "0 %"
+
+
+def _range(unit: Unit, ends: tuple[float, float]) -> str:
+    return " to ".join(unit.format(end, _DIGITS) for end in ends)
+
+
+def _listed(ranges: list[str], rest: float | None, unit: Unit) -> str:
+    shown = ranges[:_RANGES]
+    if len(ranges) > _RANGES:
+        shown.append(f"{len(ranges) - _RANGES} more")
+    if rest is not None:
+        shown.append(f"all from {unit.format(rest, _DIGITS)}" if rest else "all")
+    return ", ".join(shown) or "none"

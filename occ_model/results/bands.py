@@ -1,0 +1,159 @@
+"""Results of how deep the bars of a picture are, and of what shows none."""
+
+from dataclasses import dataclass
+
+from occ_model.arrays import FloatArray
+
+BARELY = 0.01
+"""Depth, peak to peak over the mean, below which a picture counts as without bars."""
+
+
+@dataclass(frozen=True, slots=True)
+class Depth:
+    """How far something swings, relative to its mean over all starts of an exposure.
+
+    Parameters
+    ----------
+    peak_to_peak
+        Largest less smallest value.
+    rms
+        Root mean square of the deviation from the mean.
+    """
+
+    peak_to_peak: float
+    rms: float
+
+
+@dataclass(frozen=True, slots=True)
+class BandDepth:
+    """Depth of the bars in the picture of a scene.
+
+    Parameters
+    ----------
+    light
+        Depth of the light of an exposure, before the tone curve.
+    pixel
+        Depth of the pixel values, after the tone curve, saturation and the full well.
+    frequency
+        Of the strongest part of the light that an exposure leaves, in Hz; 0 for none.
+    period
+        Columns from one bar of that part to the next, as the columns sample it; infinite where
+        there are no bars or all columns see the same.
+    contrast
+        Depth, peak to peak, of the picture on a display of exponent 2.2.
+    threshold
+        Contrast from which bars of this period are seen.
+    """
+
+    light: Depth
+    pixel: Depth
+    frequency: float
+    period: float
+    contrast: float
+    threshold: float
+
+    @property
+    def peak_to_peak(self) -> float:
+        """Largest less smallest light of an exposure, relative to its mean."""
+        return self.light.peak_to_peak
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the light's deviation, relative to its mean."""
+        return self.light.rms
+
+    @property
+    def is_visible(self) -> bool:
+        """Whether the bars are seen, by the threshold."""
+        return self.contrast > self.threshold
+
+
+@dataclass(frozen=True, slots=True)
+class SpeedDepth:
+    """Depth of the bars at a shutter speed that is written on cameras.
+
+    Parameters
+    ----------
+    name
+        As it is written on the camera, such as 1/125 s.
+    nominal, real
+        The time that is written, and that of a camera whose speeds are powers of two, in seconds.
+    at_nominal, at_real
+        Peak to peak depth of the light at each.
+    """
+
+    name: str
+    nominal: float
+    real: float
+    at_nominal: float
+    at_real: float
+
+    @property
+    def is_free(self) -> bool:
+        """Whether there are no bars, whichever of both times the camera keeps."""
+        return max(self.at_nominal, self.at_real) < BARELY
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether it depends on the time that the camera keeps."""
+        return not self.is_free and min(self.at_nominal, self.at_real) < BARELY
+
+
+@dataclass(frozen=True, slots=True)
+class BandAdvice:
+    """What shows no bars: exposures at the scene's frequency, frequencies at its exposure.
+
+    Parameters
+    ----------
+    limit
+        Depth, peak to peak, below which there are no bars.
+    valley
+        Exposure in seconds whose whole multiples show no bars of the code at all.
+    exposures, frequencies
+        Ranges from first to last in s and Hz in which the depth is below the limit, in order; those
+        below ``all_exposures`` and ``all_frequencies``, and the scene's own frequency or exposure.
+    all_exposures, all_frequencies
+        From where on every one is below the limit; None for nowhere.
+    speeds
+        The usual shutter speeds, longest first.
+    """
+
+    limit: float
+    valley: float
+    exposures: tuple[tuple[float, float], ...]
+    all_exposures: float | None
+    frequencies: tuple[tuple[float, float], ...]
+    all_frequencies: float | None
+    speeds: tuple[SpeedDepth, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EyeFlicker:
+    """Measures of how a lamp's light flickers for the eye.
+
+    Parameters
+    ----------
+    percent_flicker
+        100 (largest - smallest) / (largest + smallest).
+    flicker_index
+        Area of a period above the mean, relative to the whole area.
+    visibility
+        Stroboscopic visibility measure SVM; at 1 half of the observers see the effect.
+    frequency
+        How often the light repeats, in Hz.
+    frequencies, modulations : ndarray of float64, shape (n,)
+        Of the sines that it consists of, up to where IEEE 1789-2015 has no line any more: in Hz,
+        and amplitude over mean in percent.
+    risk, parts_risk
+        "no effect", "low risk" or "above low risk" by the lines of IEEE 1789-2015: of the percent
+        flicker at the frequency of repetition, and of each of the sines.
+    """
+
+    percent_flicker: float
+    flicker_index: float
+    visibility: float
+    frequency: float
+    frequencies: FloatArray
+    modulations: FloatArray
+    risk: str
+    parts_risk: str

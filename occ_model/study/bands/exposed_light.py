@@ -1,0 +1,148 @@
+"""The light of an exposure as a function of where in the code it starts, exactly.
+
+With sharp edges it is linear between the starts at which an end of the exposure meets a chip's
+edge; with LED edges it is quadratic between these and the ends of the ramps.
+"""
+
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.transmitter.edges import EdgedWaveform
+from occ_model.transmitter.waveform import Phases
+
+_EXACT = 3
+"""Nodes of the rule of Gauss that is exact for the square of a quadratic piece."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ExposedLight:
+    """Light of an exposure less its mean over all starts, in lit chips, piece by piece.
+
+    Parameters
+    ----------
+    lengths : ndarray of float64, shape (pieces,)
+        In chips; they add up to one period.
+    values : ndarray of float64, shape (pieces, 3)
+        At the start, the middle and the end of each piece, which is at most quadratic.
+    """
+
+    lengths: FloatArray
+    values: FloatArray
+
+    @property
+    def extremes(self) -> tuple[float, float]:
+        """Return the smallest and the largest value."""
+        first, slope, bend = self._coefficients()
+        with np.errstate(divide="ignore", invalid="ignore"):
+            place = -slope / (2.0 * bend)
+            peak = first - slope**2 / (4.0 * bend)
+        inner = peak[(place > 0.0) & (place < 1.0)]
+        found = np.concatenate([self.values[:, 0], self.values[:, 2], inner])
+        return float(found.min()), float(found.max())
+
+    @property
+    def variance(self) -> float:
+        """Return the mean square over all starts."""
+        values, weights = self.sampled(_EXACT)
+        return float((weights * values**2).sum())
+
+    def sampled(self, nodes: int) -> tuple[FloatArray, FloatArray]:
+        """Return values at the nodes of Gauss's rule in each piece, with weights that sum to 1."""
+        place, weight = np.polynomial.legendre.leggauss(nodes)
+        place = 0.5 * (place + 1.0)
+        first, slope, bend = (each[:, None] for each in self._coefficients())
+        shares = self.lengths / self.lengths.sum()
+        return first + place * (slope + place * bend), 0.5 * weight * shares[:, None]
+
+    def _coefficients(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        first, middle, last = self.values.T
+        bend = 2.0 * (first + last) - 4.0 * middle
+        return first, last - first - bend, bend
+
+
+def exposed_light(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLight:
+    """Return the light of an exposure of a code that is sent repeatedly.
+
+    Parameters
+    ----------
+    chips : ndarray of uint8, shape (chips,)
+        One period.
+    exposure, edge
+        Exposure time and the LED's rise time, in chips.
+    """
+    # Whole periods hold the same light wherever they start.
+    part = exposure % len(chips)
+    return _ramped(chips, part, edge) if edge else _sharp(chips, part)
+
+
+def _sharp(chips: ByteArray, exposure: Fraction) -> ExposedLight:
+    """Return the light for sharp edges.
+
+    The exposure is a whole number of chips, and a fraction from -1/2 to 1/2. So the light at the
+    ends of the pieces is a whole number and a product of that fraction, which alone remain where
+    the bars vanish: nothing is lost by a difference of nearly equal numbers.
+    """
+    period = len(chips)
+    whole = round(exposure)
+    fraction = float(exposure - whole)
+    level = np.tile(chips.astype(np.int64), 3)
+    before = np.concatenate([[0], np.cumsum(level)])
+    start = np.arange(period)
+    total = int(chips.sum())
+    # In lit chips times the chips of a period, less the mean: whole numbers.
+    count = period * (before[start + whole] - before[start]) - whole * total
+
+    def value(of: np.ndarray, lit: np.ndarray) -> FloatArray:
+        return (of + fraction * (period * lit - total)) / period
+
+    following = np.roll(count, -1)
+    if fraction >= 0.0:
+        ends = (
+            value(count, level[start + whole]),
+            value(following, level[start]),
+            value(following, level[start + 1 + whole]),
+        )
+        lengths = (1.0 - fraction, fraction)
+    else:
+        ends = (
+            value(count, level[start + whole - 1]),
+            value(count, level[start]),
+            value(following, level[start + whole]),
+        )
+        lengths = (-fraction, 1.0 + fraction)
+    pieces = [
+        np.stack([first, 0.5 * (first + last), last], axis=1) for first, last in pairwise(ends)
+    ]
+    return ExposedLight(np.repeat(lengths, period), np.concatenate(pieces))
+
+
+def _ramped(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLight:
+    """Return the light for an LED with rise and fall times."""
+    period = len(chips)
+    waveform = EdgedWaveform(chips, edge)
+    mean = float(Fraction(int(chips.sum()), period) * exposure)
+    places = sorted({each % 1 for each in (Fraction(0), edge, -exposure, edge - exposure)})
+
+    def light(place: Fraction) -> FloatArray:
+        if not exposure:
+            return np.zeros(period)
+
+        def starts(shift: Fraction) -> Phases:
+            moved = place + shift
+            whole = moved.numerator // moved.denominator
+            chip = (np.arange(period, dtype=np.int64) + whole) % period
+            return Phases(chip, np.full(period, float(moved - whole)))
+
+        return waveform.lit_chips(starts, exposure) - mean
+
+    at = [light(place) for place in places]
+    at.append(np.roll(at[0], -1))
+    lengths, values = [], []
+    for index, (first, last) in enumerate(zip(places, [*places[1:], Fraction(1)], strict=True)):
+        lengths.append(np.full(period, float(last - first)))
+        values.append(np.stack([at[index], light((first + last) / 2), at[index + 1]], axis=1))
+    return ExposedLight(np.concatenate(lengths), np.concatenate(values))

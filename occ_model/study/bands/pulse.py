@@ -1,0 +1,30 @@
+"""A lamp that is dimmed by pulses: the depth of its bars in closed form."""
+
+import math
+from fractions import Fraction
+
+from occ_model.results.bands import Depth
+
+
+def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
+    """Return the depth of the bars of a lamp that is lit for a part of each period.
+
+    Of an exposure of a = n + r periods the n whole ones hold the same light wherever they start.
+    The light of the rest varies by h = min(r, 1 - r, D, 1 - D) periods: a trapezoid over the start,
+    h / (a D) peak to peak relative to the mean. With M = max(min(r, 1 - r), min(D, 1 - D)) its root
+    mean square is sqrt(h^2 (M (1 - M) - h / 3)) / (a D).
+
+    Parameters
+    ----------
+    duty
+        Share D of a period in which the lamp is lit, above 0 and at most 1.
+    periods
+        Length a of the exposure in periods, exact as a fraction.
+    """
+    exact, lit = Fraction(periods), Fraction(duty)
+    rest = exact % 1
+    short = sorted([min(rest, 1 - rest), min(lit, 1 - lit)])
+    height, longer = short
+    mean = exact * lit
+    spread = longer * (1 - longer) - height / 3
+    return Depth(float(height / mean), float(height / mean) * math.sqrt(spread))

@@ -1,0 +1,157 @@
+"""What shows no bars: ranges, shutter speeds and the map, against the depth itself and pictures."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.results.bands import BARELY
+from occ_model.scene.scene import Scene
+from occ_model.study.bands.depth import light_depth
+from occ_model.study.bands.least_depth import DepthOver
+from occ_model.study.bands.shutter_speeds import shutter_speeds
+
+_PHONE = occ.load_preset("phone-136us")
+_CODES = st.text("01", min_size=2, max_size=24).filter(lambda chips: len(set(chips)) == 2)
+
+
+def _lamp(pattern: str, frequency: float, **others: float) -> Scene:
+    return _PHONE.replace(pattern=pattern, switching_frequency=frequency, **others)
+
+
+def _depth(scene: Scene, **changes: float) -> float:
+    return light_depth(scene.replace(**changes)).peak_to_peak
+
+
+@given(pattern=_CODES, exposure=st.floats(1e-6, 0.1), flicker=st.floats(0.0, 1.0))
+@settings(deadline=None)
+def test_the_depth_over_ranges_is_that_of_each_scene(
+    pattern: str, exposure: float, flicker: float
+) -> None:
+    scene = _lamp(pattern, 7777.0, exposure_time=exposure, flicker_depth=flicker)
+    over = DepthOver.of(scene)
+    found = over.of_code(np.array([7777.0 * exposure])) + over.flicker(np.array([exposure]))
+    assert float(found[0]) == pytest.approx(light_depth(scene).peak_to_peak, rel=1e-6, abs=1e-9)
+
+
+@given(pattern=_CODES, flicker=st.sampled_from([0.0, 0.4]))
+@settings(deadline=None, max_examples=20)
+def test_the_least_depth_of_a_range_is_not_above_any_within_and_is_reached(
+    pattern: str, flicker: float
+) -> None:
+    over = DepthOver.of(_lamp(pattern, 5e3, flicker_depth=flicker))
+    ends = np.geomspace(1e-5, 3e-2, 30)
+    least = over.least(5e3, ends)
+    for index, (low, high) in enumerate(pairwise(ends)):
+        inside = np.linspace(low, high, 4001)
+        depths = over.of_code(5e3 * inside) + over.flicker(inside)
+        assert least[index] <= depths.min() + 1e-12
+        assert least[index] == pytest.approx(depths.min(), abs=2.0 * np.abs(np.diff(depths)).max())
+
+
+@pytest.mark.parametrize(
+    ("pattern", "frequency", "flicker"),
+    [("10", 3840.0, 0.0), ("1000", 4000.0, 0.0), ("1000", 4000.0, 0.3), ("1101001", 9e3, 0.1)],
+)
+def test_exposures_and_frequencies_without_bars_end_where_the_depth_reaches_the_limit(
+    pattern: str, frequency: float, flicker: float
+) -> None:
+    scene = _lamp(pattern, frequency, flicker_depth=flicker, exposure_time=1 / 50)
+    advice = occ.band_advice(scene)
+    for name, ranges, rest in (
+        ("exposure_time", advice.exposures, advice.all_exposures),
+        ("switching_frequency", advice.frequencies, advice.all_frequencies),
+    ):
+        assert rest is not None
+        before = 0.0
+        for low, high in ranges:
+            assert max(
+                _depth(scene, **{name: at}) for at in np.linspace(low, high, 9)
+            ) <= BARELY * (1 + 1e-9)
+            assert _depth(scene, **{name: low * (1 - 1e-6)}) >= BARELY
+            assert _depth(scene, **{name: high * (1 + 1e-6)}) >= BARELY
+            # Nothing between two ranges was left out.
+            gap = np.linspace(before, low, 12)[1:-1]
+            assert (
+                min(
+                    _depth(scene, **{name: max(at, 1e-9)})
+                    for at in gap
+                    if at > 1.0 or name[0] == "e"
+                )
+                >= BARELY
+                or before == 0.0
+            )
+            before = high
+        for factor in np.geomspace(1.0 + 1e-9, 8.0, 50):
+            assert _depth(scene, **{name: rest * factor}) <= BARELY * (1 + 1e-6)
+        assert _depth(scene, **{name: rest * (1 - 1e-6)}) >= BARELY
+
+
+def test_an_exposure_of_the_advice_s_valley_shows_no_bars_and_none_shorter_does() -> None:
+    for pattern in ("10", "1010", "1100", "110100"):
+        scene = _lamp(pattern, 8192.0)
+        valley = occ.band_advice(scene).valley
+        assert _depth(scene, exposure_time=valley) < 1e-12
+        for part in (0.25, 0.5, 0.75):
+            assert _depth(scene, exposure_time=part * valley) > 0.01
+
+
+def test_a_lamp_of_120_hz_shows_no_bars_at_a_60th_where_the_camera_keeps_it() -> None:
+    # A published list for 300 Hz: no bars at 1/25, 1/30, 1/50, 1/60 and 1/100 s.
+    scene = _lamp("10", 600.0, illuminance=0.0)
+    free = {each.name for each in occ.band_advice(scene).speeds if each.at_nominal < BARELY}
+    assert {"1/25 s", "1/30 s", "1/50 s", "1/60 s", "1/100 s"} <= free
+    assert "1/80 s" not in free
+    kept = {each.name: each for each in occ.band_advice(scene).speeds}
+    # A camera that keeps 1/64 s for 1/60 s holds 4.6875 periods: 0.3125 of one is left over.
+    assert kept["1/60 s"].at_real == pytest.approx(2.0 * 0.3125 / 4.6875, rel=1e-9)
+    assert kept["1/60 s"].is_doubtful
+    assert not kept["1/60 s"].is_free
+
+
+def test_speeds_in_thirds_are_as_written_within_rounding() -> None:
+    for speed in shutter_speeds():
+        assert speed.real == pytest.approx(speed.nominal, rel=0.07)
+    real = {speed.name: 1.0 / speed.real for speed in shutter_speeds()}
+    assert real["1/60 s"] == 64.0
+    assert real["1/125 s"] == 128.0
+    assert real["1/50 s"] == pytest.approx(50.8, abs=0.05)
+    assert real["1/120 s"] == pytest.approx(120.0)
+
+
+def test_a_picture_at_an_advised_speed_has_no_bars_and_at_another_it_has() -> None:
+    lamp = _lamp("1110", 4 * 480.0, illuminance=290.0, columns=3000, rows=600, distance=0.3)
+    depths = {}
+    for speed in ("1/60 s", "1/125 s"):
+        time = next(each.nominal for each in shutter_speeds() if each.name == speed)
+        # Two stops of a filter each, so that no pixel is full.
+        scene = lamp.replace(exposure_time=time, iso=100.0, luminance=136e-6 / time * 3600.0,
+                             illuminance=136e-6 / time * 290.0)  # fmt: skip
+        image = occ.render(scene, tolerance=0.0, seed=1).camera_image[200:400, 800:2200]
+        profile = image.mean(axis=0)
+        depths[speed] = profile.std() / profile.mean()
+    assert depths["1/60 s"] < 0.003
+    assert depths["1/125 s"] > 0.01
+
+
+def test_a_flicker_that_no_frequency_of_the_lamp_can_cure_is_told_by_none() -> None:
+    scene = _lamp("10", 1e3, flicker_depth=1.0, exposure_time=1e-3, illuminance=1e4)
+    advice = occ.band_advice(scene)
+    assert advice.frequencies == ()
+    assert advice.all_frequencies is None
+    assert advice.all_exposures is not None
+
+
+def test_a_steady_lamp_shows_no_bars_at_any_exposure() -> None:
+    advice = occ.band_advice(_lamp("1", 1e3))
+    assert (advice.exposures, advice.all_exposures) == ((), 0.0)
+    assert all(speed.is_free for speed in advice.speeds)
+
+
+@pytest.mark.parametrize("limit", [0.0, -1.0, 2.0, float("nan")])
+def test_a_limit_out_of_range_is_refused(limit: float) -> None:
+    with pytest.raises(occ.ParameterError, match=r"limit is .* %; allowed: 0.01 % to 100 %"):
+        occ.band_advice(_PHONE, limit)

@@ -1,0 +1,218 @@
+"""Depth of the bars against references of its own, and against pictures with noise."""
+
+import math
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import occ_model as occ
+from occ_model.camera.photometry import luminance_of
+from occ_model.effects.led_edges import edged_lit_fraction
+from occ_model.results.bands import Depth
+from occ_model.scene.scene import Scene
+from occ_model.study.bands.depth import light_depth
+
+_PHONE = occ.load_preset("phone-136us")
+
+
+def _pulses(chips: int, lit: int, frequency: float, exposure: float, **others: float) -> Scene:
+    """Return a scene in the dark whose lamp is lit for some chips of each period."""
+    return _PHONE.replace(
+        pattern="1" * lit + "0" * (chips - lit),
+        switching_frequency=chips * frequency,
+        exposure_time=exposure,
+        **{"illuminance": 0.0, **others},
+    )
+
+
+def _reference(duty: Fraction, periods: Fraction) -> tuple[mpmath.mpf, mpmath.mpf]:
+    """Return peak to peak and RMS over the mean, by the overlap of an exposure with the pulses."""
+
+    def integral(place: Fraction) -> Fraction:
+        return place // 1 * duty + min(place % 1, duty)
+
+    # An end of the exposure meets an edge of a pulse at these starts; it is linear between them.
+    places = sorted({each % 1 for each in (Fraction(0), duty, -periods, duty - periods)})
+    light = [integral(place + periods) - integral(place) for place in places]
+    mean = periods * duty
+    square = Fraction(0)
+    for index, place in enumerate(places):
+        following = (index + 1) % len(places)
+        length = (places[following] - place) % 1 or Fraction(1)
+        first, last = light[index] - mean, light[following] - mean
+        square += length * (first * first + first * last + last * last) / 3
+    peak = (max(light) - min(light)) / mean
+    root = mpmath.sqrt(mpmath.mpf(square.numerator) / square.denominator)
+    return mpmath.mpf(peak.numerator) / peak.denominator, root * mean.denominator / mean.numerator
+
+
+def _close(found: Depth, peak: mpmath.mpf, root: mpmath.mpf) -> float:
+    errors = [0.0]
+    for value, true in ((found.peak_to_peak, peak), (found.rms, root)):
+        errors.append(float(abs(value / true - 1)) if true else abs(value))
+    return max(errors)
+
+
+def test_the_closed_form_of_a_pulse_is_exact_from_a_hundredth_to_a_thousand_periods() -> None:
+    rng = np.random.default_rng(24)
+    with mpmath.workdps(60):
+        worst = 0.0
+        for _ in range(1000):
+            duty = float(rng.uniform(0.001, 0.999))
+            periods = float(10.0 ** rng.uniform(-2.0, 3.0))
+            exact = _reference(Fraction(duty), Fraction(periods))
+            worst = max(worst, _close(occ.pulse_depth(duty, periods), *exact))
+    assert worst < 1e-12
+
+
+def test_the_depth_of_a_scene_s_pulses_is_exact_from_a_hundredth_to_a_thousand_periods() -> None:
+    rng = np.random.default_rng(240)
+    with mpmath.workdps(60):
+        worst = 0.0
+        for _ in range(1000):
+            chips = int(rng.integers(2, 60))
+            lit = int(rng.integers(1, chips))
+            frequency = float(10.0 ** rng.uniform(1.5, 4.5))
+            scene = _pulses(chips, lit, frequency, 10.0 ** rng.uniform(-2.0, 3.0) / frequency)
+            sent = Fraction(scene.transmitter.switching_frequency) / chips
+            exact = _reference(Fraction(lit, chips), Fraction(scene.camera.exposure_time) * sent)
+            worst = max(worst, _close(light_depth(scene), *exact))
+    assert worst < 1e-9
+
+
+@pytest.mark.parametrize("whole", range(1, 9))
+def test_a_square_wave_has_no_bars_at_whole_periods_and_most_between(whole: int) -> None:
+    # 1 kHz and powers of two: exposures that are whole periods to the last bit.
+    frequency = 1024.0
+    assert light_depth(_pulses(2, 1, frequency, whole / frequency)) == Depth(0.0, 0.0)
+    half = light_depth(_pulses(2, 1, frequency, (whole + 0.5) / frequency)).peak_to_peak
+    assert half == pytest.approx(1.0 / (whole + 0.5), rel=1e-12)
+    places = np.linspace(whole + 0.01, whole + 0.99, 99)
+    depths = [light_depth(_pulses(2, 1, frequency, at / frequency)).peak_to_peak for at in places]
+    numerators = np.array(depths) * places
+    assert numerators.argmax() == 49
+    assert max(depths) <= 1.0 / whole
+
+
+@given(
+    pattern=st.text("01", min_size=2, max_size=30).filter(lambda chips: len(set(chips)) == 2),
+    exposure=st.floats(1e-6, 1e-2),
+    edge=st.floats(1e-7, 1e-3),
+    depth=st.floats(0.0, 1.0),
+)
+@settings(deadline=None)
+def test_the_depth_is_that_of_columns_that_start_everywhere(
+    pattern: str, exposure: float, edge: float, depth: float
+) -> None:
+    # So many columns that every start of code and flicker comes up, one after the other.
+    period = len(pattern) / 10e3
+    scene = _PHONE.replace(
+        pattern=pattern, exposure_time=exposure, edge_time=edge, illuminance=0.0,
+        columns=20_000, readout_time=period / 20_000, flicker_depth=depth,
+    )  # fmt: skip
+    lit = edged_lit_fraction(scene)
+    found = light_depth(scene)
+    mean = float(np.mean([chip == "1" for chip in pattern]))
+    assert found.peak_to_peak == pytest.approx(float(np.ptp(lit)) / mean, rel=1e-3, abs=1e-9)
+    assert found.rms == pytest.approx(float(lit.std()) / mean, rel=1e-3, abs=1e-9)
+    # Edges are a further average: they can only make bars weaker.
+    sharp = light_depth(scene.replace(edge_time=0.0))
+    assert found.peak_to_peak <= sharp.peak_to_peak * (1.0 + 1e-9) + 1e-12
+    assert found.rms <= sharp.rms * (1.0 + 1e-9) + 1e-12
+
+
+@pytest.mark.parametrize(("frequency", "periods"), [(100.0, 0.3), (100.0, 1.0), (120.0, 2.4)])
+def test_a_flicker_of_the_surroundings_alone_is_a_sine_behind_the_exposure(
+    frequency: float, periods: float
+) -> None:
+    scene = _PHONE.replace(
+        luminance=0.0, flicker_depth=0.4, flicker_frequency=frequency,
+        exposure_time=periods / frequency, iso=1.0,
+    )  # fmt: skip
+    found = light_depth(scene)
+    left = 0.4 * abs(math.sin(math.pi * periods) / (math.pi * periods))
+    assert found.peak_to_peak == pytest.approx(2.0 * left, rel=1e-9, abs=1e-15)
+    assert found.rms == pytest.approx(left / math.sqrt(2.0), rel=1e-9, abs=1e-15)
+
+
+def test_code_and_flicker_add_up_where_they_meet_at_all_phases() -> None:
+    scene = _PHONE.replace(flicker_depth=0.5, luminance=30.0, exposure_time=3e-4, iso=3200.0)
+    both = occ.band_depth(scene)
+    many = {"columns": 100_000, "readout_time": 24 / 10e3 / 100_000, "flicker_depth": 0.0}
+    profile = occ.column_profile(scene.replace(**many))
+    steady = occ.band_depth(scene.replace(flicker_depth=0.0))
+    assert both.peak_to_peak > steady.peak_to_peak
+    assert steady.pixel.rms == pytest.approx(profile.std() / profile.mean(), rel=1e-3)
+    assert steady.pixel.peak_to_peak == pytest.approx(np.ptp(profile) / profile.mean(), rel=1e-3)
+
+
+@pytest.mark.parametrize("averaging", ["light", "pixel-value"])
+@pytest.mark.parametrize("seed", range(6))
+def test_pictures_with_noise_have_bars_of_this_depth(seed: int, averaging: str) -> None:
+    rng = np.random.default_rng(seed)
+    chips = int(rng.integers(2, 9))
+    scene = _pulses(
+        chips, int(rng.integers(1, chips)), float(rng.uniform(300.0, 1500.0)),
+        float(10.0 ** rng.uniform(-4.3, -2.3)), illuminance=290.0, columns=3000, rows=600,
+        distance=0.3, luminance=300.0,
+    ).replace(averaging=averaging)  # fmt: skip
+    brightest = float(np.max(occ.column_profile(scene)))
+    scene = scene.replace(iso=max(1.0, 100.0 * (200.0 / brightest) ** 2.22))
+    found = occ.band_depth(scene)
+    image = occ.render(scene, tolerance=0.0, seed=seed).camera_image[200:400, 800:2200]
+    rows, profile = len(image), image.mean(axis=0)
+    # What noise leaves in the mean of a column, and in the extremes of as many.
+    noise = float(image.std(axis=0).mean()) / math.sqrt(rows) + 0.1
+    levels = profile.mean()
+    assert np.ptp(profile) / levels == pytest.approx(
+        found.pixel.peak_to_peak, abs=9 * noise / levels
+    )
+    assert profile.std() / levels == pytest.approx(
+        found.pixel.rms, abs=2 * noise / levels, rel=0.02
+    )
+    if averaging == "light":
+        light = luminance_of(profile, scene.camera)
+        spread = (
+            9
+            * noise
+            * float(np.ptp(luminance_of(np.add(profile, [[-0.5], [0.5]]), scene.camera), 0).max())
+        )
+        assert np.ptp(light) == pytest.approx(
+            found.peak_to_peak * light.mean(), abs=spread, rel=0.02
+        )
+
+
+def test_what_is_saturated_shows_no_bars() -> None:
+    scene = _PHONE.replace(iso=1e6, luminance=1e6, illuminance=1e6, exposure_time=1.37e-4)
+    found = occ.band_depth(scene)
+    assert found.peak_to_peak > 0.5
+    assert found.pixel.peak_to_peak == 0.0
+    assert found.pixel.rms < 1e-12
+    assert not found.is_visible
+
+
+def test_without_light_there_are_no_bars() -> None:
+    found = occ.band_depth(_PHONE.replace(luminance=0.0, illuminance=0.0))
+    assert (found.light, found.pixel, found.is_visible) == (Depth(0.0, 0.0), Depth(0.0, 0.0), False)
+
+
+@pytest.mark.parametrize(("frequency", "period"), [(1000.0, 125.0), (124_000.0, 125.0)])
+def test_the_period_is_that_which_the_columns_show(frequency: float, period: float) -> None:
+    # 8 us a column: 125,000 columns a second, so that 124 kHz looks like 1 kHz.
+    found = occ.band_depth(_pulses(2, 1, frequency, 0.3 / frequency, readout_time=8e-6))
+    assert found.frequency == pytest.approx(frequency)
+    assert found.period == pytest.approx(period, rel=1e-9)
+
+
+def test_finer_bars_need_more_contrast_to_be_seen() -> None:
+    thresholds = [
+        occ.band_depth(_pulses(2, 1, frequency, 3e-6, readout_time=8e-6)).threshold
+        for frequency in (300.0, 10e3, 30e3, 60e3)
+    ]
+    assert thresholds[0] == pytest.approx(0.01, rel=1e-3)
+    assert thresholds == sorted(thresholds)
+    assert thresholds[-1] > 0.05

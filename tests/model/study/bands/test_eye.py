@@ -1,0 +1,85 @@
+"""Flicker for the eye, against integrals over a finely sampled wave and published relations."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.arrays import FloatArray
+from occ_model.scene.scene import Scene
+from occ_model.study.bands.eye import risk_lines, threshold
+
+_PHONE = occ.load_preset("phone-136us")
+_SAMPLES = 400
+
+
+def _wave(scene: Scene) -> tuple[FloatArray, float]:
+    """Return one period of the lamp's light, sampled, and the samples' rate in Hz."""
+    chips = np.repeat(occ.packet(scene).astype(float), _SAMPLES)
+    rate = scene.transmitter.switching_frequency * _SAMPLES
+    ramp = round(scene.transmitter.edge_time * rate)
+    if ramp:
+        sums = np.concatenate([[0.0], np.cumsum(np.tile(chips, 3))])
+        chips = ((sums[ramp:] - sums[:-ramp]) / ramp)[len(chips) : 2 * len(chips)]
+    return chips, rate
+
+
+@pytest.mark.parametrize(
+    ("pattern", "frequency", "edge"),
+    [("10", 200.0, 0.0), ("10", 200.0, 1e-3), ("1000", 800.0, 2e-3), ("1101001", 2100.0, 0.0),
+     ("1101001", 2100.0, 1.5 / 2100.0)],
+)  # fmt: skip
+def test_the_measures_are_those_of_the_sampled_wave(
+    pattern: str, frequency: float, edge: float
+) -> None:
+    scene = _PHONE.replace(pattern=pattern, switching_frequency=frequency, edge_time=edge)
+    found = occ.eye_flicker(scene)
+    wave, rate = _wave(scene)
+    mean = wave.mean()
+    contrast = 100.0 * (wave.max() - wave.min()) / (wave.max() + wave.min())
+    assert found.percent_flicker == pytest.approx(contrast, rel=1e-2)
+    index = np.maximum(wave - mean, 0.0).sum() / wave.sum()
+    assert found.flicker_index == pytest.approx(index, rel=1e-2)
+    amplitudes = 2.0 * np.abs(np.fft.rfft(wave)) / len(wave) / mean
+    sines = np.fft.rfftfreq(len(wave), 1.0 / rate)
+    seen = (sines >= 80.0) & (sines <= 2000.0)
+    limits = 2.865e-5 * sines[seen] ** 1.543 + 0.225
+    measure = float(((amplitudes[seen] / limits) ** 3.7).sum() ** (1 / 3.7))
+    assert found.visibility == pytest.approx(measure, rel=2e-3)
+
+
+def test_a_square_wave_of_100_hz_has_the_known_numbers() -> None:
+    found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=200.0))
+    assert found.percent_flicker == 100.0
+    assert found.flicker_index == 0.5
+    # The fundamental alone, 4/pi of the mean against the threshold 0.26, gives 4.897.
+    assert found.visibility == pytest.approx(4.903, abs=1e-3)
+    assert (found.risk, found.parts_risk) == ("above low risk", "above low risk")
+
+
+def test_a_sine_at_the_threshold_measures_one() -> None:
+    # As published: 26 % at 100 Hz; and all of the light is not enough from 776 Hz on.
+    assert float(threshold(np.array([100.0]))[0]) == pytest.approx(0.26, abs=5e-3)
+    assert float(threshold(np.array([777.0]))[0]) == pytest.approx(1.05, abs=0.01)
+
+
+def test_the_lines_of_risk_are_those_quoted_at_their_ends() -> None:
+    no_effect, low_risk = risk_lines(np.array([50.0, 100.0, 120.0, 1250.0, 1251.0, 3001.0]))
+    assert no_effect[:3] == pytest.approx([0.5, 3.33, 4.0], abs=0.01)
+    assert low_risk[:4] == pytest.approx([1.25, 8.0, 9.6, 100.0])
+    assert np.isinf(low_risk[4:]).all()
+    assert np.isfinite(no_effect[4])
+    assert np.isinf(no_effect[5])
+
+
+@pytest.mark.parametrize(
+    ("cycles", "risk"), [(1200.0, "above low risk"), (1300.0, "low risk"), (3100.0, "no effect")]
+)
+def test_full_pulses_pass_each_line_at_its_frequency(cycles: float, risk: str) -> None:
+    found = occ.eye_flicker(_PHONE.replace(pattern="10", switching_frequency=2.0 * cycles))
+    assert found.risk == risk
+
+
+def test_a_steady_lamp_does_not_flicker() -> None:
+    for pattern in ("1", "11"):
+        found = occ.eye_flicker(_PHONE.replace(pattern=pattern))
+        assert (found.percent_flicker, found.visibility, found.risk) == (0.0, 0.0, "no effect")

@@ -17,8 +17,7 @@ from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.results.video import Video
 from occ_model.scene.parameters import quantity
-from occ_model.scene.parameters.pose_receiver_model import POSE
-from occ_model.scene.recording import DECLARED, Recording, Waypoint
+from occ_model.scene.recording import DECLARED, MOTIONS, Recording, Waypoint
 from occ_model.scene.units import SECOND
 from occ_model.video.export import write_video
 from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path
@@ -27,8 +26,6 @@ from occ_model.video.render import render_video
 
 _FRAMES = 90
 """Frames of a film: three seconds at the usual rate."""
-
-_MOTIONS = tuple(parameter.name for parameter in POSE)
 
 
 def add_to(commands: Commands) -> None:
@@ -113,8 +110,8 @@ def _waypoint(text: str) -> Waypoint:
     for part in rest.split(","):
         name, _, value = part.partition("=")
         name = name.strip()
-        if name not in _MOTIONS:
-            raise ParameterError(f"waypoint changes {shown(name)}; allowed: {', '.join(_MOTIONS)}.")
+        if name not in MOTIONS:
+            raise ParameterError(f"waypoint changes {shown(name)}; allowed: {', '.join(MOTIONS)}.")
         unit = quantity(name).unit
         number = unit.parse(value)
         if number is None:

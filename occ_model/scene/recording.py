@@ -11,7 +11,7 @@ from occ_model.errors import ParameterError, shown
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.parameters.pose_receiver_model import POSE
+from occ_model.scene.parameters.pose_receiver_model import Pose
 from occ_model.scene.scene import Scene
 from occ_model.scene.toml_format import parse_toml
 from occ_model.scene.units import HERTZ, PPM, SECOND
@@ -44,7 +44,8 @@ TRANSMITTER_DRIFT = Quantity(
 DECLARED: tuple[Quantity, ...] = (FRAME_RATE, FRAME_JITTER, CAMERA_DRIFT, TRANSMITTER_DRIFT)
 """The quantities of a recording, each declared once: unit, range, slider, default."""
 
-_MOTIONS = tuple(parameter.name for parameter in POSE)
+MOTIONS = tuple(Pose.declarations())
+"""The parameters that a waypoint gives: those of the pose."""
 
 _PREFIX = "recording."
 """Before the name of a setting in the note of a film."""
@@ -230,12 +231,12 @@ class Recording:
         after = bisect_right([point.time for point in self.path], time)
         if after in (0, len(self.path)):
             point = self.path[max(after - 1, 0)]
-            return {name: getattr(point, name) for name in _MOTIONS}
+            return {name: getattr(point, name) for name in MOTIONS}
         first, second = self.path[after - 1], self.path[after]
         share = (time - first.time) / (second.time - first.time)
         return {
             name: (1.0 - share) * getattr(first, name) + share * getattr(second, name)
-            for name in _MOTIONS
+            for name in MOTIONS
         }
 
 

@@ -9,13 +9,25 @@ from difflib import get_close_matches
 
 from occ_model.errors import ParameterError, shown
 from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Payload, Quantity
-from occ_model.scene.parameters.camera import CAMERA, LENS, SENSOR
-from occ_model.scene.parameters.light import SURROUNDINGS, TRANSMITTER
-from occ_model.scene.parameters.pose_receiver_model import MODEL, POSE, RECEIVER
+from occ_model.scene.parameters.camera import Camera, Lens, Sensor
+from occ_model.scene.parameters.group import Group
+from occ_model.scene.parameters.light import Surroundings, Transmitter
+from occ_model.scene.parameters.pose_receiver_model import Model, Pose, Receiver
 
-_DECLARED = (*TRANSMITTER, *CAMERA, *LENS, *SENSOR, *POSE, *SURROUNDINGS, *RECEIVER, *MODEL)
+_GROUPS: tuple[type[Group], ...] = (
+    Transmitter,
+    Camera,
+    Lens,
+    Sensor,
+    Pose,
+    Surroundings,
+    Receiver,
+    Model,
+)
 
-PARAMETERS: dict[str, Parameter] = {parameter.name: parameter for parameter in _DECLARED}
+PARAMETERS: dict[str, Parameter] = {
+    name: declared for group in _GROUPS for name, declared in group.declarations().items()
+}
 
 
 def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:

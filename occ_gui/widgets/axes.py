@@ -1,8 +1,10 @@
 """Plot axes: a linear one and a logarithmic one, whose drawing cannot raise an exception."""
 
 import math
+from typing import Any
 
 import pyqtgraph as pg
+from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
@@ -27,6 +29,19 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
     ) -> None:
         """Draw the axis, its ticks and its numbers."""
         super().paint(painter, option, widget)
+
+    def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name
+        self, painter: QPainter
+    ) -> tuple[Any, Any, list[tuple[QRectF, Any, str]]] | None:
+        """Lay out the axis, with each number at a whole pixel.
+
+        Between two pixels one version of Qt draws a text at the upper, another at the lower.
+        """
+        found = super().generateDrawSpecs(painter)
+        if found is None:
+            return None
+        line, ticks, numbers = found
+        return line, ticks, [(QRectF(box.toRect()), *rest) for box, *rest in numbers]
 
 
 class LogAxis(Axis):

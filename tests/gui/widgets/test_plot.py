@@ -2,7 +2,7 @@
 
 import pytest
 from PySide6.QtCore import QEvent
-from PySide6.QtGui import QPalette
+from PySide6.QtGui import QImage, QPainter, QPalette
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -49,3 +49,17 @@ def test_a_curve_is_two_pixels_wide_on_every_screen(
     monkeypatch.setattr(plot, "devicePixelRatioF", lambda: ratio)
     QApplication.sendEvent(plot, QEvent(QEvent.Type.DevicePixelRatioChange))
     assert curve.opts["pen"].widthF() == 2.0 * ratio
+
+
+@pytest.mark.parametrize("low", [0.0, 0.13, 0.31])
+def test_numbers_stand_at_whole_pixels(plot: Plot, low: float) -> None:
+    """Between two pixels, each version of Qt draws them otherwise."""
+    plot.resize(301, 203)
+    plot.setRange(xRange=(low, low + 7.0), yRange=(low, low + 7.0), padding=0.0)
+    image = QImage(8, 8, QImage.Format.Format_RGB32)
+    painter = QPainter(image)
+    for side in ("left", "bottom"):
+        *_, numbers = plot.getAxis(side).generateDrawSpecs(painter)
+        assert len(numbers) > 2
+        assert all(box == box.toRect().toRectF() for box, *_ in numbers)
+    painter.end()

@@ -125,6 +125,9 @@ SCENES: dict[str, dict[str, float | int | str]] = {
                              "panel_width": 1e-4, "point_spread": 3.0},
     # A picture of one pixel: no two columns to compare, no interval between them.
     "one pixel": {"rows": 1, "columns": 1, "point_spread": 2.0, "jpeg_quality": 1},
+    # An LED whose edges take less than the smallest normal number of chips; eight columns that
+    # are divided at once, and one more.
+    "edges of next to nothing": {"edge_time": 5e-324, "columns": 9},
     # A blur a hundred times as wide as the picture.
     "a blur wider than the picture": {"point_spread": 1000.0, "focus_distance": 1e-300},
 }  # fmt: skip

@@ -3,27 +3,29 @@
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import cv2
 
 _FFMPEG = "OPENCV_FFMPEG_LOGLEVEL"
 """Looked at once, when FFmpeg is used first."""
 
+_SILENT = 0
+"""OpenCV's level at which it prints nothing."""
+
 
 @contextmanager
 def quiet_opencv() -> Iterator[None]:
     """Let OpenCV print nothing."""
-    log = getattr(getattr(cv2, "utils", None), "logging", None)
-    level = None if log is None else log.getLogLevel()
+    log: Any = cv2 if hasattr(cv2, "setLogLevel") else cv2.utils.logging  # OpenCV 4, and 5
+    level = log.getLogLevel()
     stated = os.environ.get(_FFMPEG)
     os.environ[_FFMPEG] = "-8"
-    if log is not None:
-        log.setLogLevel(log.LOG_LEVEL_SILENT)
+    log.setLogLevel(_SILENT)
     try:
         yield
     finally:
-        if log is not None:
-            log.setLogLevel(level)
+        log.setLogLevel(level)
         if stated is None:
             os.environ.pop(_FFMPEG, None)
         else:

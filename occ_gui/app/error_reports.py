@@ -1,6 +1,7 @@
 """Error reports: unhandled exceptions and Qt's messages go to the log and the status line."""
 
 import logging
+import re
 import sys
 import threading
 from collections import deque
@@ -28,6 +29,10 @@ _LEVELS = {
 
 HARMLESS = "This plugin does not support propagateSizeHints()"
 """Qt's message for every window on a platform that has no windows."""
+
+
+_ON_THE_WAY = re.compile(r"(Error calling Python override of [\w:]+\(\): )+")
+"""What Qt for Python writes before an exception's text where an event is handled meanwhile."""
 
 
 class LastMessages(logging.Handler):
@@ -86,7 +91,8 @@ class ErrorReports(QObject):
             return
         self._known.add(key)
         _log.error("unhandled", exc_info=(kind, error, trace))
-        reason = one_line(f"{kind.__name__}: {error}".rstrip(": ."))
+        text = _ON_THE_WAY.sub("", str(error))
+        reason = one_line(f"{kind.__name__}: {text}".rstrip(": ."))
         self.reported.emit(
             self.tr("Something went wrong: {reason}. Your work is still there.").format(
                 reason=reason

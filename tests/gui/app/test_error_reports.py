@@ -40,6 +40,14 @@ def works(application: Application, user: User) -> bool:
     return application.store.scene.camera.iso == 456.0 and not user.message
 
 
+def test_a_sentence_names_the_mistake_and_not_what_it_passed_through(
+    application: Application, user: User, reports: ErrorReports
+) -> None:
+    passed = "Error calling Python override of QObject::eventFilter(): " * 2
+    reports.report(ZeroDivisionError, ZeroDivisionError(f"{passed}a mistake"), None)
+    assert "Something went wrong: ZeroDivisionError: a mistake." in user.message
+
+
 def broken(*_arguments: object, **_named: object) -> None:
     raise ZeroDivisionError("a mistake")
 

@@ -76,6 +76,19 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         VideoFrame as VideoFrame,
         VideoReading as VideoReading,
     )
+    from occ_model.room.render import (
+        RoomFrame as RoomFrame,
+        render_room as render_room,
+    )
+    from occ_model.room.room import (
+        Place as Place,
+        Room as Room,
+        RoomLamp as RoomLamp,
+    )
+    from occ_model.room.rooms import (
+        load_room as load_room,
+        rooms as rooms,
+    )
     from occ_model.scene.presets import (
         delete_preset as delete_preset,
         load_preset as load_preset,
@@ -165,12 +178,16 @@ _MODULES = {
     "Photo": "photo.reading.load",
     "PhotoError": "errors",
     "PhotoTable": "results",
+    "Place": "room.room",
     "Plan": "results",
     "PluginError": "errors",
     "PresetError": "errors",
     "ProjectionError": "errors",
     "Recording": "scene.recording",
     "Region": "results",
+    "Room": "room.room",
+    "RoomFrame": "room.render",
+    "RoomLamp": "room.room",
     "Scene": "scene.scene",
     "SceneFileError": "errors",
     "Scheme": "transmitter.scheme",
@@ -204,6 +221,7 @@ _MODULES = {
     "line_codes": "transmitter.line_codes.registry",
     "load_photo": "photo.reading.load",
     "load_preset": "scene.presets",
+    "load_room": "room.rooms",
     "load_video": "video.load",
     "match_lamps": "photo.lamps.match",
     "match_photo": "photo.match",
@@ -218,7 +236,9 @@ _MODULES = {
     "read_chips": "photo.chips.read",
     "read_payload": "receiver.read_payload",
     "render": "simulation.render",
+    "render_room": "room.render",
     "render_video": "video.render",
+    "rooms": "room.rooms",
     "save_preset": "scene.presets",
     "scheme_of": "transmitter.scheme",
     "success_rate": "study.success_rate",

@@ -1,8 +1,9 @@
 """The pixels of a picture whose rows differ: exposed, saturated and stored some rows at a time."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Protocol
 
 import cv2
 import numpy as np
@@ -78,6 +79,13 @@ class _Band:
     timer: StageTimer
 
 
+class MeanRows(Protocol):
+    """Gives the mean pixel values of any rows of a picture."""
+
+    def of(self, place: range, stage_ended: Callable[[str], object], /) -> Rows:
+        """Compute some rows; each stage's name is told as it ends."""
+
+
 class PixelExposure:
     """The pixels of a picture.
 
@@ -93,6 +101,8 @@ class PixelExposure:
     panel_only
         Whether the file is made of the blocks that show the panel only. What becomes of a block
         does not depend on others.
+    mean
+        The mean pixel values, where they are not those of one panel.
 
     Raises
     ------
@@ -107,7 +117,9 @@ class PixelExposure:
         columns: Columns,
         timer: StageTimer,
         bands: Sequence[range] | None = None,
+        *,
         panel_only: bool = False,
+        mean: MeanRows | None = None,
     ) -> None:
         self._panel_only = panel_only
         self._scene = scene = view.scene
@@ -130,7 +142,7 @@ class PixelExposure:
             # All rows of a band are alike then.
             ends = self._region.first_row, self._region.last_row
             self._bands = [part for band in self._bands for part in split_at(band, ends)]
-        self._mean = PictureRows(scene, self._optics, columns.panel, columns.surroundings)
+        self._mean = mean or PictureRows(scene, self._optics, columns.panel, columns.surroundings)
         timer.stage_ended(self._optics.cover_stage)
 
     def drafted_panel(self, rows: range) -> DraftedPanel:

@@ -1,0 +1,228 @@
+"""Render a room: one picture of all lamps that its camera sees."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.coverage import Coverage
+from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.optics import Optics
+from occ_model.camera.picture_rows import PictureRows, in_blocks, split_at
+from occ_model.camera.projection import check_size
+from occ_model.effects.effect import OpticsEffect
+from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.plan import plan_of
+from occ_model.effects.registry import NAMES, planned
+from occ_model.results import Plan, Region
+from occ_model.room.composition import LampRows, RoomRows
+from occ_model.room.room import Room, RoomLamp, check_room
+from occ_model.room.view import LampView, lamps_in_view
+from occ_model.scene.scene import Pose, Scene
+from occ_model.scene.simulation_settings import (
+    TOLERANCE,
+    NoiseSource,
+    Observable,
+    SimulationSettings,
+)
+from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.pixels import PixelExposure
+from occ_model.simulation.render import render_plan
+from occ_model.simulation.stage_timer import StageTimer
+
+_OUTSIDE = np.array([[-9.0, -9.0], [-8.0, -9.0], [-8.0, -8.0]]) * 1e6
+"""An outline that no picture shows, in pixels."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ShownLamp:
+    """A lamp in a picture.
+
+    Parameters
+    ----------
+    lamp
+        The lamp.
+    outline : ndarray of float64, shape (corners, 2)
+        Its outline in the picture, (column, row) of each corner.
+    region
+        The rectangle round it in the picture.
+    is_cut
+        Whether a part of it is outside the picture.
+    profile : ndarray of float64, shape (columns,)
+        Its pixel value in each column, were it alone.
+    blur
+        Standard deviation of the lens's blur, in pixels.
+    """
+
+    lamp: RoomLamp
+    outline: FloatArray
+    region: Region
+    is_cut: bool
+    profile: FloatArray
+    blur: float
+
+
+@dataclass(frozen=True, eq=False)
+class RoomFrame:
+    """One simulated picture of a room.
+
+    Parameters
+    ----------
+    room
+        The room.
+    plan
+        The effects simulated: those that the picture of any of its lamps calls for.
+    camera_image : ndarray of uint8, shape (rows, columns)
+        The camera's picture.
+    lamps
+        Those in the picture, in the room's order.
+    timings
+        Seconds of each stage.
+    """
+
+    room: Room
+    plan: Plan
+    camera_image: ByteArray
+    lamps: tuple[ShownLamp, ...]
+    timings: Mapping[str, float]
+
+    @cached_property
+    def image(self) -> ByteArray:
+        """The receiver's picture: each lamp enhanced by itself, as the scene says."""
+        image = self.camera_image.copy()
+        method = self.room.scene.model.enhancement
+        rows, columns = image.shape
+        for shown in self.lamps:
+            enhancement = Enhancement(shown.profile, method)
+            for band in in_blocks(range(rows)):
+                covered = Coverage(shown.outline, rows, columns, shown.blur).rows(band) >= 0.5
+                camera = self.camera_image[band.start : band.stop]
+                own = image[band.start : band.stop]
+                np.copyto(own, enhancement.of_bytes(camera), where=covered)
+        return image
+
+
+def render_room(
+    room: Room,
+    *,
+    tolerance: float = TOLERANCE.default,
+    seed: int = 1,
+    observable: Observable = "image",
+    force: Mapping[str, bool] | None = None,
+    noise: NoiseSource = "exact",
+) -> RoomFrame:
+    """Simulate the picture that a room's camera takes.
+
+    A lamp outside the picture costs nothing. Noise, the sensor and the file are simulated once, for
+    the sum of all light.
+
+    Parameters
+    ----------
+    room
+        The room.
+    tolerance, seed, observable, force, noise
+        As for :func:`occ_model.render`, the tolerance for each lamp.
+
+    Returns
+    -------
+    RoomFrame
+
+    Raises
+    ------
+    ParameterError
+        As for :func:`occ_model.render`.
+    ProjectionError
+        A lamp in the picture reaches behind the camera, or the picture would be too large.
+    """
+    check_room(room)
+    settings = SimulationSettings(tolerance, observable, force or {}, noise, seed).checked(NAMES)
+    check_size(room.scene.camera)
+    timer = StageTimer()
+    seen = lamps_in_view(room)
+    timer.stage_ended("projection")
+    views = [one.view for one in seen] or [_dark_view(room.scene)]
+    chosen = _joined([plan_of(view, settings) for view in views])
+    timer.stage_ended("plan")
+    if len(views) == 1:
+        frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
+        profiles, image = [expose_columns(views[0], chosen).profile], frame.camera_image
+    else:
+        profiles, image = _composed(views, chosen, settings, timer)
+    shown = tuple(
+        _shown(one, chosen, profile) for one, profile in zip(seen, profiles, strict=False)
+    )
+    lamps = tuple(lamp for lamp in shown if lamp is not None)
+    return RoomFrame(room, chosen, image, lamps, timer.timings)
+
+
+def _dark_view(scene: Scene) -> PaperView:
+    """Return the view of a picture that shows no lamp."""
+    return paper_view_of(dataclasses.replace(scene, pose=Pose(distance=1.0, offset_x=1e3)))
+
+
+def _joined(plans: list[Plan]) -> Plan:
+    """Return the plan that includes what any of some plans does."""
+    decisions = zip(*(plan.decisions for plan in plans), strict=True)
+    most = tuple(max(of, key=lambda d: (d.included, d.estimate)) for of in decisions)
+    return dataclasses.replace(
+        plans[0], decisions=most, left_out=max(plan.left_out for plan in plans)
+    )
+
+
+def _optics_of(view: PaperView, chosen: Plan) -> Optics:
+    optics = Optics(view.corners)
+    for effect in planned(chosen, OpticsEffect):
+        optics = effect.apply(view.scene, optics)
+    return optics
+
+
+def _composed(
+    views: list[PaperView], chosen: Plan, settings: SimulationSettings, timer: StageTimer
+) -> tuple[list[FloatArray], ByteArray]:
+    """Return the profile of each lamp, and the camera's picture of all."""
+    scene = views[0].scene
+    lamps: list[LampRows] = []
+    columns: list[Columns] = []
+    optics = [_optics_of(view, chosen) for view in views]
+    for view, own in zip(views, optics, strict=True):
+        columns.append(expose_columns(view, chosen, timer))
+        rows = PictureRows(view.scene, own, columns[-1].panel, columns[-1].surroundings)
+        lamps.append(LampRows.of(rows, own))
+    around = columns[0].surroundings
+    empty = dataclasses.replace(optics[0], outline=_OUTSIDE, blur=0.0)
+    dark = PictureRows(scene, empty, around, around)
+    timer.stage_ended("optics")
+    bands = in_blocks(range(scene.camera.rows))
+    if all(own.is_plain for own in optics) and scene.camera.jpeg_quality == 0:
+        ends = sorted({end for v in views for end in (v.region.first_row, v.region.last_row)})
+        bands = [part for band in bands for part in split_at(band, ends)]
+    exposure = PixelExposure(
+        views[0], chosen, columns[0], timer, bands, mean=RoomRows(lamps, dark, scene.camera)
+    )
+    plain = Enhancement(columns[0].profile, "none")
+    made = exposure.pictures(plain, settings.seed, settings.noise)
+    return [one.profile for one in columns], made.camera_image
+
+
+def _shown(seen: LampView, chosen: Plan, profile: FloatArray) -> ShownLamp | None:
+    camera = seen.scene.camera
+    optics = _optics_of(seen.view, chosen)
+    outline = optics.outline
+    column, row = outline.T
+    left, right = (
+        max(0, int(np.ceil(column.min()))),
+        min(camera.columns, int(np.ceil(column.max()))),
+    )
+    top, bottom = max(0, int(np.ceil(row.min()))), min(camera.rows, int(np.ceil(row.max())))
+    if left >= right or top >= bottom:
+        return None
+    cut = bool(
+        column.min() < 0 or row.min() < 0
+        or column.max() > camera.columns - 1 or row.max() > camera.rows - 1
+    )  # fmt: skip
+    return ShownLamp(
+        seen.lamp, outline, Region(top, bottom, left, right), cut, profile, optics.blur
+    )

@@ -1,0 +1,293 @@
+"""A room: lamps with place and direction, and a camera among them, as frozen values.
+
+Room coordinates are in metres: x and y along the floor, z upwards. At angles of 0 the camera looks
+straight up, its columns along x and its rows along y, and a lamp faces straight down. Angles turn
+about x (pitch), then y (yaw), then z (roll), as those of a scene's pose do.
+"""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Self
+
+from occ_model.errors import ParameterError, SceneFileError, one_line, shown
+from occ_model.scene import toml_format
+from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.from_text import DEFAULT_PRESET
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.presets import load_preset
+from occ_model.scene.scene import GROUPS, Scene, Transmitter
+from occ_model.scene.units import METRE, SECOND
+
+MOST_LAMPS = 200
+SHAPES = ("rectangle", "disc")
+
+_ANGLES = ("yaw", "pitch", "roll")
+
+
+def _length(name: str, meaning: str) -> Quantity:
+    slider = (-10.0, 10.0)
+    return Quantity(
+        name, name, "", meaning, unit=METRE, low=-1e3, high=1e3, slider=slider, scale="linear",
+        default=0.0,
+    )  # fmt: skip
+
+
+_START = Quantity(
+    "start_time", "Start time", "", "When the lamp's packet starts, before the room's time 0.",
+    unit=SECOND, low=-1e6, high=1e6, slider=(0.0, 0.02), scale="linear", default=0.0,
+)  # fmt: skip
+
+_DECLARED: dict[str, Any] = {
+    "x": _length("x", "Place along x."),
+    "y": _length("y", "Place along y."),
+    "z": _length("z", "Height."),
+    **{name: PARAMETERS[name] for name in _ANGLES},
+    "start_time": _START,
+}
+
+
+def _check_fields(value: object) -> None:
+    for name, declared in _DECLARED.items():
+        if hasattr(value, name):
+            object.__setattr__(value, name, declared.check(getattr(value, name)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """Where a camera is and how it is turned: metres and radians.
+
+    Parameters
+    ----------
+    x, y, z
+        Place in the room.
+    yaw, pitch, roll
+        Turn about y, x and z; all 0 looks straight up.
+
+    Raises
+    ------
+    ParameterError
+        A value is out of range.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    yaw: float = 0.0
+    pitch: float = 0.0
+    roll: float = 0.0
+
+    def __post_init__(self) -> None:
+        _check_fields(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RoomLamp:
+    """A lamp of a room.
+
+    Parameters
+    ----------
+    name
+        Unique in its room.
+    shape
+        ``"rectangle"``, or ``"disc"`` of the diameter ``panel_width``.
+    x, y, z
+        Place of its centre, metres.
+    yaw, pitch, roll
+        Its turn; all 0 faces straight down.
+    start_time
+        When its packet starts, before the room's time 0, in seconds.
+    transmitter
+        Its size, code, frequency and luminance.
+
+    Raises
+    ------
+    ParameterError
+        A value is out of range.
+    """
+
+    name: str
+    shape: str = "rectangle"
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 2.5
+    yaw: float = 0.0
+    pitch: float = 0.0
+    roll: float = 0.0
+    start_time: float = 0.0
+    transmitter: Transmitter = field(default_factory=Transmitter)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.name, str) or not 0 < len(self.name) <= 60:
+            raise ParameterError(
+                f"A lamp's name is {shown(self.name)}; allowed: a text of 1 to 60 characters."
+            )
+        try:
+            check_choice("shape", self.shape, SHAPES)
+            _check_fields(self)
+        except ParameterError as error:
+            raise ParameterError(f"Lamp {one_line(self.name)}: {error}") from None
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height of the lamp, a disc's diameter twice, in metres."""
+        width = self.transmitter.panel_width
+        return width, width if self.shape == "disc" else self.transmitter.panel_height
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Room:
+    """Lamps, and a camera among them.
+
+    Parameters
+    ----------
+    lamps
+        At most 200.
+    scene
+        The camera's settings, lens and sensor, the light that is not the lamps', and the model. Its
+        transmitter and its pose are not used.
+    camera
+        Where the camera is.
+
+    Raises
+    ------
+    ParameterError
+        There is no lamp or more than 200, or two have the same name.
+    """
+
+    lamps: tuple[RoomLamp, ...]
+    scene: Scene = field(default_factory=Scene)
+    camera: Place = field(default_factory=Place)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "lamps", tuple(self.lamps))
+        if not 1 <= len(self.lamps) <= MOST_LAMPS:
+            raise ParameterError(f"A room has {len(self.lamps)} lamps; allowed: 1 to {MOST_LAMPS}.")
+        names = [lamp.name for lamp in self.lamps]
+        for name in names:
+            if names.count(name) > 1:
+                raise ParameterError(
+                    f"Two lamps have the name {one_line(name)}; allowed: a name of its own for "
+                    "each lamp."
+                )
+
+    @classmethod
+    def of_scene(cls, scene: Scene, name: str = "lamp") -> Self:
+        """Return the room whose only lamp is a scene's panel, seen from the origin."""
+        pose = scene.pose
+        lamp = RoomLamp(
+            name=name, x=pose.offset_x, y=pose.offset_y, z=pose.distance,
+            yaw=pose.yaw, pitch=pose.pitch, roll=pose.roll, transmitter=scene.transmitter,
+        )  # fmt: skip
+        return cls(lamps=(lamp,), scene=scene)
+
+    def replace(self, **changes: Any) -> Self:
+        """Return the room with its lamps, scene or camera, or one of the camera's values, changed.
+
+        Parameters
+        ----------
+        **changes
+            ``lamps``, ``scene``, ``camera``; ``x``, ``y``, ``z``, ``yaw``, ``pitch``, ``roll`` of
+            the camera; or any parameter of the scene by name.
+
+        Raises
+        ------
+        ParameterError
+            A name is unknown, or a value is out of range.
+        """
+        own = {name: changes.pop(name) for name in ("lamps", "scene", "camera") if name in changes}
+        room = dataclasses.replace(self, **own)
+        place = {name: changes.pop(name) for name in Place.__dataclass_fields__ if name in changes}
+        camera = dataclasses.replace(room.camera, **place)
+        return dataclasses.replace(room, camera=camera, scene=room.scene.replace(**changes))
+
+    def to_toml(self) -> str:
+        """Write the room as the text of a room file."""
+        tables = self.scene.tables()
+        tables.pop("pose")
+        usual = tables["transmitter"]
+        lamps = []
+        for lamp in self.lamps:
+            row = {n: getattr(lamp, n) for n in _LAMP_KEYS}
+            sent = {n: getattr(lamp.transmitter, n) for n in GROUPS["transmitter"]}
+            lamps.append({**row, **{n: v for n, v in sent.items() if v != usual[n]}})
+        return toml_format.to_toml(
+            {**tables, "place": dataclasses.asdict(self.camera), "lamps": lamps}  # type: ignore[dict-item]
+        )
+
+    @classmethod
+    def from_toml(cls, text: str) -> Self:
+        """Read the text of a room file.
+
+        Its tables are those of a scene file, ``[transmitter]`` holding what all lamps share;
+        ``based_on`` names a preset for what it does not say. ``[place]`` is the camera's place, and
+        ``lamps`` a list of tables, each with a lamp's name, shape, place and angles, its start
+        time, and what its transmitter has of its own.
+
+        Raises
+        ------
+        SceneFileError
+            The text is no room file.
+        ParameterError
+            A value is not of its kind or out of range; a lamp is named.
+        """
+        tables = toml_format.from_toml(text)
+        tables.pop("title", None)
+        rows, place = tables.pop("lamps", None), tables.pop("place", {})
+        base = load_preset(tables.pop("based_on", DEFAULT_PRESET))
+        if "pose" in tables:
+            raise SceneFileError("A room file has no table [pose]; the camera's place is [place].")
+        if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
+            raise SceneFileError("A room file has a list of lamps: 'lamps = [{name = ...}, ...]'.")
+        scene = base.with_tables(tables)
+        lamps = tuple(_read_lamp(row, scene.transmitter, n) for n, row in enumerate(rows, 1))
+        return cls(lamps=lamps, scene=scene, camera=_read_place(place))
+
+
+_LAMP_KEYS = tuple(n for n in RoomLamp.__dataclass_fields__ if n != "transmitter")
+
+
+def _read_place(table: object) -> Place:
+    if not isinstance(table, Mapping):
+        raise SceneFileError("place must be a table: a line '[place]' and its keys.")
+    _check_keys(table, tuple(Place.__dataclass_fields__), "Table [place]")
+    return Place(**table)
+
+
+def _read_lamp(row: Mapping[str, Any], usual: Transmitter, number: int) -> RoomLamp:
+    called = f"Lamp {number}"
+    _check_keys(row, (*_LAMP_KEYS, *GROUPS["transmitter"]), called)
+    own = {name: row[name] for name in _LAMP_KEYS if name in row}
+    if "name" not in own:
+        raise SceneFileError(f"{called} has no name; each lamp has one of its own.")
+    sent = {name: value for name, value in row.items() if name not in _LAMP_KEYS}
+    try:
+        return RoomLamp(**own, transmitter=usual.replaced(sent))
+    except ParameterError as error:
+        sentence = str(error)
+        raise ParameterError(
+            sentence if sentence.startswith("Lamp ") else f"{called} ({own['name']}): {sentence}"
+        ) from None
+
+
+def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) -> None:
+    for name in table:
+        if name not in known:
+            raise SceneFileError(
+                f"{where} has no value {shown(name)}; known are {', '.join(known)}."
+            )
+
+
+def check_room(value: object) -> None:
+    """Refuse a value that is not a room.
+
+    Raises
+    ------
+    ParameterError
+        Naming the value and how to load a room.
+    """
+    if not isinstance(value, Room):
+        raise ParameterError(
+            f"room is {shown(value)}; allowed: a Room, such as load_room('office') gives."
+        )

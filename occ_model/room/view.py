@@ -1,0 +1,154 @@
+"""The lamps that a room's camera sees, each as a scene of its own."""
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.projection import image_points, rotation_of
+from occ_model.effects.defocus import blur_of
+from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
+from occ_model.errors import ParameterError, ProjectionError, one_line
+from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.scene.scene import Pose, Scene
+
+_DISC_CORNERS = 96
+"""Corners of the polygon of a disc: it lies within 0.06 % of the radius of the circle."""
+
+_NEAR = 1e-3
+"""Depth in metres before which nothing is seen."""
+
+_DISTORTED = 0.15
+"""Share of the picture's size by which a lens may move what it shows."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampView:
+    """A lamp as the camera sees it.
+
+    Parameters
+    ----------
+    scene
+        The scene whose panel is the lamp.
+    view
+        The paper's view of that scene, with the lamp's outline as its corners.
+    """
+
+    lamp: RoomLamp
+    scene: Scene
+    view: PaperView
+
+
+def rotation(place: Place | RoomLamp) -> FloatArray:
+    """Return the rotation of a camera or lamp in the room."""
+    return rotation_of(Pose(yaw=place.yaw, pitch=place.pitch, roll=place.roll))
+
+
+def own_outline(lamp: RoomLamp) -> FloatArray:
+    """Return a lamp's outline in its own plane, in order, shape (corners, 2), metres."""
+    width, height = lamp.size
+    if lamp.shape == "disc":
+        angle = np.arange(_DISC_CORNERS) * (2.0 * math.pi / _DISC_CORNERS)
+        return np.stack([np.cos(angle), np.sin(angle)], axis=1) * (width / 2.0)
+    return np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]) * [width / 2, height / 2]
+
+
+def room_outline(lamp: RoomLamp) -> FloatArray:
+    """Return a lamp's outline in the room, shape (corners, 3), metres."""
+    return own_outline(lamp) @ rotation(lamp)[:, :2].T + [lamp.x, lamp.y, lamp.z]
+
+
+def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
+    """Return the scene whose panel is a lamp of the room, a disc being in its square.
+
+    Raises
+    ------
+    ParameterError
+        The lamp's plane is turned too far from the picture's for a scene.
+    """
+    camera = room.camera
+    if camera.yaw == camera.pitch == camera.roll == 0.0:
+        angles = lamp.yaw, lamp.pitch, lamp.roll
+        x, y, z = lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z
+    else:
+        turned = rotation(camera).T @ rotation(lamp)
+        angles = _angles_of(turned)
+        place = [lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z]
+        x, y, z = (rotation(camera).T @ place).tolist()
+    pose = Pose(distance=z, offset_x=x, offset_y=y, yaw=angles[0], pitch=angles[1], roll=angles[2])
+    scene = room.scene
+    width, height = lamp.size
+    return dataclasses.replace(
+        scene,
+        transmitter=lamp.transmitter.replaced({"panel_width": width, "panel_height": height}),
+        pose=pose,
+        model=scene.model.replaced({"start_time": scene.model.start_time + lamp.start_time}),
+    )
+
+
+def _angles_of(turned: FloatArray) -> tuple[float, float, float]:
+    """Return yaw, pitch and roll of a rotation: :func:`rotation_of` undone."""
+    yaw = math.asin(min(1.0, max(-1.0, -float(turned[2, 0]))))
+    pitch = math.atan2(turned[2, 1], turned[2, 2])
+    return yaw, pitch, math.atan2(turned[1, 0], turned[0, 0])
+
+
+def lamps_in_view(room: Room) -> tuple[LampView, ...]:
+    """Return the lamps whose front any pixel can show, in the room's order.
+
+    Raises
+    ------
+    ProjectionError
+        A lamp is partly in the picture and partly behind the camera, or its plane is turned from
+        the picture's by 90 degrees and more.
+    """
+    return tuple(seen for lamp in room.lamps if (seen := _seen(room, lamp)) is not None)
+
+
+def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
+    turned = rotation(room.camera)
+    own = [room.camera.x, room.camera.y, room.camera.z]
+    placed = (room_outline(lamp) - own) @ turned
+    facing = rotation(lamp)[:, 2] @ (np.array([lamp.x, lamp.y, lamp.z]) - own)
+    before = _clipped(placed)
+    if facing <= 0.0 or len(before) == 0:
+        return None
+    camera = room.scene.camera
+    corners = image_points(before[:, :2] / before[:, 2:], camera)
+    slack = _DISTORTED * max(camera.rows, camera.columns) if room.scene.lens.distorts else 0.0
+    try:
+        scene = lamp_scene(room, lamp)
+        slack += 4.0 * blur_of(scene)
+    except ParameterError:
+        scene = None
+    rows, columns = int(camera.rows + 2 * slack), int(camera.columns + 2 * slack)
+    if region_of(corners + slack, rows, columns) is None:
+        return None
+    if scene is None or len(before) != len(placed) or (before != placed).any():
+        raise ProjectionError(
+            f"Lamp {one_line(lamp.name)} reaches into the picture and is partly behind the camera, "
+            "or its plane is turned by 90° or more from the picture's; move or turn the camera.",
+            parameters=("yaw", "pitch"),
+        )
+    view = paper_view_of(scene)
+    if lamp.shape == "disc":
+        region = region_of(corners, camera.rows, camera.columns)
+        view = dataclasses.replace(
+            view, corners=corners, sides=None, is_seen=region is not None,
+            region=region or view.region,
+        )  # fmt: skip
+    return LampView(lamp, scene, view)
+
+
+def _clipped(points: FloatArray) -> FloatArray:
+    """Return the part of a polygon in space that is before the camera."""
+    kept: list[FloatArray] = []
+    for start, end in zip(points, np.roll(points, -1, axis=0), strict=True):
+        if start[2] >= _NEAR:
+            kept.append(start)
+        if (start[2] >= _NEAR) != (end[2] >= _NEAR):
+            along = (_NEAR - start[2]) / (end[2] - start[2])
+            kept.append(start + along * (end - start))
+    return np.array(kept).reshape(-1, 3)

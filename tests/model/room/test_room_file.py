@@ -1,0 +1,49 @@
+"""Room files: what is read is what was written, and a mistake ends in a sentence."""
+
+import pytest
+
+import occ_model as occ
+from occ_model.room.room import Room, RoomLamp
+from occ_model.room.rooms import load_room, rooms
+
+LAMP = "format = 1\nlamps = [{name = 'a', code = 3}]\n"
+
+
+@pytest.mark.parametrize("name", rooms())
+def test_a_room_is_read_as_it_was_written(name: str) -> None:
+    room = load_room(name)
+    assert Room.from_toml(room.to_toml()) == room
+    assert len({lamp.transmitter.code for lamp in room.lamps}) == len(room.lamps)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("format = 1", "list of lamps"),
+        ("format = 1\nlamps = []", "0 lamps; allowed: 1 to 200"),
+        (LAMP + "[pose]\nyaw = 0", r"no table \[pose\]"),
+        (LAMP + "[place]\nheight = 1.0", "known are x, y, z"),
+        (LAMP + "[place]\nz = 2e4", "z is 20 km; allowed: -1 km to 1 km"),
+        ("format = 1\nlamps = [{code = 3}]", "Lamp 1 has no name"),
+        ("format = 1\nlamps = [{name = 'a', code = 9999}]", r"Lamp 1 \(a\): code is 9999"),
+        ("format = 1\nlamps = [{name = 'a', shape = 'star'}]", "Lamp a: shape is 'star'"),
+        ("format = 1\nlamps = [{name = 'a', z = 'high'}]", "Lamp a: z is 'high'"),
+        ("format = 1\nlamps = [{name = 'a'}, {name = 'a'}]", "Two lamps have the name a"),
+        ("format = 1\nlamps = 7", "list of lamps"),
+        ("format = 1\nbased_on = 7\nlamps = [{name = 'a'}]", "no preset 7"),
+    ],
+)
+def test_a_mistake_in_a_room_file_ends_in_a_sentence(text: str, words: str) -> None:
+    with pytest.raises(occ.OccError, match=words):
+        Room.from_toml(text)
+
+
+def test_a_room_has_at_most_200_lamps() -> None:
+    lamps = [RoomLamp(name=str(n)) for n in range(201)]
+    with pytest.raises(occ.ParameterError, match="201 lamps"):
+        Room(lamps=tuple(lamps))
+
+
+def test_an_unknown_room_is_refused_with_the_known_names() -> None:
+    with pytest.raises(occ.PresetError, match="corridor, hall, office"):
+        load_room("cellar")

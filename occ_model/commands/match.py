@@ -121,6 +121,8 @@ def _check(options: argparse.Namespace) -> None:
         raise ParameterError("--chips is given with --lamps; read each lamp by its --region.")
     if options.more and (options.lamps or options.region or options.chips):
         raise ParameterError("--lamps, --region or --chips is given with several photos; use one.")
+    if options.known and not options.more:
+        raise ParameterError("--known is given with one photo; allowed: --led-frequency or --set.")
 
 
 def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:

@@ -2,12 +2,13 @@
 
 import argparse
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from occ_model.commands.assumption import assumption_of
 from occ_model.commands.files import SCENE_FILE, TABLE, Written
 from occ_model.commands.progress_bar import progress_bar
-from occ_model.errors import one_line
+from occ_model.errors import ParameterError, one_line
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
@@ -20,11 +21,13 @@ from occ_model.results.photo_table import (
     CombinedEstimate,
     PhotoRow,
     PhotoTable,
+    known_beside,
 )
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
 
 _LONGEST_FILE = 32
 
@@ -35,6 +38,14 @@ def add_many_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--jobs", type=int, metavar="N", help="processes for several photos; default: one a core"
     )
+    parser.add_argument(
+        "--known",
+        action="append",
+        default=[],
+        metavar="PHOTO=VALUE",
+        help="of one of several photos the value that is known, such as garage.jpg=2kHz: the "
+        "frequency of its lamp, stated as for the others, or the readout time of its camera",
+    )
 
 
 def run_many(options: argparse.Namespace, scene: Scene) -> int:
@@ -42,13 +53,16 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     paths = [options.file, *options.more]
     jobs = usual_jobs() if options.jobs is None else options.jobs
     check_count("jobs", jobs, 1, MOST_JOBS)
+    own = _known(paths, options)
     if options.out:
         check_replaceable(options.out)  # before minutes of work are done
-    table = _matched(paths, scene, options, jobs)
+    table = _matched(paths, scene, own, options, jobs)
     if table is None:
         return EXIT_INTERRUPTED
     chips = len(table.scene.transmitter.pattern)
-    known = assumption_of(table.known, float(table.scene.value(table.known)), chips, options)
+    known = ""
+    if table.rests_on_the_scene:
+        known = assumption_of(table.known, float(table.scene.value(table.known)), chips, options)
     paste = stated_lines(table, known)
     if options.out:
         write_whole(options.out, csv_text(table, paste, known).encode("utf-8"))
@@ -59,8 +73,37 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
     return EXIT_FAILURE if table.estimated is None else 0
 
 
+def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
+    """Give the known values of single photos, by their places."""
+    known: dict[int, float] = {}
+    of_cycles = options.led_frequency is not None and options.estimate == "readout_time"
+    declared = SQUARE_FREQUENCY if of_cycles else quantity(known_beside(options.estimate))
+    for text in options.known:
+        name, _, value = text.rpartition("=")
+        places = _places(name, paths)
+        number = replace(declared, name=f"--known {one_line(name)}").parse(value)
+        known |= dict.fromkeys(places, number * (CHIPS_OF_A_CYCLE if of_cycles else 1))
+    return known
+
+
+def _places(name: str, paths: list[Path]) -> list[int]:
+    """Give where a photo stands among those given: by its path, or by its file's name alone."""
+    for names in ([str(path) for path in paths], [path.name for path in paths]):
+        places = [place for place, each in enumerate(names) if each == name]
+        if len({paths[place] for place in places}) == 1:
+            return places
+    raise ParameterError(
+        f"--known {one_line(name) or '(nothing)'} is none of the photos, or several; allowed: "
+        f"PHOTO=VALUE with the path of one, such as {one_line(str(paths[0]))}=1kHz."
+    )
+
+
 def _matched(
-    paths: list[Path], scene: Scene, options: argparse.Namespace, jobs: int
+    paths: list[Path],
+    scene: Scene,
+    known: dict[int, float],
+    options: argparse.Namespace,
+    jobs: int,
 ) -> PhotoTable | None:
     """Match with a progress bar; None after Ctrl-C."""
     reached = 0
@@ -80,6 +123,7 @@ def _matched(
                 fit_gamma=options.fit_gamma,
                 scan_axis=options.scan_axis,
                 channel=options.channel,
+                known=known,
                 jobs=jobs,
                 progress=progress,
             )
@@ -97,6 +141,7 @@ def _report(table: PhotoTable, known: str) -> list[str]:
     width = min(max(len(one_line(row.path.name)) for row in table.rows), _LONGEST_FILE)
     lines = [
         f"{_cut(row.path.name, width):{width}}  {row.verdict:10}  {_found(row, name)}"
+        + (f"  given: {quantity(table.known).format(row.given)}" if row.given is not None else "")
         + ("  outlier" if table.is_outlier(place) else "")
         + (f"  {row.note}" if row.note else "")
         for place, row in enumerate(table.rows)

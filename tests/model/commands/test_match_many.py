@@ -122,3 +122,47 @@ def test_interrupts_end_all_processes_with_one_line(
     assert error.startswith("occ-model: ")
     assert error.count("\n") == 1
     assert not out.exists()
+
+
+def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = SCENE.replace(switching_frequency=8e3)
+    image = np.rot90(occ.render(other, tolerance=0.0, seed=3).image)
+    Image.fromarray(image).save(tmp_path / "a=b.png")
+    photos = [str(folder / "0.png"), str(tmp_path / "a=b.png")]
+    out = tmp_path / "x.csv"
+    one = ["match", *photos, "--led-frequency", "2.5kHz", "--jobs", "1", "--out", str(out)]
+    assert main([*one, "--known", "a=b.png=4kHz"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert ["given: 8 kHz" in line for line in said[:2]] == [False, True]
+    (mean,) = (line for line in said if line.startswith("readout_time"))
+    assert "mean of 2" in mean
+    assert float(mean.split()[1]) == pytest.approx(9.0, rel=2e-3)
+    assert "f = 8 kHz, given" in out.read_text()
+
+
+@pytest.mark.parametrize(
+    ("known", "sentence"),
+    [
+        ("0.png", "--known (nothing) is none of the photos, or several; allowed: PHOTO=VALUE"),
+        ("2.png=1kHz", "--known 2.png is none of the photos"),
+        ("0.png=loud", "--known 0.png is 'loud'"),
+        ("0.png=-1kHz", "--known 0.png is -1 kHz; allowed: 0.5 Hz to 500 MHz."),
+        ("0.png=2s", "--known 0.png is '2s'"),
+    ],
+)
+def test_a_known_value_of_no_photo_or_of_no_frequency_is_refused(
+    folder: Path, capsys: pytest.CaptureFixture[str], known: str, sentence: str
+) -> None:
+    assert main(words(folder, "--known", known)) == 2
+    said = capsys.readouterr()
+    assert said.out == ""
+    assert sentence in said.err
+
+
+def test_a_known_value_is_for_several_photos(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["match", str(folder / "0.png"), "--known", "0.png=1kHz"]) == 2
+    assert "--known is given with one photo" in capsys.readouterr().err

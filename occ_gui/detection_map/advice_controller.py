@@ -18,7 +18,7 @@ from occ_model.results.advice import Advice
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.working_range import expected_images
+from occ_model.study.limits import SEARCHED, usual_images
 
 RATE = 99.0
 """Success rate, in percent, from which a decoder counts as reading."""
@@ -26,10 +26,7 @@ RATE = 99.0
 IMAGES = 20
 """Images at each value that is tried."""
 
-LIMITED = ("switching_frequency", "exposure_time")
-"""The parameters whose limits are searched."""
-
-_USUAL = len(LIMITED) * expected_images(IMAGES)
+_USUAL = len(SEARCHED) * usual_images(IMAGES, RATE)
 """Images that a decoder's search usually reads, from which its progress is estimated."""
 
 _LOOK_MS = 100
@@ -196,7 +193,7 @@ class AdvisorController(QObject):
             self._channel.cancel()
             self._end(self.tr("The scene has changed; ask again."))
         reachable = frozenset(
-            name for name in LIMITED if self._advised.along(name) == request.along(name)
+            name for name in SEARCHED if self._advised.along(name) == request.along(name)
         )
         self._pane.show_advice_outdated(request != self._advised, reachable)
 

@@ -69,6 +69,8 @@ class AdviceSentences(QObject):
             )
             if facts.found.gaps:
                 lines.append(AdviceLine(self.gaps(facts.found)))
+            if facts.found.most_chips is not None:
+                lines.append(AdviceLine(self.searched_to(facts.found)))
             if facts.theory.two_packets is not None:
                 lines.append(AdviceLine(self._two_packets(facts.theory.two_packets)))
             lines.append(AdviceLine(theory, is_common=True))
@@ -88,6 +90,13 @@ class AdviceSentences(QObject):
         return self.tr("It does not read everywhere between: gaps lie between {gaps}.").format(
             gaps="; ".join(gaps)
         )
+
+    def searched_to(self, found: WorkingRange) -> str:
+        """Write where the search ended, as the decoder takes too long beyond."""
+        return self.tr(
+            "Searched to {value} alone, where an exposure covers {chips:.3g} chips: more take this "
+            "decoder much longer."
+        ).format(value=_formatted(found.parameter, found.searched[1]), chips=found.most_chips)
 
     def _two_packets(self, frequency: float) -> str:
         return self.tr("Below {packets} no two packets fit the picture, which it needs.").format(
@@ -170,12 +179,14 @@ class AdviceSentences(QObject):
             )
         sentence = f"{text.format(value=value)}: {inside}, {beyond}."
         if end.inside is None:
-            return AdviceLine(f"{sentence} {self.tr('No value near it is read without errors.')}")
+            return AdviceLine(f"{sentence} {self.tr('No value inside is surely read.')}")
         place = _formatted(end.parameter, end.inside.value)
-        if end.inside != end.works:
+        if end.interval is not None:
+            low, high = (_formatted(end.parameter, value) for value in end.interval)
             sentence += " " + self.tr(
-                "At {value}, {margin:.1f} % inside, it read every bit of {images} images."
-            ).format(value=place, margin=end.margin, images=end.inside.images)
+                "At {value} it read every bit of {images} images: the end lies between {low} and "
+                "{high} (95 %)."
+            ).format(value=place, images=end.inside.images, low=low, high=high)
         return AdviceLine(sentence, (end.parameter, end.inside.value, place))
 
     def _counted(self, trial: Trial) -> str:

@@ -99,7 +99,8 @@ class LimitCards(QWidget):
             found = advice.limits.frequency
             gaps = self._sentences.gaps(found) if found.gaps else ""
             bits = self._sentences.bits_a_second(advice.limits)
-            tip = "\n".join(text for text in (line.text, gaps, bits) if text)
+            to = "" if found.most_chips is None else self._sentences.searched_to(found)
+            tip = "\n".join(text for text in (line.text, gaps, to, bits) if text)
             card.show_limit(highest_frequency(advice), tip, advice.limits.rate)
             card.show_range(found)
 
@@ -222,7 +223,7 @@ class LimitCard(QFrame):
         inside = end.inside
         value = formatted_frequency(end.value)
         limit = (
-            self.tr("{value} or more").format(value=value)
+            self.tr("{value}, searched to").format(value=value)
             if end.fails is None
             else self.tr("{value} ({rate:g} %)").format(value=value, rate=rate)
         )

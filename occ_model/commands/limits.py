@@ -100,7 +100,7 @@ def _run(options: argparse.Namespace) -> int:
 _COLUMNS = (
     "decoder", "lowest", "highest", "gaps", "shortest", "longest", "gaps", "bits a second",
 )  # fmt: skip
-_WIDTHS = (10, 20, 20, 20, 20, 20, 20, 14)
+_WIDTHS = (10, 23, 23, 23, 23, 23, 23, 14)
 
 
 def _heading(scene: Scene, options: argparse.Namespace) -> list[str]:
@@ -130,18 +130,16 @@ def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
                 for end, after in each.gaps]  # fmt: skip
         more = f", {len(gaps) - 1} more" if len(gaps) > 1 else ""
         cells += [
-            _end_text(each, each.lowest, "-"), _end_text(each, each.highest, "+"),
+            _end_text(each, each.lowest), _end_text(each, each.highest),
             gaps[0] + more if gaps else "no",
         ]  # fmt: skip
     return _in_columns([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
 
 
-def _end_text(found: WorkingRange, end: RangeEnd, side: str) -> str:
-    """Write an end with how far beyond it the true one may lie."""
+def _end_text(found: WorkingRange, end: RangeEnd) -> str:
+    """Write an end, and whether the search ended there."""
     value = _written(found.parameter, end.value)
-    if end.fails is None:
-        return f"{value} or {'less' if side == '-' else 'more'}"
-    return f"{value} {side} {quantity(found.parameter).format(end.error, 3)}"
+    return f"{value} (searched to)" if end.fails is None else value
 
 
 def sentences(answers: Sequence[Limits]) -> list[str]:
@@ -153,8 +151,7 @@ def sentences(answers: Sequence[Limits]) -> list[str]:
     first = answers[0]
     return [
         *lines,
-        "Behind the sign + or - stands how far beyond an end the first value lies that fails.",
-        f"Each end was tried with {first.images} images that had not chosen it, which the "
+        f"Each end was tried with {first.images} images or more that had not chosen it, which the "
         "intervals count.",
         f"Values between were tried in steps of {100.0 * (first.frequency.step - 1.0):.0f} %: a "
         "narrower gap can be missed.",
@@ -168,19 +165,27 @@ def _on_range(decoder: str, found: WorkingRange) -> list[str]:
     lines = [f"The {decoder} decoder, {quantity(found.parameter).label.lower()}:"]
     for interval in found.intervals:
         lines += [_on_end(found.parameter, end) for end in (interval.lowest, interval.highest)]
+    if found.most_chips is not None:
+        lines.append(
+            f"  Searched to {_written(found.parameter, found.searched[1])} alone, where an "
+            f"exposure covers {found.most_chips:.3g} chips: more take this decoder much longer."
+        )
     return lines
 
 
 def _on_end(parameter: str, end: RangeEnd) -> str:
     text = f"  at {_written(parameter, end.value)} {_counted(end.works)}"
     if end.fails is None:
-        text += "; beyond it was not searched"
-    else:
-        text += f", at {_written(parameter, end.fails.value)} {_counted(end.fails)}"
-    if end.inside is not None and end.inside != end.works:
-        value = _written(parameter, end.inside.value)
-        text += f"; at {value} every bit of {end.inside.images} images"
-    return text + "."
+        return f"{text}; beyond it was not searched."
+    text += f", at {_written(parameter, end.fails.value)} {_counted(end.fails)}"
+    if end.inside is not None:
+        text += (
+            f", at {_written(parameter, end.inside.value)} every bit of {end.inside.images} images"
+        )
+    if end.interval is None:
+        return f"{text}."
+    low, high = (_written(parameter, value) for value in end.interval)
+    return f"{text}: the end lies between {low} and {high} (95 %)."
 
 
 def _written(parameter: str, value: float) -> str:

@@ -41,11 +41,8 @@ class EndFacts:
 
     Parameters
     ----------
-    fails
-        The first value beyond at which it does not: reading stopped. None: the search stopped, at
-        the end of the values that it tries.
-    inside
-        A value a little further inside at which every bit was read; None where there is none near.
+    works, fails, inside, interval
+        As of :class:`~occ_model.results.limits.RangeEnd`.
     """
 
     parameter: str
@@ -53,16 +50,12 @@ class EndFacts:
     works: Trial
     fails: Trial | None
     inside: Trial | None = None
+    interval: tuple[float, float] | None = None
 
     @property
     def value(self) -> float:
         """The last value at which the decoder reads, in SI units."""
         return self.works.value
-
-    @property
-    def margin(self) -> float:
-        """How far ``inside`` lies from the last value at which the decoder reads, in percent."""
-        return 0.0 if self.inside is None else 100.0 * abs(self.inside.value / self.value - 1.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,15 +46,20 @@ class RangeEnd:
     Parameters
     ----------
     fails
-        The first value beyond, at which it does not; None where it reads to the end of the search.
+        A value beyond, at which it surely does not: the 95 % interval of the rate lies below the
+        rate asked for. None where it reads to the end of the search.
     inside
-        A value a little further inside at which every bit of all images was read; None where there
-        is none near, or it was not looked for.
+        A value inside, at which it surely reads: every bit of so many images that the 95 % interval
+        lies above the rate asked for. At the end of the search ``works``, if every bit was read.
+        None where there is none, or it was not looked for.
+    is_bisected
+        Whether the end was found by bisection; otherwise it is known to a step of the search.
     """
 
     works: Trial
     fails: Trial | None
     inside: Trial | None = None
+    is_bisected: bool = False
 
     @property
     def value(self) -> float:
@@ -62,9 +67,12 @@ class RangeEnd:
         return self.works.value
 
     @property
-    def error(self) -> float:
-        """How far beyond the value the true end may lie, in SI units; 0 where the search ended."""
-        return abs(self.fails.value - self.works.value) if self.fails else 0.0
+    def interval(self) -> tuple[float, float] | None:
+        """The values between which the true end lies, with 95 %; None where that is not known."""
+        if self.fails is None or self.inside is None:
+            return None
+        first, last = sorted((self.inside.value, self.fails.value))
+        return first, last
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +98,9 @@ class WorkingRange:
         None, or a sentence that says that it reads nowhere.
     best
         Where it reads nowhere: the value at which it reads the most; else None.
+    most_chips
+        The chips of an exposure at which the search ended, as the decoder takes too long beyond;
+        None where that has not shortened it.
     """
 
     parameter: str
@@ -99,6 +110,7 @@ class WorkingRange:
     intervals: tuple[ReadInterval, ...]
     failure: str | None = None
     best: Trial | None = None
+    most_chips: float | None = None
 
     @property
     def lowest(self) -> RangeEnd | None:

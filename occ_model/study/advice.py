@@ -29,7 +29,7 @@ def _ends(found: WorkingRange) -> tuple[EndFacts, ...]:
         ("highest", found.highest),
     )
     return tuple(
-        EndFacts(found.parameter, side, end.works, end.fails, end.inside)
+        EndFacts(found.parameter, side, end.works, end.fails, end.inside, end.interval)
         for side, end in sides
         if end is not None
     )

@@ -1,10 +1,12 @@
 """Wilson's confidence interval of a success rate, by trials or by pictures."""
 
 import math
+from collections.abc import Sequence
 from numbers import Real
 from statistics import NormalDist
 
 from occ_model.errors import ParameterError, shown
+from occ_model.results import Trial
 from occ_model.scene.argument_checks import check_count
 
 _MOST_TRIALS = 2**53
@@ -60,11 +62,29 @@ def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, f
     if not sent:
         return math.nan, math.nan
     won = pictures * right / sent
-    low, high = _interval(won, pictures - won, _TWO_SIDED)
+    low, high = _interval(won, pictures - won, TWO_SIDED)
     return 100.0 * low, 100.0 * high
 
 
-_TWO_SIDED = NormalDist().inv_cdf(0.975)
+TWO_SIDED = NormalDist().inv_cdf(0.975)
+"""The normal deviate that 95 % lie within."""
+
+
+def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
+    """Count what was read at a value of a parameter.
+
+    Parameters
+    ----------
+    value
+        The parameter.
+    counts
+        The right bits of each picture.
+    bits
+        Bits of each picture.
+    """
+    right, sent = sum(counts), len(counts) * bits
+    low, high = interval_of_pictures(right, sent, len(counts))
+    return Trial(value, right, sent, low, high, len(counts), list(counts).count(bits))
 
 
 def _interval(won: float, lost: float, z: float) -> tuple[float, float]:

@@ -4,12 +4,12 @@ Each is searched by itself, see :mod:`occ_model.study.working_range`, and does n
 other: two processes find the same answer in half of the time.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import wait
 from contextlib import ExitStack, suppress
 from functools import partial
 from numbers import Real
-from typing import TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
@@ -21,7 +21,11 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.success_rate import check_rate
+from occ_model.study.sure_ends import images_to_be_sure, with_sure_ends
 from occ_model.study.working_range import expected_images, working_range
+
+if TYPE_CHECKING:
+    from occ_model.parallel.process_pool import ProcessPool
 
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -43,7 +47,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     Each answer is a list of intervals: success need not fall steadily, and beyond a null stripes
     come back. A gap narrower than a step of ``STEP`` can be missed. The outermost ends and those of
     the scene's own interval are found by bisection, and each end is confirmed by images that have
-    not chosen it.
+    not chosen it. A bisected end has a 95 % interval, see :mod:`occ_model.study.sure_ends`.
 
     Parameters
     ----------
@@ -108,7 +112,8 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
     rate, images, seed, tolerance, force, path, jobs, heartbeat, progress
         As for :func:`limits`.
     found
-        Called with the limits of each decoder as soon as they are known.
+        Called with the limits of each decoder as soon as they are known, before it is known how
+        surely.
 
     Raises
     ------
@@ -123,25 +128,19 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
         settings = RateSettings(images, (decoder,), seed, tolerance, force or {}, path)
         check_rate(scene, settings)
         asked += [(scene, name, wanted, settings) for name in SEARCHED]
-    ranges: list[WorkingRange] = []
-    answers: list[Limits] = []
-
-    def take(working_range: WorkingRange) -> None:
-        """Take the ranges in the order in which they are asked for."""
-        ranges.append(working_range)
-        if len(ranges) % len(SEARCHED) == 0:
-            decoder = decoders[len(answers)]
-            pair = ranges[-len(SEARCHED) :]
-            answers.append(Limits(scene, decoder, wanted, images, seed, *pair))
-            found(answers[-1])
-
-    if jobs > 1:
-        _search_apart(asked, heartbeat, progress, take)
-    for place in range(len(ranges), len(asked)):
-        report = partial(_report, progress, place, asked)
-        take(working_range(*asked[place], heartbeat, report))
+    usual = len(asked) * usual_images(images, wanted)
+    with ExitStack() as stack:
+        ways = _Ways(_workers(stack) if jobs > 1 else None, usual, heartbeat, progress)
+        searched: list[WorkingRange] = []
+        for working_range in ways.ranges(search_along, asked):
+            searched.append(working_range)
+            if len(searched) % len(SEARCHED) == 0:
+                found(_answers(scene, decoders, (wanted, images, seed), searched)[-1])
+        # The slowest decoder, which is the last, first: nothing else waits for it then.
+        again = [(*one, each) for one, each in zip(asked, searched, strict=True)][::-1]
+        ranges = list(ways.ranges(make_sure, again))[::-1]
     progress(1.0, "")
-    return tuple(answers)
+    return tuple(_answers(scene, decoders, (wanted, images, seed), ranges))
 
 
 SEARCHED = ("switching_frequency", "exposure_time")
@@ -151,6 +150,22 @@ _LOOK = 0.1
 """Seconds between two looks at what other processes have done."""
 
 
+def usual_images(images: int, rate: float) -> int:
+    """Return how many images a decoder's search along a parameter usually reads."""
+    return expected_images(images) + images_to_be_sure(rate)
+
+
+def _answers(
+    scene: Scene,
+    decoders: Sequence[str],
+    settings: tuple[float, int, int],
+    ranges: Sequence[WorkingRange],
+) -> list[Limits]:
+    """Put the ranges together, those of one decoder after the other."""
+    pairs = zip(ranges[::2], ranges[1::2], strict=False)
+    return [Limits(scene, each, *settings, *pair) for each, pair in zip(decoders, pairs)]  # noqa: B905
+
+
 def search_along(
     scene: Scene, name: str, rate: float, settings: RateSettings, heartbeat: Heartbeat
 ) -> WorkingRange:
@@ -158,30 +173,77 @@ def search_along(
     return working_range(scene, name, rate, settings, heartbeat)
 
 
-_Asked: TypeAlias = tuple[Scene, str, float, RateSettings]
-
-
-def _search_apart(
-    asked: Sequence[_Asked],
+def make_sure(
+    scene: Scene,
+    _name: str,
+    rate: float,
+    settings: RateSettings,
+    found: WorkingRange,
     heartbeat: Heartbeat,
-    progress: Callable[[float, str], object],
-    take: Callable[[WorkingRange], object],
-) -> None:
-    """Search in two processes; what they cannot do, as where none can be had, is not taken."""
+) -> WorkingRange:
+    """Find how surely the ends of a range are known, as the job of a process."""
+    return with_sure_ends(scene, found, rate, settings, heartbeat)
+
+
+def _workers(stack: ExitStack) -> "ProcessPool | None":
+    """Return two processes, which end with the stack; None where none can be had."""
     from occ_model.parallel.process_pool import ProcessPool
 
-    missing: tuple[type[Exception], ...] = (*NO_PROCESSES, *ProcessPool.lost_by)
-    with suppress(*missing), ExitStack() as stack:
+    with suppress(*NO_PROCESSES):
         workers = ProcessPool(2, __name__)
         stack.callback(workers.close)
-        futures = [workers.submit(Job(search_along, each), 0, 1) for each in asked]
-        expected = len(asked) * expected_images(asked[0][-1].images)
-        for place, future in enumerate(futures):
-            while not future.done():
-                wait([future], timeout=_LOOK)
-                heartbeat()
-                progress(min(workers.counted(0) / expected, 0.99), _what(asked[place]))
-            take(_value_of(future.result()))
+        return workers
+    return None
+
+
+class _Ways:
+    """Ranges are searched in other processes, or here where these cannot be had or are lost.
+
+    Parameters
+    ----------
+    workers
+        The processes, if any.
+    usual
+        Images that all searches usually read.
+    heartbeat, progress
+        As for :func:`limits_of`.
+    """
+
+    def __init__(
+        self,
+        workers: "ProcessPool | None",
+        usual: int,
+        heartbeat: Heartbeat,
+        progress: Callable[[float, str], object],
+    ) -> None:
+        self._workers, self._usual = workers, usual
+        self._heartbeat, self._progress = heartbeat, progress
+        self._read = 0
+
+    def ranges(
+        self, work: Callable[..., WorkingRange], asked: Sequence[tuple[Any, ...]]
+    ) -> Iterator[WorkingRange]:
+        """Do some work on each of several requests, and give the answers in their order."""
+        done = 0
+        if self._workers is not None:
+            with suppress(*NO_PROCESSES, *self._workers.lost_by):
+                futures = [self._workers.submit(Job(work, each), 0, 1) for each in asked]
+                for each, future in zip(asked, futures, strict=True):
+                    while not future.done():
+                        wait([future], timeout=_LOOK)
+                        self._look(self._workers.counted(0), each)
+                    yield _value_of(future.result())
+                    done += 1
+        for each in asked[done:]:
+            yield work(*each, partial(self._on_image, each))
+
+    def _on_image(self, asked: tuple[Any, ...]) -> None:
+        self._read += 1
+        self._look(self._read, asked)
+
+    def _look(self, read: int, asked: tuple[Any, ...]) -> None:
+        self._heartbeat()
+        self._progress(min(read / self._usual, 0.99), _what(asked))
 
 
 def _value_of(result: JobResult) -> WorkingRange:
@@ -191,15 +253,9 @@ def _value_of(result: JobResult) -> WorkingRange:
     return found
 
 
-def _what(asked: _Asked) -> str:
+def _what(asked: tuple[Any, ...]) -> str:
     """Say what is searched."""
-    return f"{PARAMETERS[asked[1]].label.lower()}, {asked[-1].decoders[0]} decoder"
-
-
-def _report(
-    progress: Callable[[float, str], object], place: int, asked: Sequence[_Asked], share: float
-) -> None:
-    progress((place + share) / len(asked), _what(asked[place]))
+    return f"{PARAMETERS[asked[1]].label.lower()}, {asked[3].decoders[0]} decoder"
 
 
 def _checked(rate: object) -> float:

@@ -11,11 +11,13 @@ known to a step of the coarse search.
 Images are spent where the rate is in doubt. A value is given up as soon as too many bits are wrong
 for further images to mend, and believed after ``FEW_IMAGES`` that reach the rate. Values on both
 sides of an end are then tried with images of another seed, which have not chosen them; an end that
-these refute is moved. No image of a value is simulated twice.
+these refute is moved: the value beyond an end surely fails, as its 95 % interval lies below the
+rate. No image of a value is simulated twice. How far inside the end may lie is another question:
+see :mod:`occ_model.study.sure_ends`.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import count
 
@@ -27,7 +29,7 @@ from occ_model.results import RangeEnd, RateSettings, ReadInterval, Trial, Worki
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
-from occ_model.study.confidence import interval_of_pictures
+from occ_model.study.confidence import trial_of
 from occ_model.study.success_rate import right_bits_of_images
 
 STEP = 1.15
@@ -35,12 +37,6 @@ STEP = 1.15
 
 NEAR = 1.003
 """Ratio of the values on both sides of an end of the interval at which its bisection stops."""
-
-MARGIN = 1.01
-"""Ratio between an end and the nearest value inside that is offered as one that is surely read."""
-
-MOST_MARGINS = 5
-"""How often that step is made until a value is found at which every bit is read."""
 
 FEW_IMAGES = 5
 """Images after which a value is believed to be read, until it is reported."""
@@ -52,7 +48,6 @@ def working_range(
     rate: float,
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
-    progress: Callable[[float], object] = lambda _share: None,
 ) -> WorkingRange:
     """Find the intervals of values of a parameter at which a decoder reads a scene.
 
@@ -68,15 +63,13 @@ def working_range(
         Checked, with one decoder; the images are those of each value that is reported.
     heartbeat
         Called before each image; what it raises ends the search.
-    progress
-        Called with the share of the search that is done, from 0 to 1.
 
     Raises
     ------
     ProjectionError
         The scene has no picture.
     """
-    return _Search(scene, name, rate, settings, heartbeat, progress).working_range()
+    return _Search(scene, name, rate, settings, heartbeat).working_range()
 
 
 def expected_images(images: int) -> int:
@@ -86,10 +79,18 @@ def expected_images(images: int) -> int:
     return coarse + ends
 
 
+def right_bits_at(
+    scene: Scene, name: str, value: float, settings: RateSettings, heartbeat: Heartbeat
+) -> Iterator[int]:
+    """Count the bits read rightly in each image at a value, as a decoder reads them."""
+    at = scene.replace(**{name: value})
+    return (right for (right,) in right_bits_of_images(at, settings, heartbeat))
+
+
 class _Images:
     """The bits that are read rightly in the images at one value, one image after the other."""
 
-    def __init__(self, images: Iterator[tuple[int, ...]]) -> None:
+    def __init__(self, images: Iterator[int]) -> None:
         self._coming = images
         self._seen: list[int] = []
 
@@ -99,7 +100,7 @@ class _Images:
                 following = next(self._coming, None)
                 if following is None:
                     return
-                self._seen += following
+                self._seen.append(following)
             yield self._seen[place]
 
 
@@ -113,28 +114,28 @@ class _Search:
         rate: float,
         settings: RateSettings,
         heartbeat: Heartbeat,
-        progress: Callable[[float], object],
     ) -> None:
         self._scene = scene
         self._name = name
         self._rate = rate
         self._settings = settings
         self._heartbeat = heartbeat
-        self._progress = progress
         parameter = PARAMETERS[name]
         assert isinstance(parameter, Quantity)  # noqa: S101 - the two that are searched are
         self._parameter = parameter
         self._own = float(scene.value(name))
+        self._bits = scene.transmitter.payload_length
         low, high = parameter.slider
         chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
         longest = decoder_named(settings.decoders[0]).searched_chips
-        high = min(high, float(f"{self._own * longest / chips:.4g}"))
+        slow = float(f"{self._own * longest / chips:.4g}")
+        self._most_chips = max(longest, chips) if max(slow, self._own) < high else None
+        high = min(high, slow)
         self._low, self._high = min(low, self._own), max(high, self._own)
         self._values = self._coarse_values()
-        self._fresh = replace(settings, seed=_other_seed(settings.seed))
+        self._fresh = replace(settings, seed=other_seed(settings.seed))
         self._images: dict[tuple[float, int], _Images] = {}
         self._refuted: set[int] = set()
-        self._spent = 0
 
     def working_range(self) -> WorkingRange:
         """Find the intervals of values."""
@@ -147,13 +148,12 @@ class _Search:
             found = tuple(interval for interval in intervals if interval is not None)
             if len(found) == len(runs):
                 break
-        self._progress(1.0)
         if found:
-            return WorkingRange(self._name, searched, STEP, own, found)
+            return WorkingRange(self._name, searched, STEP, own, found, most_chips=self._most_chips)
         best = max((self._try(value) for value in values), key=lambda trial: trial.rate)
         best = self._whole(best.value, self._settings)
         failure = self._nowhere(searched, best)
-        return WorkingRange(self._name, searched, STEP, own, (), failure, best)
+        return WorkingRange(self._name, searched, STEP, own, (), failure, best, self._most_chips)
 
     def _runs(self) -> list[tuple[int, int]]:
         """Return the first and the last coarse value of each interval, by their places."""
@@ -220,10 +220,24 @@ class _Search:
             self._refuted.add(place)
             return None
         trial, failing = confirmed
-        if fails is not None and outer is not None and failing is None:
-            failing = self._failing(fails, outer)
-        inside = self._inside(trial, place - beyond if failing else 0) if is_wanted else None
-        return RangeEnd(trial, failing, inside)
+        if (
+            fails is not None
+            and outer is not None
+            and (failing is None or not self._fails(failing))
+        ):
+            failing = self._failing(fails, self._furthest(beyond, beyond - place))
+        if failing is None:
+            return RangeEnd(trial, None, trial if trial.whole == trial.images else None)
+        return RangeEnd(trial, failing, is_bisected=is_wanted)
+
+    def _furthest(self, place: int, direction: int) -> float:
+        """Return the last coarse value of a gap, from one of its values on."""
+        while (
+            0 <= place + direction < len(self._values)
+            and not self._reads(self._try(self._values[place + direction]))
+        ):  # fmt: skip
+            place += direction
+        return self._values[place]
 
     def _bisected(self, works: float, fails: float) -> tuple[float, float]:
         """Bisect, by ratio, between a value that surely works and one that fails."""
@@ -250,44 +264,34 @@ class _Search:
             if works == inner:
                 return None
             refuted = trial
-            works, step = _moved(works, inner, step), step * step
+            works, step = moved(works, inner, step), step * step
 
     def _failing(self, fails: float, outer: float) -> Trial:
-        """Return the nearest value beyond an end that other images show to fail, too."""
+        """Return the nearest value beyond an end that other images show to fail surely.
+
+        Where none does up to the end of the gap, that is returned by the images that chose it.
+        """
         step = NEAR
         while True:
             trial = self._whole(fails, self._fresh)
-            if not self._reads(trial):
+            if self._fails(trial):
                 return trial
-            if fails == outer:  # as likely to fail as not: by the images that chose it, it does
-                return self._whole(fails, self._settings)
-            fails, step = _moved(fails, outer, step), step * step
-
-    def _inside(self, works: Trial, direction: int) -> Trial | None:
-        """Find a value at which every bit of all images is read, in small steps from an end."""
-        value, images = works.value, self._settings.images
-        for _ in range(MOST_MARGINS):
-            value = float(f"{value * MARGIN**direction:.4g}")
-            if not self._low <= value <= self._high:
-                return None
-            trial = self._try(value, images, self._fresh)
-            if trial.right == trial.sent and trial.images == images:
-                return trial
-            direction = direction or (1 if value <= self._low else -1)
-        return None
+            if fails == outer:
+                return trial if not self._reads(trial) else self._whole(fails, self._settings)
+            fails, step = moved(fails, outer, step), step * step
 
     def _whole(self, value: float, settings: RateSettings) -> Trial:
         """Return a trial of all images.
 
         A count that was ended by its own result would not have the interval that is stated.
         """
-        return self._trial_of(value, list(self._images_at(value, settings)))
+        return trial_of(value, list(self._images_at(value, settings)), self._bits)
 
     def _try(
         self, value: float, enough: int = FEW_IMAGES, settings: RateSettings | None = None
     ) -> Trial:
         """Count right bits until the rate cannot be reached, or is reached by enough images."""
-        images, bits = self._settings.images, self._scene.transmitter.payload_length
+        images, bits = self._settings.images, self._bits
         counts: list[int] = []
         for right in self._images_at(value, settings or self._settings):
             counts.append(right)
@@ -296,28 +300,21 @@ class _Search:
                 break
             if read >= enough and 100.0 * all_right >= self._rate * read * bits:
                 break
-        return self._trial_of(value, counts)
-
-    def _trial_of(self, value: float, counts: list[int]) -> Trial:
-        bits = self._scene.transmitter.payload_length
-        right, sent = sum(counts), len(counts) * bits
-        low, high = interval_of_pictures(right, sent, len(counts))
-        return Trial(value, right, sent, low, high, len(counts), counts.count(bits))
+        return trial_of(value, counts, self._bits)
 
     def _images_at(self, value: float, settings: RateSettings) -> _Images:
         key = value, settings.seed
         if key not in self._images:
-            scene = self._scene.replace(**{self._name: value})
-            self._images[key] = _Images(right_bits_of_images(scene, settings, self._on_image))
+            self._images[key] = _Images(
+                right_bits_at(self._scene, self._name, value, settings, self._heartbeat)
+            )
         return self._images[key]
-
-    def _on_image(self) -> None:
-        self._heartbeat()
-        self._spent += 1
-        self._progress(min(self._spent / expected_images(self._settings.images), 0.99))
 
     def _reads(self, trial: Trial) -> bool:
         return 100.0 * trial.right >= self._rate * trial.sent
+
+    def _fails(self, trial: Trial) -> bool:
+        return trial.high < self._rate
 
     def _nowhere(self, searched: tuple[float, float], best: Trial) -> str:
         write = self._parameter.format
@@ -328,13 +325,13 @@ class _Search:
         )
 
 
-def _moved(value: float, end: float, ratio: float) -> float:
+def moved(value: float, end: float, ratio: float) -> float:
     """Move a value towards an end by a ratio, and no further than the end."""
     moved = value * ratio if end > value else value / ratio
     moved = float(f"{moved:.5g}")
     return end if (moved - end) * (value - end) <= 0.0 else moved
 
 
-def _other_seed(seed: int) -> int:
+def other_seed(seed: int) -> int:
     """Return the seed of images that have nothing in common with those of a seed."""
     return int(np.random.SeedSequence([seed, 1]).generate_state(1)[0])

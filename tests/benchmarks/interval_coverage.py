@@ -1,12 +1,15 @@
-"""Print how many of the studies' 95 % intervals hold the true rate, at ten edges of working ranges.
+"""Print how many of the studies' 95 % intervals hold the truth.
 
 python tests/benchmarks/interval_coverage.py --studies 40 --images 20
+python tests/benchmarks/interval_coverage.py --ends 30
 
-Each study reads pictures of its own; the true rate is that of as many others as there are in all
-studies of an edge, twice.
+The first asks of the true rate, at ten edges of working ranges. Each study reads pictures of its
+own; the true rate is that of as many others as there are in all studies of an edge, twice. The
+second asks of the ends of working ranges, where the true rate of 1,500 other pictures passes 99 %.
 """
 
 import argparse
+import math
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
@@ -15,20 +18,22 @@ import occ_model as occ
 from occ_model.results import RateSettings
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
+from occ_model.study.sure_ends import with_sure_ends
+from occ_model.study.working_range import working_range
 
 EDGES: tuple[tuple[str, str, float], ...] = (
-    ("phone-136us", "threshold", 3.45e3),
-    ("phone-136us", "threshold", 14.225e3),
-    ("phone-136us", "matched", 1.8e3),
-    ("phone-136us", "equalizer", 3.45e3),
-    ("phone-136us", "sequence", 1.85e3),
-    ("phone-68us", "threshold", 28.25e3),
-    ("phone-68us", "threshold", 3.4e3),
-    ("tablet-122us", "threshold", 15.98e3),
-    ("phone-136us", "equalizer", 29e3),
-    ("tablet-61us", "matched", 1.6e3),
+    ("phone-136us", "threshold", 3.3e3),
+    ("phone-136us", "threshold", 14.23e3),
+    ("phone-136us", "matched", 1.75e3),
+    ("phone-136us", "equalizer", 14.2e3),
+    ("phone-136us", "equalizer", 34.6e3),
+    ("phone-136us", "sequence", 1.78e3),
+    ("phone-68us", "threshold", 3.3e3),
+    ("tablet-122us", "equalizer", 2.7e3),
+    ("tablet-61us", "threshold", 31.5e3),
+    ("tablet-61us", "matched", 1.52e3),
 )
-"""Preset, decoder and frequency."""
+"""Preset, decoder and frequency, at which 10 to 90 % of the bits are read."""
 
 
 def right_of_each(edge: int, images: int, seed: int) -> np.ndarray:
@@ -39,12 +44,61 @@ def right_of_each(edge: int, images: int, seed: int) -> np.ndarray:
     return np.array([right for (right,) in right_bits_of_images(scene, settings)])
 
 
+RANGES = (("phone-136us", "threshold"), ("tablet-61us", "matched"))
+"""Presets and decoders whose frequencies are searched."""
+
+RATE, PICTURES, CLOSE = 99.0, 1500, 1.0003
+
+
+def ends_of(preset: str, decoder: str, seed: int) -> list[tuple[float, float] | None]:
+    """Search for both ends of a range of frequencies, and give their intervals."""
+    scene, settings = occ.load_preset(preset), RateSettings(20, (decoder,), seed)
+    found = working_range(scene, "switching_frequency", RATE, settings)
+    sure = with_sure_ends(scene, found, RATE, settings)
+    ends = [end for end in (sure.lowest, sure.highest) if end is not None and end.fails]
+    return [end.interval for end in ends]
+
+
+def true_end(preset: str, decoder: str, within: tuple[float, float], falls: bool) -> float:
+    """Bisect to where the rate of many pictures passes the one asked for."""
+    low, high = within
+    scene = occ.load_preset(preset)
+    while high / low > CLOSE:
+        middle = math.sqrt(low * high)
+        at = scene.replace(switching_frequency=middle)
+        reads = occ.success_rate(at, PICTURES, decoder, seed=987) >= RATE
+        low, high = (middle, high) if reads == falls else (low, middle)
+    return math.sqrt(low * high)
+
+
+def count_ends(searches: int) -> None:
+    """Print a line for each end."""
+    print("| preset | decoder | true end | intervals that hold it | median width |")
+    print("|---|---|---|---|---|")
+    with ProcessPoolExecutor(2) as processes:
+        jobs = [[processes.submit(ends_of, *one, seed) for seed in range(searches)]
+                for one in RANGES]  # fmt: skip
+        for one, searched in zip(RANGES, jobs, strict=True):
+            for place, found in enumerate(zip(*(job.result() for job in searched), strict=True)):
+                known = [each for each in found if each is not None]
+                within = (min(low for low, _ in known) / 1.01, max(end for _, end in known) * 1.01)
+                end = true_end(*one, within, falls=place == 1)
+                held = sum(low <= end <= high for low, high in known)
+                width = np.median([high - low for low, high in known])
+                cells = (*one, f"{end / 1e3:.4g} kHz", f"{held} of {len(found)}", f"{width:.0f} Hz")
+                print(f"| {' | '.join(cells)} |", flush=True)
+
+
 def main() -> None:
     """Measure and print a line an edge."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--studies", type=int, default=40)
     parser.add_argument("--images", type=int, default=20)
+    parser.add_argument("--ends", type=int, default=0)
     asked = parser.parse_args()
+    if asked.ends:
+        count_ends(asked.ends)
+        return
     print("| preset | decoder | frequency | true rate | intervals that hold it |")
     print("|---|---|---|---|---|")
     total, bits = asked.studies * asked.images, 10
@@ -64,7 +118,10 @@ def main() -> None:
             hold = sum(low <= rate <= high for low, high in ends)
             held += hold
             at = f"{frequency / 1e3:g} kHz"
-            print(f"| {preset} | {decoder} | {at} | {rate:.1f} % | {hold} of {len(ends)} |")
+            print(
+                f"| {preset} | {decoder} | {at} | {rate:.1f} % | {hold} of {len(ends)} |",
+                flush=True,
+            )
     print(f"| all | | | | {100.0 * held / len(EDGES) / asked.studies:.1f} % |")
 
 

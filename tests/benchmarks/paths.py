@@ -18,7 +18,15 @@ import numpy as np
 import occ_model as occ
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from physics.paths import DECODERS, PRESETS, TwoPaths, compared, compared_at, scene_in_doubt, significance
+from physics.paths import (
+    DECODERS,
+    PRESETS,
+    TwoPaths,
+    compared,
+    compared_at,
+    scene_in_doubt,
+    significance,
+)
 
 JOBS = 2
 

@@ -28,7 +28,7 @@ from occ_model.study.advice import advice_of
 pytestmark = pytest.mark.own_window
 
 GOOD = Trial(14.7e3, 200, 200, 83.9, 100.0, 20, 20)
-INSIDE = Trial(14.55e3, 200, 200, 83.9, 100.0, 20, 20)
+INSIDE = Trial(14.55e3, 3810, 3810, 99.0, 100.0, 381, 381)
 BAD = Trial(14.73e3, 0, 200, 0.0, 16.1, 20, 0)
 SHORT = Trial(10e-6, 200, 200, 83.9, 100.0, 20, 20)
 LONG = Trial(196e-6, 200, 200, 83.9, 100.0, 20, 20)
@@ -100,7 +100,8 @@ def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) ->
     assert lines[2] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 100 % in 20 images "
         "(83.9 to 100.0 %), at 14.73 kHz 0 % in 20 images (0.0 to 16.1 %). "
-        "At 14.55 kHz, 1.0 % inside, it read every bit of 20 images."
+        "At 14.55 kHz it read every bit of 381 images: the end lies between 14.55 kHz and "
+        "14.73 kHz (95 %)."
     )
     assert lines[5].startswith("The shortest exposure that it reads is 10 µs: ")
     assert "beyond it was not tried" in lines[5]
@@ -113,7 +114,7 @@ def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
     ends = tuple(replace(end, inside=None) for end in advice.frequency.ends)
     doubtful = replace(advice, frequency=replace(advice.frequency, ends=ends))
     line = AdviceSentences().lines(doubtful)[2]
-    assert line.text.endswith("No value near it is read without errors.")
+    assert line.text.endswith("No value inside is surely read.")
     assert line.destination is None
 
 

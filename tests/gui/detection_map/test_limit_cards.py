@@ -62,7 +62,7 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
 
 def test_a_search_that_met_no_end_says_so(cards: LimitCards, small_scene: Scene) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))
-    assert cards.cards["threshold"].value.text() == "14.7 kHz or more"
+    assert cards.cards["threshold"].value.text() == "14.7 kHz, searched to"
 
 
 def test_without_a_place_to_go_the_button_rests(cards: LimitCards, small_scene: Scene) -> None:

@@ -21,6 +21,7 @@ from occ_model.study import working_range as module
 from occ_model.study.advice import advice_of
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.observation import panel_span
+from occ_model.study.sure_ends import images_to_be_sure
 from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
 
 SCENE = Scene()
@@ -69,7 +70,10 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
         assert min(works, fails) <= truth <= max(works, fails)
         assert max(works, fails) / min(works, fails) <= NEAR
         assert range_end is not None
-        assert range_end.error == abs(works - fails)
+        assert range_end.inside is not None
+        assert range_end.interval == tuple(sorted((range_end.inside.value, fails)))
+        assert range_end.interval[0] <= truth <= range_end.interval[1]
+        assert range_end.interval[1] / range_end.interval[0] <= NEAR**3
 
 
 @pytest.mark.parametrize("own", [700.0, 5e3, 40e3])
@@ -126,7 +130,7 @@ def test_a_range_that_reaches_the_search_limit_says_so(
     for working_range in (found.frequency, found.exposure):
         for range_end in (working_range.lowest, working_range.highest):
             assert range_end is not None
-            assert (range_end.fails, range_end.error) == (None, 0.0)
+            assert (range_end.fails, range_end.interval) == (None, None)
             assert range_end.value in working_range.searched
     assert (found.shortest_exposure, found.longest_exposure) == found.exposure.searched
 
@@ -147,7 +151,7 @@ def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("preset", ["phone-136us", "tablet-122us"])
 def test_the_papers_decoder_reads_from_two_packets_to_the_null(preset: str) -> None:
     scene = occ.load_preset(preset)
-    found = occ.limits(scene, images=3)
+    found = occ.limits(scene, images=3, rate=90.0)
     works, fails = ends(found.frequency.highest)
     null = theory.null_frequency(scene)
     # Before the null the equalization of what is left of the stripes raises the noise.
@@ -168,7 +172,7 @@ def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     assert range_end.fails is not None
     for trial in (range_end.works, range_end.fails):
         at = scene.replace(switching_frequency=trial.value)
-        assert occ.success_rate(at, 2, seed=module._other_seed(5)) == trial.rate
+        assert occ.success_rate(at, 2, seed=module.other_seed(5)) == trial.rate
         assert (trial.low, trial.high) == interval_of_pictures(trial.right, trial.sent, 2)
     assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
@@ -249,7 +253,7 @@ def test_no_image_of_a_value_is_simulated_twice(monkeypatch: pytest.MonkeyPatch)
 
     monkeypatch.setattr(module, "right_bits_of_images", counted)
     occ.limits(SCENE, rate=60.0, images=20)
-    for seed in (1, module._other_seed(1)):
+    for seed in (1, module.other_seed(1)):
         read.pop((SCENE.transmitter.switching_frequency, seed), None)  # of all exposures, too
     assert max(read.values()) == 20
 
@@ -267,12 +271,14 @@ def test_few_images_are_believed_where_the_rate_falls_at_once(
 
     monkeypatch.setattr(module, "right_bits_of_images", counted)
     occ.limits(SCENE, images=20)
-    for seed in (1, module._other_seed(1)):
+    for seed in (1, module.other_seed(1)):
         read.pop((SCENE.transmitter.switching_frequency, seed), None)
     whole = [frequency for (frequency, _), images in read.items() if images == 20]
-    # At each end: the coarse value, the end twice, the value beyond, and one a little inside.
-    assert len(whole) <= 10
-    assert {images for images in read.values() if images != 20} <= {1, FEW_IMAGES}
+    # At each end: the coarse value, the end twice, and the value beyond.
+    assert len(whole) <= 8
+    sure = images_to_be_sure(99.0)
+    assert {images for images in read.values() if images != 20} <= {1, FEW_IMAGES, sure}
+    assert list(read.values()).count(sure) == 2
 
 
 @pytest.mark.parametrize("is_lost", [False, True])
@@ -302,14 +308,15 @@ def test_progress_rises_from_0_to_1_and_says_what_is_searched(
     assert shares[-1] == 1.0
     assert len(said) > 60
     assert said[0][1] == "switching frequency, threshold decoder"
-    assert said[-2][1] == "exposure time, threshold decoder"
+    searched = [what for _, what in said[:-1]]
+    assert searched.index("exposure time, threshold decoder") > 20
 
 
 def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
     """The tablet at 2 kHz and 2 m: too few packets fit the picture."""
     slow = occ.load_preset("tablet-122us").replace(switching_frequency=2e3, distance=2.0)
     assert occ.success_rate(slow, 3) < 99.0
-    found = occ.limits(slow, images=3)
+    found = occ.limits(slow, images=3, rate=90.0)
     assert found.frequency.lowest is not None
     assert found.frequency.lowest.value > 2e3 * STEP
     assert found.highest_frequency == pytest.approx(theory.null_frequency(slow), rel=0.03)
@@ -362,6 +369,41 @@ def test_what_cannot_be_asked_is_refused_with_a_sentence(
 ) -> None:
     with pytest.raises(occ.ParameterError, match=words):
         occ.limits(SCENE, **arguments)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("rate", [50.0, 90.0, 99.0, 99.5])
+def test_as_few_images_as_show_a_rate_are_asked_for(rate: float) -> None:
+    images = images_to_be_sure(rate)
+    assert interval_of_pictures(images, images, images)[0] >= rate
+    assert interval_of_pictures(images - 1, images - 1, images - 1)[0] < rate
+
+
+def test_no_number_of_images_shows_that_all_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert (images_to_be_sure(100.0), images_to_be_sure(99.9)) == (0, 0)
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    range_end = occ.limits(SCENE, rate=100.0).frequency.highest
+    assert range_end is not None
+    assert (range_end.inside, range_end.interval) == (None, None)
+
+
+def falls_slowly(scene: Scene, settings: RateSettings, _: object) -> Iterator[tuple[int]]:
+    """Stand in for all decoding: 99 % of the images are read at 10 kHz, fewer at higher ones."""
+    frequency = scene.transmitter.switching_frequency
+    missed = np.clip(0.01 + 2.0 * np.log(frequency / 10e3), 0.0, 1.0)
+    random = np.random.default_rng([settings.seed, round(frequency * 1e3)])
+    for _image in range(settings.images):
+        yield (0 if random.random() < missed else 10,)
+
+
+def test_the_stated_interval_of_an_end_holds_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "right_bits_of_images", falls_slowly)
+    found = [occ.limits(SCENE, seed=seed).frequency.highest for seed in range(200)]
+    intervals = [end.interval for end in found if end is not None and end.interval is not None]
+    assert len(intervals) == len(found)
+    held = sum(low <= 10e3 <= high for low, high in intervals)
+    assert 0.92 * len(found) <= held
+    # The last values that twenty images call read are no such ends: they lie beyond the true one.
+    assert sum(end is not None and end.value > 10e3 for end in found) > 0.3 * len(found)
 
 
 def test_what_the_heartbeat_raises_ends_the_search() -> None:
@@ -422,8 +464,8 @@ def test_the_command_answers_with_one_table_of_all_decoders(
     rows = [[cell for cell in line.split("  ") if cell] for line in lines[2:6]]
     assert [cells[0].strip() for cells in rows] == ["threshold", "matched", "equalizer", "sequence"]
     for cells in rows:
-        assert cells[1].strip() == "500 Hz or less"
-        assert re.fullmatch(r" ?1[34][.\d]* kHz \+ [.\d]+ Hz", cells[2])
+        assert cells[1].strip() == "500 Hz (searched to)"
+        assert re.fullmatch(r" ?1[34][.\d]* kHz", cells[2])
         assert " kHz to " in cells[3]
     assert lines[-3].startswith("  below 3.468 kHz no two packets fit, which the threshold")
     assert lines[-1] == "  from an exposure of 1.17 ms what is lit throughout is white."
@@ -439,6 +481,6 @@ def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[s
 
 def test_the_bits_of_a_payload_are_counted_as_sent() -> None:
     scene = SCENE.replace(payload="text:Hi", line_code="manchester", framing="preamble")
-    end = occ.limits(scene, images=2).frequency.highest
+    end = occ.limits(scene, images=2, rate=90.0).frequency.highest
     assert end is not None
     assert (end.works.right, end.works.sent) == (32, 32)

@@ -254,6 +254,7 @@ class Application(QObject):
         self.decode.decoder_chosen.connect(self.measuring.own_rate.choose_decoder)
         self.measuring.own_rate.changed.connect(self.story.verdict.show_rate)
         self.story.verdict.step_chosen.connect(self._take_step)
+        self.story.verdict.lesson_wanted.connect(self._show_lesson)
 
     @property
     def is_idle(self) -> bool:
@@ -294,6 +295,11 @@ class Application(QObject):
 
     def _show_lessons(self) -> None:
         self.window.bring_to_front("lessons")
+
+    def _show_lesson(self, name: str) -> None:
+        self._show_lessons()
+        self.shell.pane("lessons").controller.set_seen(True)
+        self.shell.pane("lessons").controller.choose(name)
 
     def _show_comparison(self) -> None:
         self.window.bring_to_front("compare")

@@ -50,7 +50,7 @@ class BenchTable(QTableWidget):
         for point in points:
             row = self._places[point.axis, point.exposure, point.decibels]
             column = 2 + self._decoders.index(point.errors.decoder)
-            self._put(row, column, cell_text(point, what, frames_a_second), point.note)
+            self._put(row, column, cell_text(point, what, frames_a_second), point.explanation)
 
     def _put(self, row: int, column: int, text: str, tip: str = "") -> None:
         item = QTableWidgetItem(text)

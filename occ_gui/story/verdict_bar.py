@@ -12,6 +12,9 @@ from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.scene.units import SECOND
 
+AVERAGES_LESSON = "2-past-the-shutter"
+"""The lesson on codes that are read though no column sees one chip alone."""
+
 
 class VerdictBar(StateBar):
     """The verdict on the code that is read from the simulated picture."""
@@ -19,9 +22,13 @@ class VerdictBar(StateBar):
     step_chosen = Signal(object)
     """The user takes the step that helps, a :class:`Step`."""
 
+    lesson_wanted = Signal(str)
+    """The user asks for the lesson on what is shown, by its name."""
+
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._step: Step | None = None
+        self._lesson = ""
         self.step_taken.connect(self._take_step)
         self._reading: Reading | None = None
         self._decoder = self._run = self._pictured = ""
@@ -106,6 +113,8 @@ class VerdictBar(StateBar):
         cause = cause_of(reading.scene, result.decoder) if is_unread else None
         if cause is None:
             heading, why = self._heading(verdict.heading), self._why(verdict, reading)
+            if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):
+                self._offer_lesson(AVERAGES_LESSON)
         else:
             heading = self._heading(self.tr("No code: {cause}").format(cause=cause.what))
             why = [f"{cause.why} {verdict.reason}".strip(), cause.why]
@@ -115,10 +124,18 @@ class VerdictBar(StateBar):
     def _take_step(self) -> None:
         if self._step is not None:
             self.step_chosen.emit(self._step)
+        elif self._lesson:
+            self.lesson_wanted.emit(self._lesson)
 
     def _offer(self, step: Step | None) -> None:
-        self._step = step
+        self._step, self._lesson = step, ""
         self.offer_step(step.label if step else "")
+        self.step.setToolTip(self.tr("Changes the scene or the decoder in one step."))
+
+    def _offer_lesson(self, name: str) -> None:
+        self._lesson = name
+        self.offer_step(self.tr("Lesson"))
+        self.step.setToolTip(self.tr("Opens the lesson on exposures longer than a chip."))
 
     def _heading(self, verdict: str) -> str:
         """Write whose verdict it is, where that is not plain."""
@@ -150,7 +167,7 @@ class VerdictBar(StateBar):
             self.tr("{exposure} of light, {period} a chip: {fewest} or {most} chips a column."),
             self.tr("{exposure} of light, {period} a chip"),
         ]
-        if reading.band_undefined and fewest > 1 and verdict.state is State.GOOD:
+        if _is_averaged(verdict, reading):
             texts[:0] = [
                 self.tr(
                     "Exposed for {exposure}, a chip lasts {period}: each column averages {fewest} "
@@ -169,3 +186,9 @@ class VerdictBar(StateBar):
             text.format(exposure=exposure, period=period, fewest=fewest, most=fewest + 1)
             for text in texts
         ]
+
+
+def _is_averaged(verdict: Verdict, reading: Reading) -> bool:
+    """Return whether a code is read though every column averages several chips."""
+    is_good = verdict.state is State.GOOD
+    return is_good and reading.band_undefined and chips_in_exposure(reading.scene) > 1

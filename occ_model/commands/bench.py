@@ -117,6 +117,7 @@ def _table(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
         point.errors.decoder: point.note for point in points if not point.errors.pictures_right
     }
     lines += [f"{decoder}: {note}" for decoder, note in notes.items() if note]
+    lines += dict.fromkeys(filter(None, (point.errors.why_above_half for point in points)))
     return lines
 
 

@@ -100,6 +100,11 @@ class BenchPoint:
         """Where the point lies on its axis."""
         return self.exposure if self.axis == "exposure" else self.decibels
 
+    @property
+    def explanation(self) -> str:
+        """The note, and why the bit error rate is above 0.5 where it is."""
+        return f"{self.note} {self.errors.why_above_half}".strip()
+
 
 @dataclass(frozen=True, slots=True)
 class BenchBounds:
@@ -144,7 +149,7 @@ def written(points: Sequence[BenchPoint], frames_a_second: float) -> list[tuple[
             point.errors.pictures,
             point.errors.bits_a_second(frames_a_second),
             *point.errors.bits_a_second_interval(frames_a_second),
-            point.note,
+            point.explanation,
         )
         for point in points
     ]

@@ -8,6 +8,9 @@ FRAMES_A_SECOND = FRAME_RATE.default
 """Pictures that a camera takes a second where nothing else is said."""
 
 
+_ABOVE_HALF = "Above 0.5: a payload that is not read counts with all its bits wrong."
+
+
 @dataclass(frozen=True, slots=True)
 class BitErrors:
     """Bits that a decoder read wrongly or not at all, of random payloads in a picture each.
@@ -51,6 +54,11 @@ class BitErrors:
     def rate(self) -> float:
         """The share of the bits that are wrong, from 0 to 1."""
         return self.errors / self.bits
+
+    @property
+    def why_above_half(self) -> str:
+        """Why more bits are wrong than a guess gets wrong; empty where they are not."""
+        return _ABOVE_HALF if self.rate > 0.5 else ""
 
     @property
     def bits_a_picture(self) -> float:

@@ -101,7 +101,9 @@ class Scene:
                     parameter_named(name, GROUPS[group])
                 except ParameterError as error:
                     raise SceneFileError(f"Table [{group}]: {error}") from None
-                changes[name] = value
+                changes[name] = (
+                    _NEW_CHOICES.get((name, value), value) if isinstance(value, str) else value
+                )
         return self.replace(**changes)
 
 
@@ -110,6 +112,9 @@ GROUPS: dict[str, tuple[str, ...]] = {
     for part in dataclasses.fields(Scene)
 }
 """The names of the parameters, group by group."""
+
+_NEW_CHOICES = {("band_reading", "charitable"): "aligned"}
+"""Choices of earlier scene files that have another name now; such files open in this release."""
 
 _GROUP_OF = {name: group for group, names in GROUPS.items() for name in names}
 

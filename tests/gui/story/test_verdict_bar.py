@@ -19,6 +19,7 @@ from occ_gui.window.theme import palette_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.cause import Step
+from occ_model.teaching.lessons import lessons
 
 SnapshotOf = Callable[..., Snapshot]
 
@@ -250,4 +251,19 @@ def test_the_cause_comes_first_and_its_step_is_a_button(
     bar.step.click()
     assert [step.decoder for step in chosen] == ["matched"]
     bar.show_reading(snapshot_of())
+    assert bar.step.isHidden()
+
+
+def test_a_code_read_beyond_a_period_leads_to_its_lesson(
+    bar: VerdictBar, snapshot_of: SnapshotOf, qtbot: QtBot
+) -> None:
+    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=5e3))
+    assert bar.step.isHidden()
+    bar.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
+    assert bar.state is State.GOOD
+    with qtbot.waitSignal(bar.lesson_wanted) as wanted:
+        bar.step.click()
+    names = {lesson.name for lesson in lessons().lessons}
+    assert wanted.args[0] in names
+    bar.show_outdated(True)
     assert bar.step.isHidden()

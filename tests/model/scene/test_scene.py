@@ -187,3 +187,10 @@ def test_a_26_mm_lens_sees_the_angle_of_its_35_mm_equivalent() -> None:
     camera = Scene().replace(rows=2400, columns=3600, equivalent_focal_length=0.026).camera
     # 24 mm x 36 mm has a diagonal of 43.27 mm: as many pixels a millimetre as 3600 over 36.
     assert camera.focal_length_pixels == pytest.approx(26 * 3600 / 36, rel=1e-4)
+
+
+def test_a_choice_of_an_earlier_file_opens_as_what_it_is_called_now() -> None:
+    text = 'format = 1\n[model]\nband_reading = "{}"\n'
+    assert Scene.from_toml(text.format("charitable")) == Scene.from_toml(text.format("aligned"))
+    with pytest.raises(ParameterError, match="allowed: aligned, literal"):
+        Scene.from_toml(text.format("generous"))

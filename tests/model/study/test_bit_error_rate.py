@@ -6,6 +6,7 @@ from scipy import integrate, optimize
 
 import occ_model as occ
 from occ_model.errors import ParameterError
+from occ_model.results.bench import BenchPoint, written
 from occ_model.scene.scene import Scene
 from occ_model.study.bit_error_rate import (
     bit_errors_of,
@@ -30,6 +31,16 @@ def test_all_bits_are_wrong_where_nothing_is_read() -> None:
     found = occ.bit_error_rate(far, "matched", bits=50)
     assert found.rate == found.high == 1.0
     assert found.bits_a_second() == found.bits_a_second_of_picture == 0.0
+
+
+@pytest.mark.parametrize("luminance", [0.0, 3600.0])
+def test_a_rate_above_a_half_is_explained(luminance: float) -> None:
+    dark = occ.load_preset("phone-136us").replace(luminance=luminance)
+    found = occ.bit_error_rate(dark, bits=30)
+    point = BenchPoint("manchester", "exposure", 1.0, 20.0, found, "Its note.")
+    assert bool(found.why_above_half) == (found.rate > 0.5) == (luminance == 0.0)
+    assert point.explanation == f"Its note. {found.why_above_half}".strip()
+    assert written([point], 30.0)[0][-1] == point.explanation
 
 
 def test_same_seed_same_errors() -> None:

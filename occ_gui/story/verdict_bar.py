@@ -175,8 +175,8 @@ class VerdictBar(StateBar):
                     "though the band model ends."
                 ),
                 self.tr(
-                    "Exposed for {exposure}, a chip lasts {period}: no column sees one chip alone, "
-                    "so the band model ends."
+                    "Each column averages {fewest} or {most} chips, and the averages of different "
+                    "codes differ; so it is read."
                 ),
                 self.tr("No column sees one chip alone: the band model ends."),
             ]
@@ -191,4 +191,4 @@ class VerdictBar(StateBar):
 def _is_averaged(verdict: Verdict, reading: Reading) -> bool:
     """Return whether a code is read though every column averages several chips."""
     is_good = verdict.state is State.GOOD
-    return is_good and reading.band_undefined and chips_in_exposure(reading.scene) > 1
+    return is_good and bool(reading.band_undefined) and chips_in_exposure(reading.scene) > 1

@@ -173,7 +173,7 @@ class Application(QObject):
         self.simulation.snapshot_shown.connect(self._offer_plugins, once)
         banners = (self.story.verdict, self.photo.verdict)
         labels = (label for bar in banners for label in (bar.sentence, bar.wrapped))
-        self.window.leave_messages_to(*labels, self.photo.refusal.reasons)
+        self.window.leave_messages_to(*labels)
         self.simulation.failed_for.connect(self.messages.show_failure)
         self.simulation.failed.connect(self.pins.give_up)
         for speaker in (self.presets, self.files, self.present, self.video):

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import (
     QFrame,
     QLabel,
     QPushButton,
-    QSizePolicy,
     QStackedWidget,
     QVBoxLayout,
     QWidget,
@@ -22,12 +21,10 @@ from occ_gui.photo.photo_facts import PhotoFacts
 from occ_gui.photo.photo_steps import EARLIER, PhotoSteps
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
-from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.picture.placement import Placement
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
-from occ_model.results.photo_table import REFUSED
 from occ_model.scene.scene import Scene
 
 _SCROLL_BAR = 20
@@ -55,14 +52,8 @@ class PhotoView(QWidget):
         self.facts, self.form = PhotoFacts(), MatchForm()
         self.lamps = LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()
-        self.refusal = VerdictView()
         self.verdict = PhotoVerdictBar()
         """The verdict on the photo, for the place where it is first seen."""
-        self.failure = QLabel()
-        self.failure.setWordWrap(True)
-        self.failure.setTextFormat(Qt.TextFormat.PlainText)
-        self.failure.setAccessibleName(self.tr("Why there is no match"))
-        self.failure.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self._pages = QStackedWidget()
         self._pages.addWidget(self._make_invitation())
         self._pages.addWidget(self._make_page())
@@ -75,7 +66,6 @@ class PhotoView(QWidget):
         layout.setContentsMargins(4, 0, 4, 0)
         layout.addWidget(self.steps)
         layout.addWidget(self._pages)
-        self._hide_failure()
         self.result.hide()
         self._noted: float | None = None
         self._turned = False
@@ -122,8 +112,6 @@ class PhotoView(QWidget):
         layout.addWidget(self.lamps)
         layout.addWidget(_line())
         layout.addWidget(self.form)
-        layout.addWidget(self.refusal)
-        layout.addWidget(self.failure)
         layout.addWidget(self.result)
         layout.addWidget(_line())
         layout.addWidget(self.placement)
@@ -138,7 +126,6 @@ class PhotoView(QWidget):
         self.verdict.show_photo(photo)
         self._show_page()
         self._show_steps()
-        self._hide_failure()
         self._noted = None if photo is None else photo.exposure_time
         self._turned = photo is not None and photo.turned
         path = None if photo is None else photo.path
@@ -205,7 +192,6 @@ class PhotoView(QWidget):
 
     def show_match_begun(self) -> None:
         """Show that a match is running."""
-        self._hide_failure()
         self.form.show_running(True)
         self.verdict.show_begun()
 
@@ -216,7 +202,6 @@ class PhotoView(QWidget):
     def show_match(self, match: Match | None) -> None:
         """Show this match in place of the previous one, or that there is none."""
         self.form.show_running(False)
-        self._hide_failure()
         self.result.setVisible(match is not None)
         self._match, self._is_outdated = match, False
         self.verdict.show_match(match)
@@ -228,11 +213,7 @@ class PhotoView(QWidget):
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         """Show the reasons why no match was found, or none; the previous match stays."""
         self.form.show_running(False)
-        self.refusal.setVisible(bool(reasons))
         self.verdict.show_ended(reasons)
-        if reasons:
-            self.refusal.show_verdict(REFUSED, reasons)
-            self._bring_into_view(self.refusal)
 
     def show_match_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""
@@ -241,17 +222,10 @@ class PhotoView(QWidget):
         self.verdict.show_outdated(why)
         self._show_steps()
 
-    def _hide_failure(self) -> None:
-        self.failure.hide()
-        self.refusal.hide()
-
     def show_match_failed(self, sentence: str) -> None:
         """Show why the match failed; the previous one stays."""
         self.form.show_running(False)
         self.verdict.show_ended([sentence])
-        self.failure.setText(sentence)
-        self.failure.show()
-        self._bring_into_view(self.failure)
 
     def show_match_cancelled(self) -> None:
         """Show that the match was cancelled; the previous one stays."""

@@ -12,14 +12,14 @@ from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 """A sign for each verdict, so that none is told by a colour alone."""
 
-_STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL, REFUSED: State.BAD}
+_STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
 """Whose colours the plate has, as the bar at the top has."""
 
 _MARGIN = 4
 
 
 class VerdictView(QWidget):
-    """Whether a match is sure, doubtful or refused, and why."""
+    """Whether a match is sure or doubtful, and why."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -49,7 +49,7 @@ class VerdictView(QWidget):
         layout.addWidget(self.reasons)
 
     def show_verdict(self, verdict: str, reasons: Sequence[str]) -> None:
-        """Show a verdict, SURE, DOUBTFUL or REFUSED, and its reasons, each a sentence."""
+        """Show a verdict, SURE or DOUBTFUL, and its reasons, each a sentence."""
         self._verdict = verdict
         self.reasons.setText("\n".join(f"• {reason}" for reason in reasons))
         self.reasons.setVisible(bool(reasons))
@@ -83,5 +83,4 @@ class VerdictView(QWidget):
         return {
             SURE: self.tr("sure"),
             DOUBTFUL: self.tr("doubtful"),
-            REFUSED: self.tr("refused"),
         }

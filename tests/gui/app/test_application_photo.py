@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from gui.user import User
 from PIL import Image
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -157,9 +157,12 @@ def test_a_photo_without_stripes_gives_a_sentence_everywhere(
     sentence = application.profile.residual.numbers.toolTip()
     assert sentence.endswith(".")
     user.choose("&Match photo")
-    refusal = application.photo.refusal
-    assert refusal.isVisible()
-    assert user.message == refusal.reasons.text().removeprefix("• ")
+    banner = application.photo.verdict
+    assert banner.isVisible()
+    assert user.message in (banner.sentence.text(), banner.wrapped.text())
+    seen = [each.text() for each in application.photo.findChildren(QLabel) if each.isVisible()]
+    assert seen
+    assert user.message not in seen  # the banner says it
     application.photos.close()
     assert user.message == ""
 

@@ -76,7 +76,7 @@ def matched(
     application.photo.form.sent.show_key("square")
     application.photo_wiring.match()
     user.wait_until_idle()
-    assert application.photo_wiring.matching.match is not None, application.photo.failure.text()
+    assert application.photo_wiring.matching.match is not None
     return application
 
 

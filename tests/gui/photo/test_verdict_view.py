@@ -11,7 +11,7 @@ from occ_gui.photo.verdict_view import SIGNS, VerdictView
 from occ_gui.widgets.contrast import contrast
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Alternative, Match
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, VERDICTS
+from occ_model.results.photo_table import DOUBTFUL, SURE, VERDICTS
 
 READABLE = 4.5
 ONLY = "Only the exposure time, and with it the start time, is doubtful."
@@ -32,7 +32,7 @@ def test_each_verdict_has_a_sign_of_its_own() -> None:
     assert len(set(SIGNS.values())) == len(SIGNS)
 
 
-@pytest.mark.parametrize("word", [SURE, DOUBTFUL, REFUSED])
+@pytest.mark.parametrize("word", [SURE, DOUBTFUL])
 def test_a_verdict_is_a_word_with_a_sign_on_a_readable_plate(
     verdict: VerdictView, word: str
 ) -> None:
@@ -132,17 +132,3 @@ def test_an_outdated_match_is_covered_at_once_and_not_used(
     assert not result.mark.isVisible()
     assert result.verdict.word.text() == "● sure"
     assert result.apply.isEnabled()
-
-
-def test_a_refusal_gives_its_reasons_and_goes_with_its_question(
-    view: PhotoView, photo: Photo
-) -> None:
-    view.show_photo(photo)
-    view.show_match_refused(REASONS)
-    assert view.refusal.word.text() == "○ refused"
-    assert view.refusal.reasons.isVisible()
-    view.show_match_refused(())
-    assert not view.refusal.isVisible()
-    view.show_match_refused(REASONS)
-    view.show_match_begun()
-    assert not view.refusal.isVisible()

@@ -2,6 +2,7 @@
 
 from typing import Any, Protocol
 
+from occ_gui.bands.feature import bands
 from occ_gui.bench.feature import bench
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.feature import detection_map
@@ -42,6 +43,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
     store, photos = parts.store, parts.photo_wiring.photos
     return (
         detection_map(store, parts.frame_rate, parts.measuring, parts.decode.choose_decoder),
+        bands(store),
         equations(store, parts.profile.plot),
         spectrum(),
         compare(parts.pins),

@@ -8,6 +8,8 @@ from occ_model.files.resources import resource_path
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, NONE, SECOND, Unit
+from occ_model.study.bands.advice import band_advice
+from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
 from occ_model.transmitter.packet import packet, packet_length
 
@@ -137,6 +139,18 @@ QUANTITIES: dict[str, LessonQuantity] = {
         HERTZ,
         "kHz",
         lambda scene, _: 2.0 * null_frequency(scene),
+    ),
+    "band-depth": LessonQuantity(
+        "depth of the bars, largest less smallest light of a column over the mean",
+        _PERCENT,
+        "%",
+        lambda scene, _: band_depth(scene).peak_to_peak,
+    ),
+    "barless-exposure": LessonQuantity(
+        "shortest exposure time at which the bars of the code vanish",
+        SECOND,
+        "ms",
+        lambda scene, _: band_advice(scene).valley,
     ),
     "threshold-limit": LessonQuantity(
         "highest switching frequency that the threshold decoder reads",

@@ -61,7 +61,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             centre="",
             main="map",
             left=(("controls",),),
-            right=(("map", "bench"),),
+            right=(("map", "bench", "bands"),),
             widths={"controls": 340},
         ),
         "effects": Mode(

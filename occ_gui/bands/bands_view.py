@@ -1,0 +1,139 @@
+"""View of the bars: how deep they are, the map of the least depth, and the shutter speeds."""
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTableWidget,
+    QTableWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.bands.depth_plot import DepthPlot
+from occ_gui.bands.shown_bands import ShownBands
+from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.results.bands import SpeedDepth
+from occ_model.scene.units import HERTZ, SECOND
+
+_DIGITS = 4
+
+
+class BandsView(QWidget):
+    """A headline, sentences, the map and the table of the shutter speeds."""
+
+    exposure_chosen = Signal(float)
+    """The user takes an exposure time, in seconds."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.headline, self.sentences = QLabel(), QLabel()
+        self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+        for label in (self.headline, self.sentences):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.map = DepthPlot()
+        self.map.chosen.connect(self.exposure_chosen)
+        self._make_table()
+        row = QHBoxLayout()
+        row.addWidget(self.map, 3)
+        row.addWidget(self.table, 2)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(8, 8, 8, 8)
+        layout.addWidget(self.headline)
+        layout.addWidget(self.sentences)
+        layout.addLayout(row, 1)
+
+    def _make_table(self) -> None:
+        self.table = QTableWidget(0, 4)
+        self.table.setHorizontalHeaderLabels(
+            [self.tr("Shutter"), self.tr("as written"), self.tr("power of two"), self.tr("Bars")]
+        )
+        self.table.setAccessibleName(self.tr("Depth of the bars at usual shutter speeds"))
+        self.table.setToolTip(
+            self.tr(
+                "Many cameras keep a power of two for what is written: 1/64 s for 1/60 s. "
+                "A double click, or Enter, sets a speed; ISO speed and aperture follow."
+            )
+        )
+        self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.table.verticalHeader().hide()
+        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.table.horizontalHeader().setStretchLastSection(True)
+        self.table.itemActivated.connect(self._take)
+        self._speeds: tuple[SpeedDepth, ...] = ()
+
+    def _take(self, item: QTableWidgetItem) -> None:
+        self.exposure_chosen.emit(self._speeds[item.row()].nominal)
+
+    def show_failure(self, sentence: str) -> None:
+        """Show why nothing could be counted."""
+        self.headline.setText(sentence)
+
+    def show_bands(self, found: ShownBands) -> None:
+        """Show the bars of a scene."""
+        self.headline.setText(self._headline(found))
+        self.sentences.setText("\n".join(self._sentences(found)))
+        self.map.show_depths(found)
+        self._speeds = found.advice.speeds
+        self.table.setRowCount(len(self._speeds))
+        for row, speed in enumerate(self._speeds):
+            cells = (
+                speed.name, _percent(speed.at_nominal), _percent(speed.at_real),
+                self.tr("none") if speed.is_free else self._kept(speed),
+            )  # fmt: skip
+            for column, text in enumerate(cells):
+                self.table.setItem(row, column, QTableWidgetItem(text))
+
+    def _kept(self, speed: SpeedDepth) -> str:
+        if not speed.is_doubtful:
+            return self.tr("yes")
+        if speed.at_nominal < speed.at_real:
+            return self.tr("none as written")
+        return self.tr("none at the power of two")
+
+    def _headline(self, found: ShownBands) -> str:
+        depth, exposure = found.depth, SECOND.format(found.scene.camera.exposure_time, _DIGITS)
+        if depth.peak_to_peak < found.advice.limit:
+            return self.tr("No bars at {exposure}: {depth}").format(
+                exposure=exposure, depth=_percent(depth.peak_to_peak)
+            )
+        text = self.tr("Bars of {depth} of the mean light at {exposure}")
+        return text.format(depth=_percent(depth.peak_to_peak), exposure=exposure)
+
+    def _sentences(self, found: ShownBands) -> list[str]:
+        depth, advice, eye = found.depth, found.advice, found.eye
+        seen = self.tr("they are seen") if depth.is_visible else self.tr("they are not seen")
+        lines = [
+            self.tr("RMS {rms}; in pixel values {pixel} peak to peak: {seen}.").format(
+                rms=_percent(depth.rms), pixel=_percent(depth.pixel.peak_to_peak), seen=seen
+            ),
+            self.tr("The lamp's bars vanish at whole multiples of {valley}.").format(
+                valley=SECOND.format(advice.valley, _DIGITS)
+            ),
+        ]
+        if advice.all_exposures is not None:
+            lines[-1] += " " + self.tr("From {time} on no exposure shows 1 %.").format(
+                time=SECOND.format(advice.all_exposures, 3)
+            )
+        if found.scene.transmitter.edge_time:
+            lines.append(self.tr("The map is of sharp edges: the LED's own make weaker bars."))
+        lines.append(
+            self.tr(
+                "For the eye: percent flicker {percent:.3g} %, flicker index {index:.2g}, "
+                "SVM {svm:.2g}; by IEEE 1789-2015 {risk} as a whole ({frequency}), "
+                "{parts} by each of its sines."
+            ).format(
+                percent=eye.percent_flicker, index=eye.flicker_index, svm=eye.visibility,
+                risk=eye.risk, frequency=HERTZ.format(eye.frequency, 3), parts=eye.parts_risk,
+            )
+        )  # fmt: skip
+        return lines
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.3g} %" if share > 1e-9 else "0 %"

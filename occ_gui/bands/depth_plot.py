@@ -1,0 +1,93 @@
+"""Map of the least depth of the bars over frequency and exposure, with the valleys t = k / f."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, QRectF, Signal
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from occ_gui.bands.shown_bands import EXPOSURES, FREQUENCIES, ShownBands
+from occ_gui.widgets.plot import new_plot, thin
+from occ_model.scene.parameters import quantity
+from occ_model.scene.units import HERTZ, SECOND
+
+_VALLEYS = 8
+"""Lines that are drawn: those above lie closer than the cells."""
+
+_DEPTHS = (1e-3, 1.0)
+"""Depths at the ends of the colours."""
+
+_KINDS = (1.0, 2.0, 5.0)
+
+
+class DepthPlot(QWidget):
+    """The map; a click takes an exposure."""
+
+    chosen = Signal(float)
+    """The user takes an exposure time, in seconds."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plot = new_plot(
+            self.tr("Least depth of the bars"), quantity("switching_frequency").label,
+            quantity("exposure_time").label, self.palette(),
+        )  # fmt: skip
+        self.image = pg.ImageItem()
+        self.image.setLookupTable(pg.colormap.get("viridis").getLookupTable(nPts=256))
+        self.plot.addItem(self.image)
+        for side, unit, ends in (("bottom", HERTZ, FREQUENCIES), ("left", SECOND, EXPOSURES)):
+            low, high = np.log10(ends)
+            values = [
+                kind * 10.0**power
+                for power in range(int(np.floor(low)), int(np.ceil(high)) + 1)
+                for kind in (_KINDS if side == "bottom" else _KINDS[:1])
+            ]
+            named = [(float(np.log10(v)), unit.format(v)) for v in values]
+            self.plot.getAxis(side).setTicks([named])
+            axis = self.plot.setXRange if side == "bottom" else self.plot.setYRange
+            axis(float(low), float(high), padding=0)
+        self.plot.setMouseEnabled(False, False)
+        self.valleys = [self.plot.plot(pen=thin(QColor("white"))) for _ in range(_VALLEYS)]
+        self.setting = self.plot.plot(
+            [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
+        )
+        self.legend = QLabel(
+            self.tr(
+                "Dark: a small change within the cell shows no bars (0.1 % or less); yellow: 100 % "
+                "or more. White lines: t = k / f. A click takes an exposure."
+            )
+        )
+        self.legend.setWordWrap(True)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.legend)
+        self.plot.scene().sigMouseClicked.connect(self._on_click)
+
+    def show_depths(self, found: ShownBands) -> None:
+        """Show the map of a scene."""
+        low, high = np.log10(_DEPTHS)
+        shares = (np.log10(np.maximum(found.least, _DEPTHS[0])) - low) / (high - low)
+        self.image.setImage(np.clip(255.0 * shares, 0.0, 255.0), levels=(0.0, 255.0))
+        left, right = np.log10(FREQUENCIES)
+        bottom, top = np.log10(EXPOSURES)
+        self.image.setRect(QRectF(left, bottom, right - left, top - bottom))
+        for order, line in enumerate(self.valleys, 1):
+            above = np.log10(order * found.period)
+            line.setData([left, right], [above - left, above - right])
+        scene = found.scene
+        self.setting.setData(
+            [np.log10(scene.transmitter.switching_frequency)],
+            [np.log10(scene.camera.exposure_time)],
+        )
+        self.plot.setAccessibleDescription(
+            self.tr("Bars vanish at whole multiples of {valley}").format(
+                valley=SECOND.format(found.advice.valley, 4)
+            )
+        )
+
+    def _on_click(self, event: object) -> None:
+        place: QPointF = self.plot.getViewBox().mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
+        exposure = 10.0 ** float(place.y())
+        if EXPOSURES[0] <= exposure <= EXPOSURES[1]:
+            self.chosen.emit(exposure)

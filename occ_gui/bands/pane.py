@@ -1,0 +1,46 @@
+"""The pane of the bars: counted on a thread of its own, a quarter of a second for a scene."""
+
+from occ_gui.background.task import Reporter, Task
+from occ_gui.bands.bands_view import BandsView
+from occ_gui.bands.shown_bands import ShownBands, shown_bands
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
+from occ_model.scene.scene import Scene
+from occ_model.study.bands.cure import as_bright
+
+
+class BandsPane(Pane[Scene]):
+    """Shows the bars of a scene; a speed that the user takes becomes the scene's exposure."""
+
+    def __init__(self, scenes: SceneStore) -> None:
+        self.view = BandsView()
+        super().__init__(self.view)
+        self._scenes = scenes
+        self._task: Task[Scene, ShownBands] = Task(_work, "bars")
+        self._task.finished.connect(self._show)
+        self._task.failed.connect(self.view.show_failure)
+        self.view.exposure_chosen.connect(self._take)
+
+    def show_part(self, part: Scene) -> None:
+        """Count the bars of this scene."""
+        self._task.ask(part)
+
+    def _show(self, found: ShownBands) -> None:
+        self.view.show_bands(found)
+
+    def _take(self, exposure: float) -> None:
+        scene = as_bright(self._scenes.scene, exposure)
+        self._scenes.put(scene, self.tr("shutter speed without bars"))
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether the bars of the last scene are counted."""
+        return self._task.is_idle
+
+    def stop(self) -> None:
+        """Count no more."""
+        self._task.stop()
+
+
+def _work(scene: Scene, _report: Reporter) -> ShownBands:
+    return shown_bands(scene)

@@ -20,6 +20,14 @@ from occ_model.scene.units import HERTZ, SECOND
 
 _DIGITS = 4
 
+_ROOM = 6
+"""Pixels above and below the text of a row, together."""
+
+_LEAST_HEIGHT = 260
+
+_USUAL = 1 / 60
+"""Shutter time in seconds that the table shows in its middle at first."""
+
 
 class BandsView(QWidget):
     """A headline, sentences, the map and the table of the shutter speeds."""
@@ -38,6 +46,8 @@ class BandsView(QWidget):
         self.map = DepthPlot()
         self.map.chosen.connect(self.exposure_chosen)
         self._make_table()
+        self.table.setMinimumHeight(_LEAST_HEIGHT)
+        self.map.setMinimumHeight(_LEAST_HEIGHT)
         row = QHBoxLayout()
         row.addWidget(self.map, 3)
         row.addWidget(self.table, 2)
@@ -62,6 +72,7 @@ class BandsView(QWidget):
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.verticalHeader().hide()
+        self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _ROOM)
         self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         self.table.horizontalHeader().setStretchLastSection(True)
         self.table.itemActivated.connect(self._take)
@@ -79,6 +90,7 @@ class BandsView(QWidget):
         self.headline.setText(self._headline(found))
         self.sentences.setText("\n".join(self._sentences(found)))
         self.map.show_depths(found)
+        is_first = not self._speeds
         self._speeds = found.advice.speeds
         self.table.setRowCount(len(self._speeds))
         for row, speed in enumerate(self._speeds):
@@ -88,6 +100,10 @@ class BandsView(QWidget):
             )  # fmt: skip
             for column, text in enumerate(cells):
                 self.table.setItem(row, column, QTableWidgetItem(text))
+        if is_first:
+            usual = next(row for row, speed in enumerate(self._speeds) if speed.nominal <= _USUAL)
+            middle = QAbstractItemView.ScrollHint.PositionAtCenter
+            self.table.scrollTo(self.table.model().index(usual, 0), middle)
 
     def _kept(self, speed: SpeedDepth) -> str:
         if not speed.is_doubtful:

@@ -47,6 +47,8 @@ class DepthPlot(QWidget):
             axis = self.plot.setXRange if side == "bottom" else self.plot.setYRange
             axis(float(low), float(high), padding=0)
         self.plot.setMouseEnabled(False, False)
+        room = self.fontMetrics().height() / 2.0  # half of a number lies beyond the map
+        self.plot.getPlotItem().layout.setContentsMargins(0.0, room, 2.0 * room, 0.0)
         self.valleys = [self.plot.plot(pen=thin(QColor("white"))) for _ in range(_VALLEYS)]
         self.setting = self.plot.plot(
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
@@ -54,7 +56,8 @@ class DepthPlot(QWidget):
         self.legend = QLabel(
             self.tr(
                 "Dark: a small change within the cell shows no bars (0.1 % or less); yellow: 100 % "
-                "or more. White lines: t = k / f. A click takes an exposure."
+                "or more. White lines: whole numbers of the "
+                "lamp's periods. A click takes an exposure."
             )
         )
         self.legend.setWordWrap(True)

@@ -1,12 +1,17 @@
 """The pane of the bars: counted on a thread of its own, a quarter of a second for a scene."""
 
+from PySide6.QtCore import QSize
+
 from occ_gui.background.task import Reporter, Task
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.shown_bands import ShownBands, shown_bands
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
+from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.cure import as_bright
+
+_LEAST = QSize(320, 200)
 
 
 class BandsPane(Pane[Scene]):
@@ -14,7 +19,7 @@ class BandsPane(Pane[Scene]):
 
     def __init__(self, scenes: SceneStore) -> None:
         self.view = BandsView()
-        super().__init__(self.view)
+        super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
         self._task: Task[Scene, ShownBands] = Task(_work, "bars")
         self._task.finished.connect(self._show)

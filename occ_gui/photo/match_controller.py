@@ -17,6 +17,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
+from occ_model.study.bands.cure import cure_of
 
 _RECORDED = ("exposure_time", "f_number", "iso")
 """Parameters of the scene that cameras record in their photos."""
@@ -226,6 +227,12 @@ class MatchController(QObject):
             return
         title = self.tr("match with {name}").format(name=self._photo.path.name)
         self._scenes.put(self.match.scene, title)
+
+    def cure(self) -> None:
+        """Replace the scene by the matched one at a shutter speed without bars, as one step."""
+        if self.match is None or self._photo is None or self._refuses_outdated():
+            return
+        self._scenes.put(cure_of(self.match.scene).scene, self.tr("shutter speed without bars"))
 
     def save(self, name: str, title: str, day: date | None = None) -> None:
         """Save the matched scene as one of the user's presets."""

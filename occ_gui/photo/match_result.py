@@ -15,6 +15,8 @@ from occ_model.photo.many.other_programs import lines_of_match
 from occ_model.results import Match
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND
+from occ_model.study.bands.cure import cure_of
 
 
 class MatchResult(QWidget):
@@ -25,6 +27,9 @@ class MatchResult(QWidget):
 
     save_asked = Signal()
     """The user saves the matched scene as a preset."""
+
+    cure_asked = Signal()
+    """The user wants to see the picture at a shutter speed that shows no bars."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -43,15 +48,20 @@ class MatchResult(QWidget):
         self.stale.setTextFormat(Qt.TextFormat.PlainText)
         self.stale.setAccessibleName(self.tr("Whether the match still belongs to the known value"))
         self.stale.hide()
+        self.cure = QLabel()
+        self.cure.setWordWrap(True)
+        self.cure.setTextFormat(Qt.TextFormat.PlainText)
+        self.cure.hide()
         self._make_buttons()
         buttons = QHBoxLayout()
         buttons.addWidget(self.apply)
         buttons.addWidget(self.save)
+        buttons.addWidget(self.without_bars)
         buttons.addStretch()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        for part in (self.verdict, self.stale, self.figures, self.paste):
+        for part in (self.verdict, self.stale, self.cure, self.figures, self.paste):
             layout.addWidget(part)
         layout.addLayout(buttons)
         layout.addStretch()
@@ -73,6 +83,14 @@ class MatchResult(QWidget):
             )
         )
         self.save.clicked.connect(self.save_asked)
+        self.without_bars = QPushButton(self.tr("&Without bars"))
+        self.without_bars.setToolTip(
+            self.tr(
+                "Simulate the picture at a shutter speed that shows no bars, beside the photo: one "
+                "step that can be undone."
+            )
+        )
+        self.without_bars.clicked.connect(self.cure_asked)
 
     @property
     def values(self) -> dict[str, QLabel]:
@@ -99,6 +117,28 @@ class MatchResult(QWidget):
         self._show_figures(match)
         self.show_outdated("", usable=True)
 
+    def _show_cure(self, match: Match) -> None:
+        found = cure_of(match.scene)
+        text = self.tr("This lamp's light repeats at {frequency}: bars vanish at whole multiples "
+                       "of "
+                       "{period}.").format(
+            frequency=HERTZ.format(found.repeats, 4), period=SECOND.format(1.0 / found.repeats, 4)
+        )  # fmt: skip
+        first, kept = (
+            self.tr(" or ").join(each.name for each in speeds)
+            for speeds in (found.speeds, found.kept)
+        )
+        if first == kept != "":
+            text += " " + self.tr("Set {first}.").format(first=first)
+        elif first:
+            text += " " + self.tr("Set {first} if the camera keeps what is written").format(
+                first=first
+            )
+            text += self.tr(", else {kept}.").format(kept=kept) if kept else "."
+        assumed = condition_of(match, self._certain)
+        self.cure.setText(f"{text} ({assumed})" if assumed else text)
+        self.cure.show()
+
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""
         self._certain = certain
@@ -107,6 +147,7 @@ class MatchResult(QWidget):
             self._show_figures(self._match)
 
     def _show_figures(self, match: Match) -> None:
+        self._show_cure(match)
         self.figures.show_match(match, self._certain, self._noted)
         lines = lines_of_match(match, turned=self._turned)
         self.paste.show_lines_if(condition_of(match, self._certain), lines)
@@ -118,7 +159,7 @@ class MatchResult(QWidget):
         self.verdict.show_outdated(bool(why))
         self.mark.show_age(DELAY if why else 0.0, why)  # at once
         self.paste.setEnabled(usable and not why)
-        for button in (self.apply, self.save):
+        for button in (self.apply, self.save, self.without_bars):
             button.setEnabled(usable)
 
     def show_given(self, given: float) -> None:

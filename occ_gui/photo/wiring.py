@@ -69,6 +69,7 @@ class PhotoWiring(QObject):
         pane.many.match_asked.connect(self.match_all)
         pane.many.photo_chosen.connect(self.photos.open)
         pane.result.apply_asked.connect(self.matching.apply)
+        pane.result.cure_asked.connect(self._cure)
         self.matching.matched.connect(self.comparison.show_match)
         self.matching.matched.connect(self._on_match)
         self.photos.reading_changed.connect(self._show_reading)
@@ -110,6 +111,11 @@ class PhotoWiring(QObject):
         lamps.region_changed.connect(self.chips.set_region)
         lamps.region_changed.connect(self._show_region)
         self._image.photo.graphics.scene().sigMouseClicked.connect(self._click)
+
+    def _cure(self) -> None:
+        """Show the simulation at a shutter speed without bars, beside the photo."""
+        self.matching.cure()
+        self._image.set_mode(MODES[0])
 
     def _show_begun(self) -> None:
         self.matching.show_reading(True)

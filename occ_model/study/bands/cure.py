@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from occ_model.results.bands import SpeedDepth
+from occ_model.results.bands import BARELY
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.advice import speed_depths
 from occ_model.study.bands.least_depth import DepthOver
+from occ_model.study.bands.shutter_speeds import ShutterSpeed, shutter_speeds
 
 _NAMED = 2
 
@@ -21,22 +21,33 @@ class Cure:
     ----------
     repeats
         How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it.
-    speeds
-        The shortest usual shutter speeds that show no bars, at most two.
+    speeds, kept
+        The shortest usual shutter speeds that show no bars, at most two: as they are written, and
+        also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
     scene
         With the shortest of them, or the shortest exposure without bars of the lamp.
     """
 
     repeats: float
-    speeds: tuple[SpeedDepth, ...]
+    speeds: tuple[ShutterSpeed, ...]
+    kept: tuple[ShutterSpeed, ...]
     scene: Scene
 
 
 def cure_of(scene: Scene) -> Cure:
     """Return the shutter speeds without bars, and the scene at the shortest of them."""
-    repeats = scene.transmitter.switching_frequency / DepthOver.of(scene).period
-    free = [each for each in speed_depths(scene) if each.is_free][::-1][:_NAMED]
-    return Cure(repeats, tuple(free), as_bright(scene, free[0].nominal if free else 1.0 / repeats))
+    over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
+    repeats = frequency / over.period
+
+    def depth(exposure: float) -> float:
+        exposures = np.array([exposure])
+        return float((over.of_code(frequency * exposures) + over.flicker(exposures))[0])
+
+    as_written = [each for each in reversed(shutter_speeds()) if depth(each.nominal) < BARELY]
+    kept = [each for each in as_written if depth(each.real) < BARELY]
+    exposure = as_written[0].nominal if as_written else 1.0 / repeats
+    cured = as_bright(scene, exposure)
+    return Cure(repeats, tuple(as_written[:_NAMED]), tuple(kept[:_NAMED]), cured)
 
 
 def as_bright(scene: Scene, exposure: float) -> Scene:

@@ -66,6 +66,21 @@ def test_an_exposure_that_is_hardly_known_has_an_upper_limit(
     assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
 
 
+def test_a_match_says_which_shutter_speeds_show_no_bars(
+    view: PhotoView, photo: Photo, match: Match
+) -> None:
+    view.show_photo(photo)
+    scene = match.scene.replace(pattern="10", switching_frequency=3840.0)
+    view.result.show_certain({"switching_frequency": 2e3})
+    view.show_match(replace(match, scene=scene))
+    assert view.result.cure.text() == (
+        "This lamp's light repeats at 1.92 kHz: bars vanish at whole multiples of 520.8 µs. "
+        "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."
+    )
+    view.result.show_certain({})
+    assert view.result.cure.text().endswith("1/120 s. (if f = 2 kHz)")
+
+
 def test_a_blinking_led_is_described_by_its_cycles_too(
     view: PhotoView, photo: Photo, match: Match
 ) -> None:
@@ -114,6 +129,7 @@ def test_without_a_match_there_is_nothing_to_apply(
     for button, signal in (
         (view.result.apply, view.result.apply_asked),
         (view.result.save, view.result.save_asked),
+        (view.result.without_bars, view.result.cure_asked),
     ):
         with qtbot.waitSignal(signal):
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)

@@ -349,3 +349,22 @@ def test_the_columns_of_chips_and_packets_are_those_of_the_picture() -> None:
     assert len(occ.packet(scene)) * chip == pytest.approx(1500, rel=1e-12)
     profile = occ.column_profile(scene)
     np.testing.assert_allclose(profile[1500:3000], profile[:1500], atol=1e-6)
+
+
+def test_the_bars_of_a_dimmed_lamp_are_as_deep_as_said() -> None:
+    asked = step(8, 1)
+    assert "67 %" in asked.answer
+    depth = occ.band_depth(asked.scene)
+    assert depth.peak_to_peak == pytest.approx(2.0 / 3.0)
+    real = occ.band_depth(asked.scene.replace(averaging="light"))
+    assert real.pixel.peak_to_peak < real.peak_to_peak == depth.peak_to_peak
+    assert float(np.max(occ.column_profile(asked.scene))) < 255.0
+
+
+def test_the_bars_vanish_at_a_whole_period_and_at_the_speeds_named() -> None:
+    asked = step(8, 2)
+    assert "0.521 ms" in asked.answer
+    for exposure in (1 / 1920, 1 / 60, 1 / 120):
+        cured = asked.scene.replace(exposure_time=exposure, iso=1.0)
+        assert occ.band_depth(cured).peak_to_peak < 1e-9
+    assert occ.band_depth(asked.scene).peak_to_peak > 0.1

@@ -99,7 +99,9 @@ class BandsView(QWidget):
                 self.tr("none") if speed.is_free else self._kept(speed),
             )  # fmt: skip
             for column, text in enumerate(cells):
-                self.table.setItem(row, column, QTableWidgetItem(text))
+                item = QTableWidgetItem(text)
+                item.setToolTip(text)
+                self.table.setItem(row, column, item)
         if is_first:
             usual = next(row for row, speed in enumerate(self._speeds) if speed.nominal <= _USUAL)
             middle = QAbstractItemView.ScrollHint.PositionAtCenter
@@ -110,7 +112,7 @@ class BandsView(QWidget):
             return self.tr("yes")
         if speed.at_nominal < speed.at_real:
             return self.tr("none as written")
-        return self.tr("none at the power of two")
+        return self.tr("none as power of two")
 
     def _headline(self, found: ShownBands) -> str:
         depth, exposure = found.depth, SECOND.format(found.scene.camera.exposure_time, _DIGITS)

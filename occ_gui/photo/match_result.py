@@ -135,7 +135,7 @@ class MatchResult(QWidget):
                 first=first
             )
             text += self.tr(", else {kept}.").format(kept=kept) if kept else "."
-        assumed = condition_of(match, self._certain)
+        assumed = condition_of(match, self._certain).rstrip(": ")
         self.cure.setText(f"{text} ({assumed})" if assumed else text)
         self.cure.show()
 

@@ -43,7 +43,7 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
     assert "whole multiples of 520.8 µs" in view.sentences.text()
     rows = _rows(view)
     assert rows["1/60 s"] == ["0 %", "0 %", "none"]
-    assert rows["1/125 s"][2] == "none at the power of two"
+    assert rows["1/125 s"][2] == "none as power of two"
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
 

@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.scene.control_panel import MAIN
+from occ_gui.story.verdict_bar import AVERAGES_LESSON
 from occ_gui.widgets.state_look import State
 
 
@@ -176,3 +177,10 @@ def test_the_equations_explain_the_column_that_the_story_shows(
     assert pane.column.value() == 640
     pane.column_chosen.emit(655)
     assert crosshair.column == pane.column.value() == 655
+
+
+def test_the_bar_leads_to_the_lesson_on_long_exposures(application: Application) -> None:
+    application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
+    pane = application.shell.pane("lessons")
+    assert not application.window.is_put_away("lessons")
+    assert pane.controller._current.name == AVERAGES_LESSON

@@ -13,7 +13,8 @@ from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.plot import BAND, NOISE, PHOTO, REGION, SIMULATION, new_plot, thin
+from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
+from occ_gui.widgets.plot import new_plot
 from occ_model.results import ACCURACY_PARTS, CLOSED_FORM, LEAST_ERROR, AccuracyPoint
 
 SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "t", "d"), strict=True))

@@ -4,7 +4,7 @@ Each of the three questions has a part of the pane: the table of effects with th
 slider from fast to exact with its sentence, and the plot of the ways to compute.
 """
 
-from PySide6.QtCore import Qt, QTimer, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
@@ -19,7 +19,6 @@ from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import rows_of
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
-from occ_gui.accuracy.plan_changes import PlanChanges
 from occ_gui.accuracy.row_order import slowest_of
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
@@ -31,18 +30,12 @@ from occ_model.scene.simulation_settings import SimulationSettings
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312
 """Pixels that the parts need beside each other."""
 
-_NEW_MS = 8000
-"""For how long what the plan has switched is marked, and told in the status line."""
-
 
 class AccuracyView(QWidget):
     """The slider from fast to exact, the table of effects, and the plot of error over time.
 
     It draws only while it is visible, as :meth:`set_seen` says.
     """
-
-    visibility_changed = Signal(bool)
-    """Whether the pane has become visible or hidden."""
 
     tolerance_edited = Signal(float)
     observable_chosen = Signal(str)
@@ -56,9 +49,6 @@ class AccuracyView(QWidget):
     mended = Signal()
     """An allowed tolerance was entered, whether or not it differs from the last one."""
 
-    plan_changed = Signal(str)
-    """A sentence on the effects that the plan has just switched in or out."""
-
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._snapshot: Snapshot | None = None
@@ -66,11 +56,8 @@ class AccuracyView(QWidget):
         self._costs: SceneCosts | None = None
         self._forecast: tuple[SimulationRequest, Forecast] | None = None
         self._seen = False
-        self._changes = PlanChanges()
+        self._switched: tuple[Decision, ...] = ()
         self._marked: tuple[Decision, ...] = ()
-        self._forgetting = QTimer(self, singleShot=True)
-        self._forgetting.setInterval(_NEW_MS)
-        self._forgetting.timeout.connect(self._forget_changes)
         self._selected = self._slowest = ""
         self.tolerance = ToleranceSlider()
         self.tolerance.edited.connect(self.mended)
@@ -143,7 +130,6 @@ class AccuracyView(QWidget):
         """Draw from now on, or stop drawing while the pane is hidden."""
         self._seen = seen
         self._redraw()
-        self.visibility_changed.emit(seen)
 
     def show_settings(self, settings: SimulationSettings) -> None:
         """Show the simulation settings without emitting a signal."""
@@ -156,16 +142,14 @@ class AccuracyView(QWidget):
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Show these results in place of the last ones."""
         self._snapshot = snapshot
-        if self._changes.update(snapshot.frame):
-            self.plan_changed.emit(switch_sentence(self._changes.switched))
-            self._forgetting.start()
         self._redraw()
 
-    def _forget_changes(self) -> None:
-        """Let what the plan has switched be no news any more."""
-        self._changes.forget()
-        self.plan_changed.emit("")
-        self._draw()
+    def show_switched(self, switched: tuple[Decision, ...]) -> None:
+        """Mark what the plan has just switched; nothing when it is no news any more."""
+        if switched != self._switched:
+            self._switched = switched
+            if not switched:  # else it is drawn with its picture, which comes next
+                self._draw()
 
     def show_costs(self, costs: SceneCosts) -> None:
         """Show what the effects of a scene cost and change, as far as measured."""
@@ -202,13 +186,13 @@ class AccuracyView(QWidget):
             return
         self._drawn = self._snapshot
         self._draw()
-        if self._marked != self._changes.switched:
-            self._marked = self._changes.switched
+        if self._marked != self._switched:
+            self._marked = self._switched
             self.table.bring_into_view(self._new)
 
     @property
     def _new(self) -> set[str]:
-        return {decision.effect for decision in self._changes.switched}
+        return {decision.effect for decision in self._switched}
 
     def _draw(self) -> None:
         """Draw all that is known of the picture that is shown."""
@@ -225,8 +209,8 @@ class AccuracyView(QWidget):
             ends = ends_sentence(costs)
         else:
             sentence = forecast_sentence(frame, costs.picture, pending)
-        if self._changes.switched:
-            sentence += " " + switch_sentence(self._changes.switched) + "."
+        if self._switched:
+            sentence += " " + switch_sentence(self._switched) + "."
         self.summary.set_full_text(sentence)
         self.ends.set_full_text(ends)
         self.ends.setVisible(bool(ends))

@@ -110,7 +110,6 @@ class AccuracyController(QObject):
         for store in (scenes, settings):
             store.changed.connect(self._restart)
         simulation.runner.idle.connect(self._wait_until_idle)
-        simulation.snapshot_shown.connect(self._take)
 
     @property
     def is_idle(self) -> bool:
@@ -141,7 +140,8 @@ class AccuracyController(QObject):
         self._predict()
         self._wait_until_idle()
 
-    def _take(self, snapshot: Snapshot) -> None:
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Predict from the times of these results from now on."""
         self._snapshot = snapshot
         self._predict()
 

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import QStyle, QStyledItemDelegate, QStyleOptionViewItem
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.plot import BAND, SIMULATION
+from occ_gui.widgets.pens import BAND, SIMULATION
 from occ_model.arrays import ByteArray
 
 _Index = QModelIndex | QPersistentModelIndex

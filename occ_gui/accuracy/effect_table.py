@@ -30,7 +30,7 @@ from occ_gui.accuracy.row_order import (
     arranged,
 )
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.plot import REGION
+from occ_gui.widgets.pens import REGION
 from occ_model.scene.simulation_settings import TOLERANCE
 
 _Index = QModelIndex | QPersistentModelIndex

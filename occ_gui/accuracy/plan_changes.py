@@ -1,6 +1,12 @@
 """Changes of the simulation plan: the effects that it last switched in or out."""
 
+from PySide6.QtCore import QObject, QTimer, Signal
+
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results import Decision, Frame
+
+_NEW_MS = 8000
+"""For how long what the plan has switched is marked, and told in the status line."""
 
 
 class PlanChanges:
@@ -25,3 +31,27 @@ class PlanChanges:
     def forget(self) -> None:
         """Take the latest change as known."""
         self.switched = ()
+
+
+class PlanNews(QObject):
+    """Tells for a while what the plan of the latest picture has switched."""
+
+    changed = Signal(object)
+    """The decisions that are new; none when they are no news any more."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._changes = PlanChanges()
+        self._forgetting = QTimer(self, singleShot=True)
+        self._forgetting.setInterval(_NEW_MS)
+        self._forgetting.timeout.connect(self._forget)
+
+    def show_snapshot(self, snapshot: Snapshot) -> None:
+        """Compare the plan of these results with that of the last ones."""
+        if self._changes.update(snapshot.frame):
+            self.changed.emit(self._changes.switched)
+            self._forgetting.start()
+
+    def _forget(self) -> None:
+        self._changes.forget()
+        self.changed.emit(())

@@ -1,12 +1,13 @@
 """Application: creates stores, controllers, panes and window, and connects them."""
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QSettings, Qt
 
-from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.accuracy.cost_sentences import switch_sentence
+from occ_gui.accuracy.plan_changes import PlanNews
 from occ_gui.app.about import show_about
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.features import features
@@ -18,26 +19,21 @@ from occ_gui.app.video_pane import VideoPane
 from occ_gui.app.welcome import Welcome
 from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
-from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.wiring import Measuring
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
-from occ_gui.photo.photo_controller import PhotoReading
-from occ_gui.photo.photo_view import PhotoView
-from occ_gui.photo.wiring import PhotoWiring
+from occ_gui.photo.photo_controller import PhotoController, PhotoReading
 from occ_gui.picture.before_controller import BeforeController
-from occ_gui.picture.image_view import ImageView
+from occ_gui.picture.feature import picture
 from occ_gui.pins.pin_controller import PinController
-from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
@@ -49,10 +45,14 @@ from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
 from occ_model.plugins import all_at_work
 from occ_model.receiver.decoders import DECODERS, decoders
-from occ_model.results import Match
+from occ_model.results import Decision, Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.cause import Step
+
+if TYPE_CHECKING:
+    from occ_gui.photo.photo_view import PhotoView
+    from occ_gui.photo.wiring import PhotoWiring
 
 
 class Application(QObject):
@@ -85,35 +85,27 @@ class Application(QObject):
         effects = dict.fromkeys(name for effect in EFFECTS for name in effect.parameters)
         stages = {name: e.stage for e in reversed(EFFECTS) for name in e.parameters}
         self.controls = ControlPanel([], [*effects], {name: stages[name] for name in effects})
-        self.image, self.profile, self.decode = ImageView(), ProfileView(), DecodeView([*DECODERS])
-        self.accuracy, self.photo = AccuracyView(), PhotoView()
-        self.story = StoryView(self.image, [*DECODERS])
+        self.board = Board()
+        self.shell = Shell(workspace, self.board)
+        self.story = StoryView(self.shell.embed(picture(workspace)), [*DECODERS])
         self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
-        self.window = MainWindow(
-            self.controls, self.story, self.profile, self.decode, self.photo, self.accuracy,
-            undo_stack=self.store.undo_stack,
-        )  # fmt: skip
+        self.window = MainWindow(self.controls, self.story, undo_stack=self.store.undo_stack)
         self.messages = StatusMessages(self.window, self.controls)
-        self.photo_wiring = PhotoWiring(self.store, self.image, self.profile, self.photo)
-        self.photos = self.photo_wiring.photos
-        self.presets = PresetController(self.window, self.store, self.photo_wiring.matching)
+        self.photos = PhotoController()
+        self.presets = PresetController(self.window, self.store)
         self.present = PresentResults(self.simulation)
         self.files = FileController(
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
-        self.simulation.picture_ready.connect(self.image.show_picture)
-        self.study = AccuracyController(self.store, self.settings, self.simulation, self.accuracy)
+        self.simulation.picture_ready.connect(self.board.show_picture)
         self.frame_rate = FrameRate(workspace)
         self.measuring = Measuring(self.store, self.slider_strips)
         self.simulation.let_first(self._is_map_awaited)
         self._declare_panes(workspace)
         self._show_results()
-        self.outdated = OutdatedPanes(self.simulation, self.decode, self.window)
-        self.outdated.mark_picture(self.image.simulation)
+        self.outdated = OutdatedPanes(self.simulation, self.window)
         tell_story(self)
-        self.outdated.mark_readings(self.profile, self.decode)
-        self.outdated.mark_results(*self.accuracy.of_scene)
         self.shell.made.connect(self._on_made)
         # Before the session is written.
         self.window.closing.connect(self._begin_to_end)
@@ -128,23 +120,25 @@ class Application(QObject):
         self._show_first(scene, settings)
 
     def _declare_panes(self, workspace: Store) -> None:
-        self.before = BeforeController(workspace, [self.profile, self.image.before])
+        self.before = BeforeController(workspace, [self.board])
         self.pins = PinController(self.store, self.present.is_present)
-        self.board = Board()
-        self.shell = Shell(self.window, workspace, self.board)
-        self.lessons = LessonsInWindow(self.window, self.shell, self.photo_wiring)
+        self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(
             self.window, self.shell, self.files.ask_for_film, self.files.ask_to_save_film
         )
         for feature in features(self):
-            self.shell.add(feature)
+            self.shell.add(feature, self.window)
 
     def _show_results(self) -> None:
-        # The profile follows what is drawn in it: the results before, and the comparison.
-        comparison = self.photo_wiring.comparison
-        readers = (self.image, comparison, self.profile, self.decode, self.story)
-        views = (self.image, self.before, self.pins, self.board, self.accuracy)
-        self.simulation.show_in(views, readers)
+        self.news = PlanNews(self.window)
+        self.news.changed.connect(self.board.show_switched)
+        self.news.changed.connect(self._tell_switched)
+        # What the pictures are compared with comes before them.
+        views = (self.before, self.pins, self.news, self.board)
+        self.simulation.show_in(views, (self.board, self.story))
+
+    def _tell_switched(self, switched: tuple[Decision, ...]) -> None:
+        self.window.show_plan_change(switch_sentence(switched) if switched else "")
 
     def _show_first(self, scene: Scene, settings: SimulationSettings) -> None:
         self._list_presets()
@@ -158,7 +152,6 @@ class Application(QObject):
         self.controls.player.run_changed.connect(self.outdated.follow_run)
         self.editor.edit_started.connect(self.messages.end_refusal)
         self.editor.input_refused.connect(self.messages.show_refusal)
-        self.messages.follow(self.accuracy, self.photo)
         self.controls.preset_chosen.connect(self.presets.load)
         self.presets.changed.connect(self._list_presets)
         self.lessons.begun.connect(self.presets.keep_base)
@@ -171,9 +164,8 @@ class Application(QObject):
         # Looking for plug-ins takes some 40 ms: not before the first picture.
         once = Qt.ConnectionType.SingleShotConnection
         self.simulation.snapshot_shown.connect(self._offer_plugins, once)
-        banners = (self.story.verdict, self.photo.verdict)
-        labels = (label for bar in banners for label in (bar.sentence, bar.wrapped))
-        self.window.leave_messages_to(*labels)
+        verdict = self.story.verdict
+        self.window.leave_messages_to(verdict.sentence, verdict.wrapped)
         self.simulation.failed_for.connect(self.messages.show_failure)
         self.simulation.failed.connect(self.pins.give_up)
         for speaker in (self.presets, self.files, self.present, self.video):
@@ -183,32 +175,18 @@ class Application(QObject):
         self.window.closing.connect(self.stop)
 
     def _connect_settings(self) -> None:
-        self.accuracy.tolerance_edited.connect(self.settings.set_tolerance)
-        self.accuracy.observable_chosen.connect(self.settings.set_observable)
-        self.accuracy.noise_chosen.connect(self.settings.set_noise)
-        self.accuracy.effect_switched.connect(self.store.force)
         self.controls.forced.released.connect(self.store.release_effects)
-        self.accuracy.visibility_changed.connect(self.study.set_seen)
-        self.accuracy.plan_changed.connect(self.window.show_plan_change)
         self.settings.changed.connect(self._show_settings)
-        self.settings.refused.connect(self._refuse_setting)
+        self.settings.refused.connect(self.messages.show_refusal)
 
     def _connect_photo(self) -> None:
         self.photos.failed.connect(self._on_photo_failure)
         self.photos.another_read.connect(self._bring_photo_to_front)
         self.photos.opened.connect(self._on_photo)
-        self.photos.begun.connect(self.window.reading.begin)
+        self.photos.begun.connect(self._begin_photo)
         self.photos.progressed.connect(self.window.reading.show_progress)
         self.photos.ended.connect(self.window.reading.end)
         self.window.reading.cancelled.connect(self._cancel_photo)
-        self.photo.open_asked.connect(self.files.ask_for_photo)
-        self.photo.form.edited.connect(self.editor.edit)
-        self.photo.result.save_asked.connect(self.presets.ask_to_save_match)
-        self.photo.many.save_asked.connect(self.files.ask_to_save_table)
-        for copying in (self.photo.many, self.photo.result.paste, self.profile.chips):
-            copying.copied.connect(self.window.say)
-        self.photo_wiring.matching.matched.connect(self._on_match)
-        self.photo_wiring.matching.failed.connect(self.messages.show_match_failure)
         self.preferences.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
         self.files.film_asked.connect(self.video.open)
@@ -223,24 +201,17 @@ class Application(QObject):
             "save_picture": self.files.ask_to_save_picture,
             "delete_preset": self.presets.ask_to_delete,
             "match": self._match,
-            "match_all": self.photo_wiring.match_all,
-            "find_lamps": self.photo_wiring.lamps.find,
-            "region_by_hand": self.photo.lamps.by_hand.toggle,
-            "whole_photo": self.photo_wiring.lamps.match_whole,
-            "apply_match": self.photo_wiring.matching.apply,
-            "save_match": self.presets.ask_to_save_match,
-            "use_settings": self.photo_wiring.matching.use_notes,
-            "fit": self.image.fit,
+            "fit": self._fit,
             "about": lambda: show_about(self.window),
         }.items():
             self.window.actions_by_name[name].triggered.connect(slot)
         menus = self.window.menus
-        self.photo.many.files_shown.connect(self._show_listed)
-        self._show_listed()
+        self.window.actions_by_name["match_all"].setEnabled(False)
         menus.scan_axes.triggered.connect(lambda action: self.photos.scan_along(action.data()))
         self.photos.reading_changed.connect(self._show_scan_axis)
-        menus.overlays.triggered.connect(lambda action: self.image.set_mode(action.data()))
-        self.image.mode_chosen.connect(lambda mode: menus.show_choice(menus.overlays, mode))
+        menus.overlays.triggered.connect(lambda action: self.show_mode(action.data()))
+        overlay = self.store.store.select(lambda workspace: workspace.overlay)
+        overlay.changed.connect(self._show_overlay)
 
     def _connect_slider_strips(self) -> None:
         self.controls.add_foot(self.slider_strips.legend)
@@ -249,9 +220,10 @@ class Application(QObject):
         shown.triggered.connect(self.preferences.keep_slider_strips)
         self.slider_strips.set_shown(self.preferences.slider_strips)
         shown.setChecked(self.preferences.slider_strips)
-        self.decode.decoder_chosen.connect(self.measuring.slider_strips.choose_decoder)
-        self.decode.decoder_chosen.connect(self.simulation.read_with)
-        self.decode.decoder_chosen.connect(self.measuring.own_rate.choose_decoder)
+        decoder = self.store.store.select(lambda workspace: workspace.decoder)
+        decoder.changed.connect(self.measuring.slider_strips.choose_decoder)
+        decoder.changed.connect(self.simulation.read_with)
+        decoder.changed.connect(self.measuring.own_rate.choose_decoder)
         self.measuring.own_rate.changed.connect(self.story.verdict.show_rate)
         self.story.verdict.step_chosen.connect(self._take_step)
         self.story.verdict.lesson_wanted.connect(self._show_lesson)
@@ -260,8 +232,7 @@ class Application(QObject):
     def is_idle(self) -> bool:
         """Whether all requested results are shown."""
         parts = (
-            self.simulation, self.outdated, self.photo_wiring, self.desktop, self.pins,
-            self.shell,
+            self.simulation, self.outdated, self.desktop, self.pins, self.shell,
         )  # fmt: skip
         return all(part.is_idle for part in parts)
 
@@ -287,11 +258,69 @@ class Application(QObject):
     @property
     def is_measured(self) -> bool:
         """Whether the processes have measured all that is seen."""
-        pane = self.shell.made_pane("map")
-        return self.measuring.is_idle and (pane is None or pane.is_measured)
+        return self.measuring.is_idle and self.shell.is_measured
 
-    def _on_made(self, _name: str, pane: Pane[Any]) -> None:
-        self.outdated.mark_results(*pane.of_picture)
+    def view(self, name: str) -> Any:
+        """Give the view of a pane, which is made if it has never been seen."""
+        return self.shell.pane(name).view
+
+    @property
+    def _photo(self) -> "PhotoWiring":
+        pane: PhotoWiring = self.shell.pane("photo")
+        return pane
+
+    def choose_decoder(self, name: str) -> None:
+        """Show what this decoder reads, everywhere."""
+        store = self.store.store
+        store.put(replace(store.workspace, decoder=name))
+
+    def _on_made(self, name: str, pane: Any) -> None:
+        self.outdated.mark(pane)
+        if name == "accuracy":
+            self.messages.follow(pane.view)
+        elif name == "decode":
+            self.outdated.mark_verdict(pane.view)
+        elif name == "profile":
+            pane.view.chips.copied.connect(self.window.say)
+        elif name == "photo":
+            self._connect_photo_pane(pane, pane.view)
+
+    def _connect_photo_pane(self, wiring: "PhotoWiring", view: "PhotoView") -> None:
+        verdict = view.verdict
+        self.messages.follow(view)
+        self.window.leave_messages_to(verdict.sentence, verdict.wrapped)
+        view.open_asked.connect(self.files.ask_for_photo)
+        view.form.edited.connect(self.editor.edit)
+        view.result.save_asked.connect(self._save_match)
+        view.many.save_asked.connect(self.files.ask_to_save_table)
+        view.many.files_shown.connect(self._show_listed)
+        for copying in (view.many, view.result.paste):
+            copying.copied.connect(self.window.say)
+        # They are enabled once there is a photo.
+        for name, slot in {
+            "match_all": wiring.match_all,
+            "find_lamps": wiring.lamps.find,
+            "region_by_hand": view.lamps.by_hand.toggle,
+            "whole_photo": wiring.lamps.match_whole,
+            "apply_match": wiring.matching.apply,
+            "save_match": self._save_match,
+            "use_settings": wiring.matching.use_notes,
+        }.items():
+            self.window.actions_by_name[name].triggered.connect(slot)
+        wiring.matching.saved.connect(self.presets.report_saved)
+        wiring.matching.matched.connect(self._on_match)
+        wiring.matching.failed.connect(self.messages.show_match_failure)
+
+    def _save_match(self) -> None:
+        self.presets.ask_to_save_match(self._photo.matching)
+
+    def _fit(self) -> None:
+        if (pane := self.shell.made_pane("picture")) is not None:
+            pane.view.fit()
+
+    def _begin_photo(self) -> None:
+        self.shell.pane("photo")  # before there is something to show
+        self.window.reading.begin()
 
     def _show_lessons(self) -> None:
         self.window.bring_to_front("lessons")
@@ -305,16 +334,19 @@ class Application(QObject):
         self.window.bring_to_front("compare")
 
     def _show_several(self, paths: list[Path]) -> None:
-        self.photo_wiring.many.show_files(paths)
+        self._photo.many.show_files(paths)
         self.window.bring_to_front("photo")
 
     def _show_listed(self) -> None:
-        paths = self.photo.many.rows.paths
+        paths = self._photo.view.many.rows.paths
         self.window.actions_by_name["match_all"].setEnabled(bool(paths))
 
     def show_mode(self, mode: str) -> None:
         """Show the photo beside the simulated picture or over it, by one of MODES."""
-        self.image.set_mode(mode)
+        store = self.store.store
+        store.put(replace(store.workspace, overlay=mode))
+
+    def _show_overlay(self, mode: str) -> None:
         self.window.menus.show_choice(self.window.menus.overlays, mode)
 
     def _show_scan_axis(self, reading: PhotoReading) -> None:
@@ -322,7 +354,7 @@ class Application(QObject):
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")
-        self.photo_wiring.match()
+        self._photo.match()
 
     def _show_scene(self, scene: Scene) -> None:
         self.messages.end_refusal()
@@ -340,12 +372,7 @@ class Application(QObject):
 
     def _show_settings(self, settings: SimulationSettings) -> None:
         self.messages.end_refusal()
-        self.accuracy.show_settings(settings)
         self.controls.forced.show_list(forced_text(settings.force, self.settings.effect_labels))
-
-    def _refuse_setting(self, sentence: str) -> None:
-        self.accuracy.show_settings(self.settings.settings)
-        self.messages.show_refusal(sentence)
 
     def _refuse(self, sentence: str) -> None:
         # The control still shows the refused value.
@@ -362,7 +389,6 @@ class Application(QObject):
 
     def _offer_plugins(self) -> None:
         if decoders() != tuple(DECODERS):
-            self.decode.offer(decoders())
             self.story.offer(decoders())
 
     def _on_snapshot(self, snapshot: Snapshot) -> None:
@@ -371,7 +397,7 @@ class Application(QObject):
 
     def _take_step(self, step: Step) -> None:
         if step.decoder:
-            self.decode.choose_decoder(step.decoder)
+            self.choose_decoder(step.decoder)
         else:
             self.store.change(NO_GESTURE, **step.changes)
 
@@ -382,17 +408,17 @@ class Application(QObject):
     def _on_photo(self, photo: Photo | None) -> None:
         self.messages.end_photo_failure()
         self.window.show_photo_name(None if photo is None else photo.path.name)
-        self.window.menus.show_match_found(self.photo_wiring.matching.match is not None)
+        self.window.menus.show_match_found(self._photo.matching.match is not None)
         self._front_next = True
         if self._match_next:
-            self.photo_wiring.match()
+            self._photo.match()
 
     def _on_match(self, _match: Match) -> None:
         self.messages.end_match_failure()
         self.window.menus.show_match_found(True)
         if self._match_next:
             self._match_next = False
-            self.photo_wiring.matching.apply()
+            self._photo.matching.apply()
 
     def _begin_to_end(self) -> None:
         # What follows waits for work, and somebody may lose patience first.
@@ -406,8 +432,6 @@ class Application(QObject):
     def stop(self) -> None:
         """Stop all work in the background."""
         self.simulation.stop()
-        self.study.stop()
-        self.photo_wiring.stop()
         self.pins.stop()
         self.shell.stop()
         self.measuring.stop()

@@ -318,8 +318,9 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
     from PySide6.QtWidgets import QApplication
 
     failures: list[str] = []
-    matching = application.photo_wiring.matching
-    for controller in (application.simulation, application.photos, matching):
+    photo = application.shell.made_pane("photo")
+    matching = () if photo is None else (photo.matching,)
+    for controller in (application.simulation, application.photos, *matching):
         controller.failed.connect(failures.append)
     deadline = QDeadlineTimer(_PATIENCE_MS)
     QTimer.singleShot(_PATIENCE_MS, application.window.update)  # ends the wait for events
@@ -337,8 +338,7 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
 
 
 def _is_idle(application: "Application", measured: bool) -> bool:
-    shown = application.is_idle and application.study.is_idle
-    return shown and (application.is_measured or not measured)
+    return application.is_idle and (application.is_measured or not measured)
 
 
 def _take_screenshot(application: "Application", path: Path) -> None:

@@ -1,17 +1,16 @@
 """Desktop features of the window: export, session, layout, theme, command palette, shortcuts."""
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction
 
-from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.core.workspace import Step
-from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.export.animation import AnimationExport
 from occ_gui.export.export_controller import ExportController
 from occ_gui.export.figures import Figures
@@ -24,11 +23,9 @@ from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Session, UserState
 from occ_gui.help.help_menu import HelpMenu
 from occ_gui.help.pages import PAGE_OF_PANE
-from occ_gui.photo.wiring import PhotoWiring
-from occ_gui.picture.image_view import ImageView
-from occ_gui.picture.photo_overlay import MODES
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.picture.placement import MODES
 from occ_gui.pins.pin_controller import PinController
-from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_editor import SceneEditor
@@ -39,7 +36,6 @@ from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.window.command_palette import CommandPalette, commands_of, shortcuts_of
 from occ_gui.window.current_pane import CurrentPane
-from occ_gui.window.cursor_readout import CursorReadout
 from occ_gui.window.dock_layout import DockLayout
 from occ_gui.window.main_window import MainWindow
 from occ_gui.window.shortcut_sheet import ShortcutSheet
@@ -58,6 +54,7 @@ if TYPE_CHECKING:
     from occ_gui.detection_map.map_controller import MapRequest
     from occ_gui.detection_map.pane import MapPane
     from occ_gui.detection_map.rate_map import RateMap
+    from occ_gui.photo.wiring import PhotoWiring
     from occ_gui.transmitter.transmitter_controller import TransmitterController
 
 _THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
@@ -75,7 +72,7 @@ class Parts(Protocol):
     preferences: Preferences
     presets: PresetController
     files: FileController
-    photo_wiring: PhotoWiring
+    photos: PhotoController
     frame_rate: FrameRate
     lessons: LessonsInWindow
     pins: PinController
@@ -84,13 +81,6 @@ class Parts(Protocol):
     simulation: SimulationController
     present: PresentResults
     controls: ControlPanel
-    image: ImageView
-    profile: ProfileView
-    decode: DecodeView
-    accuracy: AccuracyView
-
-    def show_mode(self, mode: str) -> None:
-        """Show the photo beside the simulated picture or over it."""
 
 
 class Desktop(QObject):
@@ -107,23 +97,18 @@ class Desktop(QObject):
         self._parts = parts
         self._photo: Path | None = None
         window, preferences = parts.window, parts.preferences
-        comparison = parts.photo_wiring.comparison.comparison
         self.figures = Figures(
             parts.settings,
-            comparison,
-            parts.image.overlay,
-            parts.profile,
-            parts.accuracy.plot,
+            parts.shell,
             QUICK_DECODERS,
-            shown_decoder=parts.decode.decoder,
+            shown_decoder=self._decoder,
         )
-        self.figures.describe_photo_by(parts.photo_wiring.verdict.about)
         self.figures.add_map(lambda: _mapped(parts.shell), parts.frame_rate)
         self.figures.add_bench(lambda: _measured(parts.shell), parts.frame_rate)
         window.menus.add_figures(self.figures.titles)
         pane = CurrentPane(window, window.docks)
         self.export = ExportController(
-            window, self.figures, parts.present, preferences, pane, parts.decode.decoder
+            window, self.figures, parts.present, preferences, pane, self._decoder
         )
         self.export.connect_actions(window.menus.figures)
         self.animation = AnimationExport(
@@ -141,22 +126,21 @@ class Desktop(QObject):
         self.layout = DockLayout(window, window.modes, preferences)
         self.autosave = Autosave(parts.store, parts.settings, self.document, self.session)
         for changed in (
-            parts.photo_wiring.lamps.region_changed,
             parts.video.film_changed,
             parts.pins.changed,
         ):
             changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
-        self.pointer = CursorReadout(parts.profile, parts.image)
+        parts.shell.made.connect(self._on_made)
         self.transmitter: TransmitterController | None = None
         self._connect()
 
     def _connect(self) -> None:
         parts, window = self._parts, self._parts.window
-        for taker in (parts.simulation.prepare_picture, parts.files.choose_picture):
-            parts.image.picture_chosen.connect(taker)
-        parts.image.picture_chosen.connect(self.figures.choose_picture)
-        parts.photo_wiring.photos.opened.connect(self._on_photo)
+        whose = parts.store.store.select(lambda workspace: workspace.whose)
+        for taker in (parts.simulation, parts.files, self.figures):
+            whose.changed.connect(taker.choose_picture)
+        parts.photos.opened.connect(self._on_photo)
         for source in (
             self.export,
             self.animation.writer,
@@ -166,7 +150,6 @@ class Desktop(QObject):
         ):
             source.status_message.connect(window.say)
         self.error_reports.reported.connect(window.say)
-        self.pointer.moved.connect(window.pointed.set_full_text)
         window.closing.connect(self.end)
         self.theme.chosen.connect(self._on_theme)
         self.theme.coloured.connect(window.dress)
@@ -191,10 +174,31 @@ class Desktop(QObject):
             "text_normal": self.text_size.normal,
         }.items():
             actions[name].triggered.connect(slot)
-        before = parts.image.before.chosen
-        actions["before"].toggled.connect(before.setChecked)
-        before.toggled.connect(actions["before"].setChecked)
+        actions["before"].toggled.connect(self._show_before)
         actions["hold_brightness"].triggered.connect(self.brightness.switch)
+
+    def _on_made(self, name: str, pane: Any) -> None:
+        """Connect a pane that has been made with what the whole window has."""
+        window = self._parts.window
+        if name == "picture":
+            from occ_gui.window.cursor_readout import follow_pictures
+
+            follow_pictures(pane.view, window.pointed.set_full_text)
+            before = pane.view.before.chosen
+            before.setChecked(window.actions_by_name["before"].isChecked())
+            before.toggled.connect(window.actions_by_name["before"].setChecked)
+        elif name == "profile":
+            from occ_gui.window.cursor_readout import follow_profile
+
+            follow_profile(pane.view, window.pointed.set_full_text)
+        elif name == "photo":
+            pane.lamps.region_changed.connect(self.autosave.note_change)
+
+    def _show_before(self, shown: bool) -> None:
+        self._parts.shell.pane("picture").view.before.chosen.setChecked(shown)
+
+    def _decoder(self) -> str:
+        return self._parts.store.store.workspace.decoder
 
     def _show_report(self) -> None:
         # Asked for rarely; importing it would take a part of the start.
@@ -229,6 +233,7 @@ class Desktop(QObject):
     def session(self) -> Session:
         """Return what the user is working on; what a lesson shows in its place is not kept."""
         parts = self._parts
+        photo: PhotoWiring | None = parts.shell.made_pane("photo")
         aside = parts.lessons.users_own()
         own = aside or UserState(parts.store.scene, parts.settings.settings, self._photo)
         return Session(
@@ -236,7 +241,7 @@ class Desktop(QObject):
             settings=own.settings,
             scene_file=self.document.path,
             photo=own.photo,
-            region=None if aside else parts.photo_wiring.lamps.rectangle,
+            region=None if aside or photo is None else photo.lamps.rectangle,
             film=parts.video.path,
             preset=parts.presets.base_of(own.scene),
             pins=parts.pins.kept,
@@ -263,10 +268,11 @@ class Desktop(QObject):
             self.theme.choose(preferences.recall(_THEME))
             if (percent := preferences.recall(_TEXT)).isdecimal():
                 self.text_size.choose(int(percent))
+            store = self._parts.store.store
             if (mode := preferences.recall(_OVERLAY)) in MODES:
-                self._parts.show_mode(mode)
+                store.put(replace(store.workspace, overlay=mode))
             if (whose := preferences.recall(_PICTURE)) in PICTURES:
-                self._parts.image.choose_picture(whose)
+                store.put(replace(store.workspace, whose=whose))
             self.brightness.switch(preferences.recall(_HOLD) == _YES)
             left = file.crashed or session
             self._parts.pins.restore(left.pins)
@@ -321,8 +327,9 @@ class Desktop(QObject):
         """Store how the window looks, unless a lesson has its own panes in it."""
         if self._parts.lessons.users_own() is None:
             self.layout.keep()
-            self._parts.preferences.keep(_OVERLAY, self._parts.image.mode.key())
-            self._parts.preferences.keep(_PICTURE, self._parts.image.whose)
+            workspace = self._parts.store.store.workspace
+            self._parts.preferences.keep(_OVERLAY, workspace.overlay)
+            self._parts.preferences.keep(_PICTURE, workspace.whose)
 
     def end(self) -> None:
         """Store layout, options and session for the next start."""

@@ -1,13 +1,16 @@
 """Lessons in the window: what their steps show and do there, beside their own pane."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.files.session_record import UserState
-from occ_gui.photo.wiring import PhotoWiring
 from occ_gui.shell.shell import Shell
 from occ_gui.window.main_window import MainWindow
+
+if TYPE_CHECKING:
+    from occ_gui.photo.kept_photo import KeptPhoto
+    from occ_gui.photo.wiring import PhotoWiring
 
 _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match": "match"}
 """The menu entries that the buttons of lessons stand for."""
@@ -28,9 +31,9 @@ class LessonsInWindow(QObject):
     photo_explained = Signal(bool)
     """Whether the step of a lesson that is shown is about the photo."""
 
-    def __init__(self, window: MainWindow, shell: Shell, photos: PhotoWiring) -> None:
+    def __init__(self, window: MainWindow, shell: Shell) -> None:
         super().__init__()
-        self._window, self._shell, self._photos = window, shell, photos
+        self._window, self._shell = window, shell
         self._brought = ""
         """The pane that a step has opened; empty for none."""
         shell.made.connect(self._connect)
@@ -44,9 +47,22 @@ class LessonsInWindow(QObject):
         lessons.begun.connect(self.begun)
         lessons.columns_held.connect(self.columns_held)
         lessons.action_wanted.connect(self._do)
-        lessons.use_match(lambda: self._photos.matching.match)
-        lessons.frequency_told.connect(self._photos.begin_form)
-        lessons.keep_photos_by(self._photos.kept, self._photos.give_back)
+        lessons.use_match(lambda: None if self._photo is None else self._photo.matching.match)
+        lessons.frequency_told.connect(self._begin_form)
+        lessons.keep_photos_by(
+            lambda: None if self._photo is None else self._photo.kept(), self._give_back
+        )
+
+    def _begin_form(self, frequency: float) -> None:
+        self._shell.pane("photo").begin_form(frequency)
+
+    def _give_back(self, kept: "KeptPhoto") -> None:
+        self._shell.pane("photo").give_back(kept)
+
+    @property
+    def _photo(self) -> "PhotoWiring | None":
+        pane: PhotoWiring | None = self._shell.made_pane("photo")
+        return pane
 
     def _do(self, action: str) -> None:
         """Do what a step of a lesson has a button for: an entry of the menus."""

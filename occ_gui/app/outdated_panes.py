@@ -1,10 +1,11 @@
 """Outdated panes: each result that is not of the present scene is marked in its pane."""
 
-from typing import Protocol
+from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtWidgets import QWidget
 
+from occ_gui.shell.feature import Pane
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
@@ -44,17 +45,14 @@ class OutdatedPanes(QObject):
     ----------
     simulation
         Computes the results.
-    verdict
-        The pane of the verdict.
     parent
         The parent.
     """
 
-    def __init__(
-        self, simulation: SimulationController, verdict: VerdictPane, parent: QObject
-    ) -> None:
+    def __init__(self, simulation: SimulationController, parent: QObject) -> None:
         super().__init__(parent)
-        self._simulation, self._verdicts = simulation, [verdict]
+        self._simulation = simulation
+        self._verdicts: list[VerdictPane] = []
         self._ages = simulation.ages
         self._pictured: SimulationRequest | None = None
         self._read: SimulationRequest | None = None
@@ -93,9 +91,12 @@ class OutdatedPanes(QObject):
         self.of_readings += [OutdatedMark(pane) for pane in panes]
         self._update()
 
-    def mark_results(self, *panes: QWidget) -> None:
-        """Mark from now on panes of what follows from the picture alone."""
-        self.of_results += [OutdatedMark(pane) for pane in panes]
+    def mark(self, pane: Pane[Any]) -> None:
+        """Mark from now on the parts of a pane, each by what it follows from."""
+        for widget in pane.of_pictures:
+            self.mark_picture(widget)
+        self.mark_readings(*pane.of_readings)
+        self.of_results += [OutdatedMark(widget) for widget in pane.of_results]
         self._update()
 
     def follow_run(self, parameter: str) -> None:

@@ -72,7 +72,7 @@ class Start:
             application.video.keep(self.session.film)
         if with_photo and not wins and self.session.photo is not None:
             if self.session.region is not None:
-                application.photo_wiring.lamps.keep(self.session.photo, self.session.region)
+                application.shell.pane("photo").lamps.keep(self.session.photo, self.session.region)
             application.open_photo(self.session.photo, front=False)
 
 

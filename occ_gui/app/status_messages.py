@@ -1,15 +1,18 @@
 """Status messages: which event ends each message in the status line and at the fields."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 
-from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.photo.photo_view import PhotoView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.window.main_window import MainWindow
 from occ_model.scene.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    from occ_gui.accuracy.accuracy_view import AccuracyView
+    from occ_gui.photo.photo_view import PhotoView
 
 _CHANGE, _PICTURE, _PHOTO, _MATCH = "a change of the scene", "a picture", "a photo", "a match"
 
@@ -32,7 +35,7 @@ class StatusMessages(QObject):
         self._window, self._controls = window, controls
         self._failing: tuple[str, ...] = ()
 
-    def follow(self, *forms: AccuracyView | PhotoView) -> None:
+    def follow(self, *forms: "AccuracyView | PhotoView") -> None:
         """Show what forms refuse from now on, until an allowed value is entered there."""
         for form in forms:
             form.refused.connect(self.show_refusal)

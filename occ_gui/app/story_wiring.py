@@ -1,5 +1,6 @@
 """Connections of the story: what feeds it, and what its choices change in other panes."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QCoreApplication, QObject, Qt
@@ -7,12 +8,10 @@ from PySide6.QtWidgets import QMenu
 
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.outdated_panes import OutdatedPanes
-from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.core.store import Store
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.photo.photo_view import PhotoView
-from occ_gui.picture.image_view import ImageView
-from occ_gui.profile.photo_profile import PhotoProfile
-from occ_gui.profile.profile_view import ProfileView
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.column_axis import Crosshair
@@ -22,6 +21,7 @@ from occ_gui.window.main_window import MainWindow
 
 if TYPE_CHECKING:
     from occ_gui.explanation.exposure_controller import ExposureController
+    from occ_gui.photo.photo_view import PhotoView
 
 
 class Parts(Protocol):
@@ -31,13 +31,14 @@ class Parts(Protocol):
     simulation: SimulationController
     outdated: OutdatedPanes
     story: StoryView
-    image: ImageView
-    profile: ProfileView
-    decode: DecodeView
+    store: SceneStore
+    board: Board
     lessons: LessonsInWindow
     shell: Shell
-    photo: PhotoView
     photos: PhotoController
+
+    def choose_decoder(self, name: str) -> None:
+        """Show what this decoder reads, everywhere."""
 
 
 def tell_story(parts: Parts) -> None:
@@ -45,21 +46,20 @@ def tell_story(parts: Parts) -> None:
 
     Readings come to it as to all other panes, by ``SimulationController.show_in``.
     """
-    story, simulation, image = parts.story, parts.simulation, parts.image
+    story, simulation, store = parts.story, parts.simulation, parts.store.store
     simulation.picture_ready.connect(story.show_picture)
-    simulation.draft_for(lambda: _rows_per_pixel(story, image))
+    simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
     simulation.failed.connect(story.verdict.show_failure)
     simulation.submitted.connect(story.verdict.end_failure)
     parts.outdated.mark_verdict(story.verdict)
     parts.outdated.mark_readings(story.rows)
     parts.outdated.mark_picture(story.rows.stripes)  # it comes later than the reading
-    parts.decode.decoder_chosen.connect(story.choose_decoder)
-    story.decoder_chosen.connect(parts.decode.choose_decoder)
-    image.picture_chosen.connect(story.choose_picture)
-    story.picture_chosen.connect(image.choose_picture)
-    _link_profiles(story, parts.profile)
+    store.select(lambda workspace: workspace.decoder).changed.connect(story.choose_decoder)
+    story.decoder_chosen.connect(parts.choose_decoder)
+    store.select(lambda workspace: workspace.whose).changed.connect(story.choose_picture)
+    _ProfileLink(story, store, parts.board)
     parts.lessons.columns_held.connect(story.hold_columns)
-    _tell_verdicts_apart(parts)
+    _SimulationNaming(parts)
     crosshair = story.rows.crosshair
 
     def share(name: str, pane: Any) -> None:
@@ -70,7 +70,7 @@ def tell_story(parts: Parts) -> None:
     # What is asked of the picture is seen in the whole one.
     parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
     asked = _WholePictureWhileAsked(story)
-    image.before.chosen.toggled.connect(asked.show)
+    parts.window.actions_by_name["before"].toggled.connect(asked.show)
     parts.window.actions_by_name["fit"].triggered.connect(story.fit)
     rows = story.rows
     rows.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
@@ -95,40 +95,55 @@ def story_menu(parts: Parts) -> QMenu:
     return menu
 
 
-def _link_profiles(story: StoryView, profile: ProfileView) -> None:
-    """Show the same levels in both profiles, and a photo's in the story where they agree."""
+class _ProfileLink(QObject):
+    """Shows the same levels in both profiles, and a photo's in the story where they agree."""
 
-    def show_photo(photo: PhotoProfile | None) -> None:
-        agree = profile.is_enhanced == (story.whose.key() == "receiver")
-        story.show_photo_profile(photo if agree else None)
+    def __init__(self, story: StoryView, store: Store, board: Board) -> None:
+        super().__init__(story)
+        self._story, self._store, self._board = story, store, board
+        story.picture_chosen.connect(self._choose)
+        board.photo_profile_changed.connect(self._show_photo)
 
-    story.picture_chosen.connect(lambda whose: profile.enhanced.setChecked(whose == "receiver"))
-    profile.photo_shown.connect(show_photo)
+    def _choose(self, whose: str) -> None:
+        is_enhanced = whose == "receiver"
+        self._store.put(replace(self._store.workspace, whose=whose, is_enhanced=is_enhanced))
 
-
-def _tell_verdicts_apart(parts: Parts) -> None:
-    """Show first what the mode is about, and name the simulation where a photo is shown, too."""
-    story, photo = parts.story, parts.photo.verdict
-    story.take_photo_verdict(photo)
-    naming = _SimulationNaming(parts)
-    parts.window.modes.changed.connect(naming.show)
-    parts.photos.opened.connect(naming.show)
-    parts.lessons.photo_explained.connect(naming.note_step)
-    story.verdict.changed.connect(
-        lambda: photo.show_simulation(story.verdict.state, story.verdict.heading)
-    )
+    def _show_photo(self) -> None:
+        is_receivers = self._story.whose.key() == "receiver"
+        agree = self._store.workspace.is_enhanced == is_receivers
+        self._story.show_photo_profile(self._board.results.photo_profile if agree else None)
 
 
 class _SimulationNaming(QObject):
-    """Names the simulation where a photo is shown, too.
+    """Shows first what the mode is about, and names the simulation where a photo is shown, too.
 
     A slot, not a function: the signal of the photos would hold that beyond the window's end.
     """
 
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
-        self._story, self._photo, self._modes = parts.story, parts.photo, parts.window.modes
+        self._story, self._modes = parts.story, parts.window.modes
+        self._photo: PhotoView | None = None
         self._is_step_about_photo = False
+        parts.window.modes.changed.connect(self.show)
+        parts.photos.opened.connect(self.show)
+        parts.lessons.photo_explained.connect(self.note_step)
+        parts.story.verdict.changed.connect(self._tell_photo)
+        parts.shell.made.connect(self.take)
+
+    def take(self, name: str, pane: Any) -> None:
+        """Show the verdict on the photo, too, once its pane is made."""
+        if name != "photo":
+            return
+        self._photo = pane.view
+        self._story.take_photo_verdict(pane.view.verdict)
+        self._tell_photo()
+        self.show()
+
+    def _tell_photo(self) -> None:
+        verdict = self._story.verdict
+        if self._photo is not None:
+            self._photo.verdict.show_simulation(verdict.state, verdict.heading)
 
     def note_step(self, about_photo: bool) -> None:
         """Note whether the step of a lesson is about the photo."""
@@ -140,7 +155,8 @@ class _SimulationNaming(QObject):
         in_step = self._modes.mode == "lessons" and self._is_step_about_photo
         is_about_photo = self._modes.mode == "photo" or in_step
         self._story.be_about_photo(is_about_photo)
-        self._story.verdict.name_simulation(is_about_photo or self._photo.has_photo)
+        has_photo = self._photo is not None and self._photo.has_photo
+        self._story.verdict.name_simulation(is_about_photo or has_photo)
 
 
 def _share_column(crosshair: Crosshair, exposure: "ExposureController") -> None:
@@ -172,6 +188,7 @@ class _WholePictureWhileAsked(QObject):
             self._story.show_whole_picture(False)
 
 
-def _rows_per_pixel(story: StoryView, image: ImageView) -> float:
+def _rows_per_pixel(story: StoryView, shell: Shell) -> float:
     """Return how many rows of the picture share a pixel where it is seen."""
-    return image.rows_per_pixel() if story.shows_whole_picture else story.rows_per_pixel()
+    pane = shell.made_pane("picture") if story.shows_whole_picture else None
+    return story.rows_per_pixel() if pane is None else float(pane.view.rows_per_pixel())

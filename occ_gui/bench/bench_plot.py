@@ -13,7 +13,8 @@ from PySide6.QtWidgets import QHBoxLayout, QWidget
 
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
-from occ_gui.widgets.plot import BAND, NOISE, PHOTO, REGION, SIMULATION, Plot, new_plot, thin
+from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
+from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bench import BenchBounds, BenchPoint
 
 RATES, BITS = "rates", "bits"

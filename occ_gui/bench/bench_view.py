@@ -23,7 +23,8 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
-from occ_gui.widgets.plot import marker, thin
+from occ_gui.widgets.pens import thin
+from occ_gui.widgets.plot import marker
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE

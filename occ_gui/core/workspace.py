@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
+from occ_model.receiver.decoders import PAPER_DECODER
+from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
@@ -36,6 +38,14 @@ class Workspace:
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
     shown: Shown = "rate"
+    decoder: str = PAPER_DECODER
+    """Whose result and steps are shown."""
+    whose: str = PICTURES[0]
+    """Whose picture is shown, one of PICTURES."""
+    overlay: str = "beside"
+    """How a photo is shown with the picture: beside it, or over it in one of several ways."""
+    is_enhanced: bool = False
+    """Whether profiles are shown after the receiver's enhancement."""
 
     @property
     def step(self) -> Step:

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.decoding.verdict import wrong_places
+from occ_gui.simulation.verdict import wrong_places
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 

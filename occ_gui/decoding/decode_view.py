@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QFormLayout, QLabel, QSizePolicy, QTabBar, QVBoxLa
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.decoding.payload_text import PayloadText
-from occ_gui.decoding.verdict import is_right, result_of, verdict_on
 from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.verdict import is_right, result_of, verdict_on
 from occ_gui.widgets.state_look import State
 from occ_model.results import DecodeResult, Location
 

@@ -1,9 +1,10 @@
 """Colour maps of success rates, which colour-blind eyes can read too, and the colour bar."""
 
 from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QImage, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -20,7 +21,11 @@ _STEPS = 256
 @cache
 def colour_table(name: str) -> ByteArray:
     """Return the colours of a colour map from its lower end, shape (256, 3)."""
-    return np.asarray(pg.colormap.get(name).getLookupTable(nPts=_STEPS, alpha=False))
+    # From the file that comes with pyqtgraph, which the first picture need not wait for.
+    package = find_spec("pyqtgraph")
+    folder = Path("" if package is None else package.origin or "").parent
+    values = np.loadtxt(folder / "colors" / "maps" / f"{name}.csv", delimiter=",", comments=";")
+    return np.floor(255 * values + 0.5).astype(np.uint8)
 
 
 def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteArray:

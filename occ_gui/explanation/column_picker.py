@@ -5,7 +5,8 @@ from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
 from PySide6.QtCore import QEvent, QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QPalette
 
-from occ_gui.widgets.plot import Plot, thin
+from occ_gui.widgets.pens import thin
+from occ_gui.widgets.plot import Plot
 
 _STEPS = {
     Qt.Key.Key_Left: -1,

@@ -16,7 +16,8 @@ from PySide6.QtWidgets import (
 
 from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_gui.widgets.plot import BAND, REGION, SIMULATION, new_plot, thin
+from occ_gui.widgets.pens import BAND, REGION, SIMULATION, thin
+from occ_gui.widgets.plot import new_plot
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.units import SECOND
 

@@ -38,7 +38,7 @@ class ExplanationPane(Pane[Snapshot]):
         pane = ExplanationView()
         super().__init__(pane)
         self.pane = pane
-        self.of_picture = (pane.exposure,)  # it tells a level; the equations need no picture
+        self.of_results = (pane.exposure,)  # it tells a level; the equations need no picture
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, self.pane.equations)
         exposure = self.exposure = ExposureController(self.pane.exposure, self.picker)

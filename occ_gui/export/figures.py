@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime
 from functools import partial
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QObject
 
@@ -12,15 +12,13 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.sweep_table import table_of
 from occ_gui.export.jobs import FigureRequest
-from occ_gui.picture.difference_image import difference_cells
-from occ_gui.picture.photo_overlay import rect_of
 from occ_gui.picture.placement import Placement
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import AccuracyPoint, Comparison, DecodeResult
+from occ_model.results import AccuracyPoint, DecodeResult
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.frame import PICTURES
 from occ_model.scene.provenance import Provenance
@@ -34,23 +32,14 @@ class NothingToDraw(OccError):  # noqa: N818 - not an error: the data are not co
     """There are no data yet for a figure."""
 
 
-class ProfilePane(Protocol):
-    """The pane of the column profile."""
+class Panes(Protocol):
+    """Gives panes by their names."""
 
-    def columns_in_view(self) -> tuple[int, int]:
-        """Return the first visible column and the one after the last."""
+    def pane(self, name: str) -> Any:
+        """Give a pane, which is made if it has never been seen."""
 
-    @property
-    def is_enhanced(self) -> bool:
-        """Whether the curves are shown after the receiver's enhancement."""
-
-
-class AccuracyPane(Protocol):
-    """The pane of the accuracy study."""
-
-    @property
-    def measured(self) -> tuple[AccuracyPoint, ...]:
-        """All points of the current scene; empty while they are not complete."""
+    def made_pane(self, name: str) -> Any:
+        """Give a pane, None if it has never been seen."""
 
 
 OVERLAY = "overlay"
@@ -118,27 +107,22 @@ class Figures(QObject):
 
     Parameters
     ----------
-    comparison
-        Returns the comparison of the photo's profile with the simulated one, if there is one.
+    panes
+        Gives the panes that determine the content of their figures.
     """
 
     def __init__(
         self,
         settings: SettingsStore,
-        comparison: Callable[[], Comparison | None],
-        overlay: Overlay,
-        profile: ProfilePane,
-        accuracy: AccuracyPane,
+        panes: Panes,
         decoders: tuple[str, ...],
         *,
         shown_decoder: Callable[[], str],
     ) -> None:
         super().__init__()
         self._settings, self._shown_decoder = settings, shown_decoder
-        self._comparison, self._overlay = comparison, overlay
-        self._profile, self._accuracy = profile, accuracy
+        self._panes = panes
         self._photo: Photo | None = None
-        self._about_photo: Callable[[], str] = str
         self._whose = PICTURES[0]
         self._sources: dict[str, Source] = {
             "picture": self._of_picture,
@@ -217,16 +201,21 @@ class Figures(QObject):
     @property
     def shown(self) -> Mapping[str, Source]:
         """The sources of the figures that differ from each other at the moment."""
-        is_overlay = self._photo is not None and self._overlay.mode == _BESIDE
+        is_overlay = self._photo is not None and self._overlay().mode == _BESIDE
         return {n: source for n, source in self._sources.items() if n != OVERLAY or is_overlay}
+
+    def _overlay(self) -> Overlay:
+        overlay: Overlay = self._panes.pane("picture").view.overlay
+        return overlay
+
+    def _about_photo(self) -> str:
+        """Tell of the photo what stands under pictures and profiles of it."""
+        photo = self._panes.made_pane("photo")
+        return "" if photo is None else str(photo.verdict.about())
 
     def choose_picture(self, whose: str) -> None:
         """Draw the picture of the camera or of the receiver from now on."""
         self._whose = whose
-
-    def describe_photo_by(self, about: Callable[[], str]) -> None:
-        """Write under pictures and profiles of a photo what this function tells of it."""
-        self._about_photo = about
 
     def show_photo(self, photo: Photo | None) -> None:
         """Draw this photo beside the picture from now on, or none."""
@@ -241,25 +230,28 @@ class Figures(QObject):
         """Request the photo over the picture, blended unless it is shown over it another way."""
         if self._photo is None:
             raise NothingToDraw(self.tr("No photo is open: open one to lay it over the picture."))
-        mode = self._overlay.mode
+        mode = self._overlay().mode
         request = self._picture_request(shown, _BLENDED if mode == _BESIDE else mode)
         draw = request.draw
         return replace(request, draw=lambda: replace(draw(), name=_OVERLAY_FILE))
 
     def _of_picture(self, shown: Snapshot) -> FigureRequest:
-        return self._picture_request(shown, self._overlay.mode)
+        return self._picture_request(shown, self._overlay().mode)
 
     def _picture_request(self, shown: Snapshot, mode: str) -> FigureRequest:
         """Request the picture with the photo, if there is one, beside or over it."""
         photo = None if self._photo is None else self._photo.image
         frame, region, whose = shown.frame, shown.decoded.region, self._whose
-        over, place = self._overlay, self._overlay.placement
+        over = self._overlay()
+        place = over.placement
         opacities = {"blend": (over.opacity, None), "split": (1.0, over.split_row)}
         laid, times = opacities.get(mode), over.times
         compared = photo if mode == "difference" else None
         about = "" if photo is None else self._about_photo()
 
         def draw() -> "Drawing":
+            from occ_gui.picture.difference_image import difference_cells
+            from occ_gui.picture.photo_overlay import rect_of
             from occ_model.figures.overlay import Difference, PhotoLayer
             from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
 
@@ -282,10 +274,11 @@ class Figures(QObject):
         return self.request(frame.scene, draw)
 
     def _of_profile(self, shown: Snapshot) -> FigureRequest:
-        comparison = self._comparison()
+        photo, profile = self._panes.made_pane("photo"), self._panes.pane("profile").view
+        comparison = None if photo is None else photo.comparison.comparison()
         about = "" if comparison is None else self._about_photo()
-        columns = slice(*self._profile.columns_in_view())
-        enhanced = self._profile.is_enhanced
+        columns = slice(*profile.columns_in_view())
+        enhanced = profile.is_enhanced
         band = shown.enhanced_band if enhanced else shown.band
         decoded = _read_by(self._shown_decoder(), shown)
 
@@ -314,7 +307,8 @@ class Figures(QObject):
         return self.request(shown.frame.scene, draw)
 
     def _of_accuracy(self, shown: Snapshot) -> FigureRequest:
-        points = self._accuracy.measured
+        pane = self._panes.made_pane("accuracy")
+        points: tuple[AccuracyPoint, ...] = () if pane is None else pane.view.plot.measured
         if not points:
             raise NothingToDraw(
                 self.tr("What accuracy costs is not measured yet: open its pane and wait a moment.")

@@ -1,12 +1,12 @@
 """Preset controller: load, save and delete presets of the program and of the user."""
 
 import re
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
 from occ_gui.core.store import MOST_STEPS
-from occ_gui.photo.match_controller import MatchController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
@@ -21,6 +21,9 @@ from occ_model.scene.presets import (
     user_presets,
 )
 from occ_model.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from occ_gui.photo.match_controller import MatchController
 
 _MOST_OF_A_CHANGE = 2
 """Parameters that one change of the user has at most: the exposure and, held by it, the ISO."""
@@ -40,11 +43,10 @@ class PresetController(QObject):
     changed = Signal()
     """The list of presets has changed."""
 
-    def __init__(self, window: QWidget, store: SceneStore, matching: MatchController) -> None:
+    def __init__(self, window: QWidget, store: SceneStore) -> None:
         super().__init__(window)
         self._window = window
         self._store = store
-        self._matching = matching
         self._own: tuple[str, ...] = ()
         self._followed: Scene | None = None
         self._base: str | None = None
@@ -52,7 +54,6 @@ class PresetController(QObject):
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
         self._read()
-        matching.saved.connect(self._report_saved)
 
     @property
     def titles(self) -> list[tuple[str, str]]:
@@ -129,10 +130,10 @@ class PresetController(QObject):
         title = self.tr("preset {name}").format(name=name)
         self._store.put(scene, title, new_gesture(), force={})
 
-    def ask_to_save_match(self) -> None:
-        """Let the user name a preset, and save the result of the match as it."""
-        photo = self._matching.photo
-        if photo is None or self._matching.match is None:
+    def ask_to_save_match(self, matching: "MatchController") -> None:
+        """Let the user name a preset, and save the result of a match as it."""
+        photo = matching.photo
+        if photo is None or matching.match is None:
             self.status_message.emit(self.tr("There is no match yet that could be saved."))
             return
         name, wanted = QInputDialog.getText(
@@ -144,7 +145,7 @@ class PresetController(QObject):
         )
         if wanted and self._may_replace(name):
             title = self.tr("Measured from {photo}").format(photo=one_line(photo.path.name))
-            self._matching.save(name, title)
+            matching.save(name, title)
 
     def ask_to_delete(self) -> None:
         """Let the user choose one of the saved presets, and delete it."""
@@ -175,7 +176,8 @@ class PresetController(QObject):
         )
         return answer == QMessageBox.StandardButton.Yes
 
-    def _report_saved(self, name: str) -> None:
+    def report_saved(self, name: str) -> None:
+        """List a preset that was saved from a match."""
         self._update()
         self.status_message.emit(self.tr("Saved the preset {name}").format(name=name))
 

@@ -12,12 +12,7 @@ GUIDE = "guide.md"
 """The page to begin with."""
 
 PAGE_OF_PANE = {
-    "picture": "guide.md#look-at-the-picture",
     "controls": "guide.md#set-up-a-scene",
-    "profile": "guide.md#compare-column-profiles",
-    "decode": "decoders.md",
-    "photo": "photos.md",
-    "accuracy": "effects.md#accuracy-against-time",
 }
 """Page and heading that explain a pane, by the pane's name; declared panes name theirs."""
 

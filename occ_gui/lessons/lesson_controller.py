@@ -16,8 +16,8 @@ from occ_gui.photo.kept_photo import KeptPhoto
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST
-from occ_gui.widgets.plot import PACKETS_IN_VIEW
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match

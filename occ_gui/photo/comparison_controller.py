@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.background.task import Task
 from occ_gui.picture.placement import Placement, PlacementStore
-from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Reading
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QPen, QPolygonF
 
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.plot import PHOTO, REGION
+from occ_gui.widgets.pens import PHOTO, REGION
 from occ_model.results import Lamp, Region
 
 _THIN, _THICK = 2, 4

@@ -43,13 +43,7 @@ def _read(request: tuple[Path, PhotoReading], report: Report) -> Photo:
 
 
 class PhotoController(QObject):
-    """Opens and closes photos, and reads them again along another axis or in another channel.
-
-    Parameters
-    ----------
-    panes
-        The panes that show the photo.
-    """
+    """Opens and closes photos, and reads them again along another axis or in another channel."""
 
     opened = Signal(object)
     """The photo that the panes show now, or None."""
@@ -72,9 +66,9 @@ class PhotoController(QObject):
     reading_changed = Signal(object)
     """The new options of reading: a PhotoReading."""
 
-    def __init__(self, panes: Sequence[PhotoPane]) -> None:
+    def __init__(self) -> None:
         super().__init__()
-        self._panes = panes
+        self._panes: Sequence[PhotoPane] = ()
         self._wanted: Path | None = None
         self.photo: Photo | None = None
         """The photo that is shown, None if none is open."""
@@ -85,6 +79,10 @@ class PhotoController(QObject):
         self.runner.reported.connect(self.progressed.emit)
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self._fail)
+
+    def show_on(self, panes: Sequence[PhotoPane]) -> None:
+        """Show photos on these panes from now on, which are there before the first one is."""
+        self._panes = panes
 
     @property
     def path(self) -> Path | None:

@@ -1,9 +1,9 @@
 """Controllers of the photo, connected with the panes: reading, placing, comparing, matching."""
 
+from dataclasses import replace
 from functools import partial
 
 from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
-from PySide6.QtCore import QObject
 
 from occ_gui.photo.chip_controller import ChipController
 from occ_gui.photo.comparison_controller import ComparisonController
@@ -16,50 +16,54 @@ from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.photo_controller import PhotoController, PhotoReading
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.image_view import ImageView
-from occ_gui.picture.photo_overlay import MODES
-from occ_gui.picture.placement import Placement, PlacementStore
-from occ_gui.profile.profile_view import ProfileView
+from occ_gui.picture.placement import MODES, Placement, PlacementStore
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import Board
+from occ_gui.simulation.snapshot import Reading
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
 
 
-class PhotoWiring(QObject):
+class PhotoWiring(Pane[Reading | None]):
     """Connects the controllers of a photo with the panes that show it.
 
     Parameters
     ----------
     scenes
         The scene that a photo is matched with.
-    image, profile, pane
-        The panes.
+    photos
+        Reads the photo.
+    image
+        The pane of the picture, which the photo lies beside or on.
+    board
+        Takes what is read of the photo.
     """
 
     def __init__(
-        self, scenes: SceneStore, image: ImageView, profile: ProfileView, pane: PhotoView
+        self, scenes: SceneStore, photos: PhotoController, image: ImageView, board: Board
     ) -> None:
-        super().__init__()
-        self._image = image
-        self._pane = pane
+        self.view = pane = PhotoView()
+        super().__init__(pane)
+        self._image, self._store, self.photos = image, scenes.store, photos
         self.verdict = pane.verdict
         self.placements = PlacementStore()
-        self.comparison = ComparisonController(self.placements, profile)
+        self.comparison = ComparisonController(self.placements, board)
         self.matching = MatchController(scenes, pane)
         self.many = ManyPhotosController(scenes, pane.many)
-        self.chips = ChipController(profile.chips)
+        self.chips = ChipController(board)
         self.outlines = LampOutlines(image.photo.box)
         self.lamps = LampController((pane.lamps, self.outlines))
-        self.photos = PhotoController(
-            [image, pane, self.comparison, self.matching, self.chips, self.lamps]
-        )
+        photos.show_on([image, pane, self.comparison, self.matching, self.chips, self.lamps])
         self._connect_lamps()
         self.placements.changed.connect(self._show_placement)
         image.overlay.placed.connect(self.placements.move)
         pane.placement.placed.connect(self.placements.move)
         pane.placement.reset_asked.connect(self.placements.reset)
         pane.placement.moving_chosen.connect(self._let_move)
-        image.mode_chosen.connect(image.set_mode)
-        profile.enhanced_chosen.connect(self.comparison.set_enhanced)
+        enhanced = self._store.select(lambda workspace: workspace.is_enhanced)
+        enhanced.changed.connect(self.comparison.set_enhanced)
+        self.comparison.set_enhanced(enhanced.value)
         pane.facts.channel_chosen.connect(self.photos.take_channel)
         pane.facts.scan_axis_chosen.connect(self.photos.scan_along)
         pane.facts.settings_asked.connect(self.matching.use_notes)
@@ -84,12 +88,12 @@ class PhotoWiring(QObject):
 
     def _take_listed(self, photo: Photo | None) -> None:
         """Show what the table of several photos has found in this one, if it was read alike."""
-        self._pane.many.rows.show_open(None if photo is None else photo.path)
-        row = None if photo is None else self._pane.many.rows.row_of(photo.path)
+        self.view.many.rows.show_open(None if photo is None else photo.path)
+        row = None if photo is None else self.view.many.rows.row_of(photo.path)
         alike = self.many.reading in (None, self.photos.reading)
         found = None if row is None else row.match
         if found is not None and alike and self.lamps.region is None:
-            self._pane.keep_in_view(partial(self.matching.take_over, found))
+            self.view.keep_in_view(partial(self.matching.take_over, found))
 
     def _take_listed_now(self) -> None:
         """Show what the table has just found in the open photo, unless it is matched by itself."""
@@ -97,7 +101,7 @@ class PhotoWiring(QObject):
             self._take_listed(self.matching.photo)
 
     def _connect_lamps(self) -> None:
-        form, lamps = self._pane.lamps, self.lamps
+        form, lamps = self.view.lamps, self.lamps
         form.find_asked.connect(lamps.find)
         form.chosen.connect(lamps.choose)
         form.by_hand_chosen.connect(lamps.set_by_hand)
@@ -129,12 +133,21 @@ class PhotoWiring(QObject):
     def _show_region(self, region: Lamp | Region | None) -> None:
         by_hand = self.lamps.by_hand
         within = region.region if isinstance(region, Lamp) else region
-        self._pane.lamps.show_region(within, self.lamps.chosen)
-        self._pane.lamps.show_by_hand(by_hand is not None)
+        self.view.lamps.show_region(within, self.lamps.chosen)
+        self.view.lamps.show_by_hand(by_hand is not None)
         self.outlines.show_rectangle(by_hand)
         if region is not None and self._image.mode.key() != MODES[0]:
             # Lamps and regions are drawn on the photo beside the picture.
-            self._image.mode_chosen.emit(MODES[0])
+            self._lay(MODES[0])
+
+    def _lay(self, mode: str) -> None:
+        """Lay the photo beside the picture or over it."""
+        self._store.put(replace(self._store.workspace, overlay=mode))
+
+    def show_part(self, part: Reading | None) -> None:
+        """Compare the photo with this reading of the scene."""
+        if part is not None:
+            self.comparison.show_reading(part)
 
     @property
     def is_idle(self) -> bool:
@@ -153,54 +166,54 @@ class PhotoWiring(QObject):
             self.photos.reading,
             self.lamps.kept(),
             self.matching.kept(),
-            self._pane.result.given,
-            self._pane.form.choice(),
-            self._pane.form.certain_values,
+            self.view.result.given,
+            self.view.form.choice(),
+            self.view.form.certain_values,
             self.placements.placement if self.placements.is_by_hand else None,
         )
 
     def give_back(self, kept: KeptPhoto) -> None:
         """Show a photo again with all that was known of it, after another one was open."""
         self.photos.show_again(kept.photo, kept.reading)
-        self._pane.form.show_choice(kept.choice, kept.certain)
+        self.view.form.show_choice(kept.choice, kept.certain)
         self.lamps.give_back(kept.region)
         if kept.match is not None:
             self.matching.give_back(kept.match)
-            self._pane.result.show_given(kept.given)
+            self.view.result.show_given(kept.given)
         if kept.placement is not None:
             self.placements.move(kept.placement)
 
     def begin_form(self, frequency: float) -> None:
         """Begin with the form as at first, the photo's switching frequency in Hz being certain."""
-        self._pane.form.show_choice(MatchChoice(), {"switching_frequency": frequency})
+        self.view.form.show_choice(MatchChoice(), {"switching_frequency": frequency})
 
     def match(self) -> None:
         """Match the photo with the choices of the pane."""
-        self.matching.start(self._pane.form.choice())
+        self.matching.start(self.view.form.choice())
 
     def match_all(self) -> None:
         """Match the photos of the table with the choices of the pane."""
-        self.many.start(self._pane.form.choice(), self.photos.reading)
+        self.many.start(self.view.form.choice(), self.photos.reading)
 
     def _let_move(self, by_mouse: bool) -> None:
         self._image.overlay.set_movable(by_mouse)
         if by_mouse and self._image.mode.key() == MODES[0]:
             # A photo beside the picture cannot be moved over it.
-            self._image.mode_chosen.emit(MODES[1])
+            self._lay(MODES[1])
 
     def _on_match(self, match: Match) -> None:
         # A placement by hand belongs to the picture before the match.
         self.placements.reset()
-        photo, rows = self.matching.photo, self._pane.many.rows
+        photo, rows = self.matching.photo, self.view.many.rows
         row = None if photo is None else rows.row_of(photo.path)
         rows.show_earlier(None if row is None or row.match is match else row.path)
 
     def _show_placement(self, placement: Placement) -> None:
         self._image.show_placement(placement)
-        self._pane.show_placement(placement, self.placements.is_by_hand)
+        self.view.show_placement(placement, self.placements.is_by_hand)
 
     def _show_reading(self, reading: PhotoReading) -> None:
-        self._pane.facts.show_reading(reading.channel, reading.scan_axis)
+        self.view.facts.show_reading(reading.channel, reading.scan_axis)
 
     def stop(self) -> None:
         """Stop the work in the background."""

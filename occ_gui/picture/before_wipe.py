@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QStyleOptionGraph
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.plot import BEFORE
+from occ_gui.widgets.pens import BEFORE
 from occ_model.arrays import ByteArray
 from occ_model.results import Frame
 from occ_model.results.frame import PICTURES

@@ -13,9 +13,9 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.picture.before_wipe import BeforeWipe
-from occ_gui.picture.photo_overlay import MODES, PhotoOverlay
+from occ_gui.picture.photo_overlay import PhotoOverlay
 from occ_gui.picture.picture_pane import PicturePane
-from occ_gui.picture.placement import Placement
+from occ_gui.picture.placement import MODES, Placement
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox

@@ -8,12 +8,9 @@ from PySide6.QtCore import QObject, QPointF, QRectF, Signal
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.difference_image import DifferenceImage
-from occ_gui.picture.placement import Placement
-from occ_gui.widgets.plot import PHOTO, REGION
+from occ_gui.picture.placement import MODES, Placement
+from occ_gui.widgets.pens import PHOTO, REGION
 from occ_model.arrays import ByteArray
-
-MODES = ("beside", "blend", "split", "difference")
-"""Ways of showing a photo with the simulated picture."""
 
 _NO_IMAGE: ByteArray = np.zeros((0, 0), dtype=np.uint8)
 

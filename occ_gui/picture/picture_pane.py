@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidg
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.plot import REGION
+from occ_gui.widgets.pens import REGION
 from occ_model.arrays import ByteArray
 from occ_model.results import Region
 

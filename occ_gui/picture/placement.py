@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal
 
+MODES = ("beside", "blend", "split", "difference")
+"""Ways of showing a photo with the simulated picture."""
+
 LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
 """Smallest and largest scale of a photo."""
 

@@ -16,9 +16,11 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
+from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plain_text import in_tool_tip
-from occ_gui.widgets.plot import BAND, PACKETS_IN_VIEW, SIMULATION, new_plot, thin
+from occ_gui.widgets.plot import new_plot
 
 _LEAST_TABLE = 250
 

@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.plot import PHOTO, Plot
+from occ_gui.widgets.pens import PHOTO
+from occ_gui.widgets.plot import Plot
 from occ_model.results import ChipReading
 
 _CERTAIN = 0.95

@@ -16,23 +16,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.profile.band_drift import drift_sentence
 from occ_gui.profile.chip_strip import ChipStrip
-from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.residual_plot import ResidualPlot
+from occ_gui.shell.photo_profile import PhotoProfile
+from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
-from occ_gui.widgets.first_periods import first_periods
+from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.plot import (
-    BAND,
-    BEFORE,
-    PACKETS_IN_VIEW,
-    PHOTO,
-    SIMULATION,
-    THRESHOLD,
-    new_plot,
-    thin,
-)
+from occ_gui.widgets.pens import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
 
 _LEAST_HEIGHT = 76

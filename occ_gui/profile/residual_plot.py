@@ -5,9 +5,10 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.plot import PHOTO, THRESHOLD, new_plot, thin
+from occ_gui.widgets.pens import PHOTO, THRESHOLD, thin
+from occ_gui.widgets.plot import new_plot
 from occ_model.results import Comparison
 
 _LEAST_HEIGHT = 56

@@ -19,8 +19,14 @@ class Pane(QObject, Generic[Part]):
     A pane that computes nothing in the background only has to show its part.
     """
 
-    of_picture: tuple[QWidget, ...] = ()
+    of_results: tuple[QWidget, ...] = ()
     """What is marked while the exact picture is of an earlier scene."""
+
+    of_readings: tuple[QWidget, ...] = ()
+    """What is marked while the reading is of an earlier scene."""
+
+    of_pictures: tuple[QWidget, ...] = ()
+    """What is marked while the picture, before it is decoded, is of an earlier scene."""
 
     def __init__(self, widget: QWidget) -> None:
         super().__init__()
@@ -35,6 +41,11 @@ class Pane(QObject, Generic[Part]):
     @property
     def is_idle(self) -> bool:
         """Whether nothing is at work."""
+        return True
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether all is measured that nobody waits for as for a picture."""
         return True
 
     def stop(self) -> None:
@@ -55,5 +66,7 @@ class Feature(Generic[Part]):
     make: Callable[[], Pane[Part]]
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
     """What of the window the pane shows; None for nothing that it could show."""
+    goes_on_hidden: bool = False
+    """Whether the pane shows its part while it is hidden, too: others look at what it shows."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)
     """What the entries of the menus do that belong to the pane, by name."""

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
@@ -30,20 +30,31 @@ class Shell(QObject):
     made = Signal(str, object)
     """A pane has been made: its name, and the Pane."""
 
-    def __init__(self, window: DockWindow, store: Store, board: Board) -> None:
+    def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
-        self._window, self._store, self._board = window, store, board
+        self._store, self._board = store, board
         self._places: dict[str, _Place] = {}
-        store.select(lambda workspace: workspace).changed.connect(self._look)
-        board.changed.connect(self._look)
+        self._workspaces = store.select(lambda workspace: workspace)
 
-    def add(self, feature: Feature[Any]) -> None:
+    def add(self, feature: Feature[Any], window: DockWindow) -> None:
         """Give a feature its dock and its menu entries, before the window is shown."""
-        place = self._places[feature.name] = _Place(feature, self)
-        dock = self._window.add_pane(feature.name, feature.title, place)
+        place = self._place(feature)
+        dock = window.add_pane(feature.name, feature.title, place)
         dock.visibilityChanged.connect(place.set_seen)
         for name, do in feature.actions.items():
-            self._window.actions_by_name[name].triggered.connect(lambda _=False, do=do: do())
+            window.actions_by_name[name].triggered.connect(lambda _=False, do=do: do())
+
+    def embed(self, feature: Feature[Any]) -> QWidget:
+        """Give a feature a place in another pane, which shows and hides it."""
+        place = self._place(feature)
+        place.shown.connect(place.set_seen)
+        return place
+
+    def _place(self, feature: Feature[Any]) -> "_Place":
+        place = self._places[feature.name] = _Place(feature, self)
+        self._workspaces.changed.connect(place.look)
+        self._board.changed.connect(place.look)
+        return place
 
     def pane(self, name: str) -> Any:
         """Give a pane, which is made if it has never been seen."""
@@ -58,10 +69,6 @@ class Shell(QObject):
         """Page and heading of the manual that explain each pane."""
         return {name: place.feature.help for name, place in self._places.items()}
 
-    def _look(self) -> None:
-        for place in self._places.values():
-            place.look()
-
     @property
     def _panes(self) -> list[Pane[Any]]:
         return [place.pane for place in self._places.values() if place.pane is not None]
@@ -71,6 +78,11 @@ class Shell(QObject):
         """Whether no pane is at work."""
         return all(pane.is_idle for pane in self._panes)
 
+    @property
+    def is_measured(self) -> bool:
+        """Whether all panes have measured what they show."""
+        return all(pane.is_measured for pane in self._panes)
+
     def stop(self) -> None:
         """End the work of all panes."""
         for pane in self._panes:
@@ -78,7 +90,10 @@ class Shell(QObject):
 
 
 class _Place(QWidget):
-    """The place of a pane in its dock, empty until it is first seen."""
+    """The place of a pane, empty until it is first seen."""
+
+    shown = Signal(bool)
+    """Whether it has been shown or hidden."""
 
     def __init__(self, feature: Feature[Any], shell: Shell) -> None:
         super().__init__()
@@ -95,6 +110,7 @@ class _Place(QWidget):
             self._content.addWidget(self.pane.widget)
             leave_drops_to_window(self)
             self._shell.made.emit(self.feature.name, self.pane)
+            self.look()
         return self.pane
 
     def set_seen(self, seen: bool) -> None:
@@ -105,9 +121,19 @@ class _Place(QWidget):
         self.look()
         pane.set_seen(seen)
 
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell that it is shown."""
+        super().showEvent(event)
+        self.shown.emit(True)
+
+    def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
+        """Tell that it is hidden."""
+        super().hideEvent(event)
+        self.shown.emit(False)
+
     def look(self) -> None:
         """Show the part of the pane, if it is seen and its part is another one."""
-        if self.pane is None or not self._is_seen:
+        if self.pane is None or not (self._is_seen or self.feature.goes_on_hidden):
             return
         part = self.feature.part(self._shell._store.workspace, self._shell._board.results)
         if part is not None and part != self._shown:

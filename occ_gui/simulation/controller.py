@@ -150,7 +150,7 @@ class SimulationController(QObject):
         """Set the panes that show the results; none arrives before the event loop runs."""
         self._views, self._readers = views, readers
 
-    def prepare_picture(self, whose: str) -> None:
+    def choose_picture(self, whose: str) -> None:
         """Prepare the picture of the camera or of the receiver for drawing from now on."""
         self._whose = whose
 

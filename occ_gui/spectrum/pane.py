@@ -16,7 +16,7 @@ class SpectrumPane(Pane[Snapshot]):
     def __init__(self, view: SpectrumView) -> None:
         super().__init__(view)
         self.view = view
-        self.of_picture = (view,)
+        self.of_results = (view,)
 
     def show_part(self, part: Snapshot) -> None:
         """Measure these results."""

@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QSizePolicy, QWidget
 
 from occ_gui.widgets.contrast import pen_on, seen_on
 from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.plot import BAND, SIMULATION, new_plot, thin
+from occ_gui.widgets.pens import BAND, SIMULATION, thin
+from occ_gui.widgets.plot import new_plot
 from occ_model.results.spectrum import LevelHistogram, Spectrum
 from occ_model.scene.units import HERTZ
 

@@ -7,8 +7,8 @@ from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.decoding.verdict import wrong_places
 from occ_gui.simulation.snapshot import ColumnView
+from occ_gui.simulation.verdict import wrong_places
 from occ_gui.story.bit_cells import (
     draw_field,
     have_room_for_bits,
@@ -20,7 +20,7 @@ from occ_gui.story.column_facts import PacketField, received_edges, received_fie
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.text_room import line_height
 from occ_gui.widgets.chip_cell import draw_chips
-from occ_gui.widgets.plot import SIMULATION
+from occ_gui.widgets.pens import SIMULATION
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray

@@ -2,10 +2,10 @@
 
 from PySide6.QtCore import QCoreApplication
 
-from occ_gui.decoding.verdict import is_right
 from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.verdict import is_right
 from occ_gui.story.column_facts import READ_BY_ALL
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State

@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.story_rows import RANGES, StoryRows

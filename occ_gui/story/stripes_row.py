@@ -12,7 +12,7 @@ from occ_gui.story.column_axis import GUTTER, ColumnAxis, Crosshair
 from occ_gui.story.column_means import resampled, shrunk
 from occ_gui.story.story_row import StoryRow
 from occ_gui.widgets.guarded_paint import guarded
-from occ_gui.widgets.plot import REGION
+from occ_gui.widgets.pens import REGION
 from occ_model.arrays import ByteArray, FloatArray
 
 _LEAST_HEIGHT = 40

@@ -3,9 +3,9 @@
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.decoding.verdict import Verdict, result_of, verdict_on
 from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.simulation.snapshot import Reading
+from occ_gui.simulation.verdict import Verdict, result_of, verdict_on
 from occ_gui.story.column_facts import Step, cause_of, chips_in_exposure
 from occ_gui.story.state_chips import behind_run, chips_of, computing, of_pictures
 from occ_gui.widgets.state_bar import StateBar

@@ -9,7 +9,7 @@ from occ_gui.simulation.preview import PictureView
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.story_rows import RANGES, StoryRows
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.plot import PACKETS_IN_VIEW
+from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -2,7 +2,8 @@
 
 from PySide6.QtCore import QCoreApplication
 
-from occ_gui.widgets.plot import PACKETS_IN_VIEW
+PACKETS_IN_VIEW = 2
+"""Packets in the first view of a plot over columns."""
 
 
 def first_periods(has_packets: bool) -> tuple[str, str]:

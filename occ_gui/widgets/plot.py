@@ -1,29 +1,16 @@
-"""Plot widget: axes, pens, colours and limits of zooming that all plots share."""
+"""Plot widget: axes and limits of zooming that all plots share."""
 
 from collections.abc import Callable
 
 import pyqtgraph as pg
 from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
-from PySide6.QtCore import QEvent, QRectF, Qt
+from PySide6.QtCore import QEvent, QRectF
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QResizeEvent
 from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.widgets.axes import Axis
 from occ_gui.widgets.contrast import pen_on, seen_on
 from occ_gui.widgets.legend import Drawing
-from occ_model import colours
-
-SIMULATION = QColor(colours.SIMULATION)
-BAND = QColor(colours.BAND)
-PHOTO = QColor(colours.PHOTO)
-THRESHOLD = QColor(colours.THRESHOLD)
-REGION = QColor(colours.REGION)
-NOISE = QColor(colours.NOISE)
-BEFORE = QColor("#8A8A8A")
-"""Colour of the results before the last change: grey, which nothing else uses."""
-
-PACKETS_IN_VIEW = 2
-"""Packets in the first view of a plot over columns."""
 
 CURVE_WIDTH = 2.0
 """Width of a curve in pixels of the window. pyqtgraph draws a solid one line by line, in 1 to 4 ms
@@ -117,11 +104,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
 
     def _show_name(self) -> None:
         self.getAxis("bottom").showLabel(self._is_named and self.height() >= _NAMED_FROM)
-
-
-def thin(colour: QColor, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> QPen:
-    """Return a pen of width one, as of lines that divide and mark."""
-    return pg.mkPen(colour, style=style)  # type: ignore[no-any-return]
 
 
 def marker(symbol: str, size: float, fill: QColor | None) -> Drawing:

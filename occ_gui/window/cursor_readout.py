@@ -1,5 +1,7 @@
 """Cursor readout: column, row and grey level at the mouse, as a text for the status line."""
 
+from collections.abc import Callable
+
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, QObject, QPointF, Signal
 from PySide6.QtGui import QMouseEvent
@@ -86,14 +88,12 @@ class _ProfileFollower(_Follower):
         )
 
 
-class CursorReadout(QObject):
-    """Reports position and grey level under the mouse."""
+def follow_profile(profile: ProfileView, show: Callable[[str], None]) -> None:
+    """Show column and level under the mouse in the profile; an empty text outside of it."""
+    _ProfileFollower(profile).changed.connect(show)
 
-    moved = Signal(str)
-    """Position and grey level as a text; empty outside of the panes."""
 
-    def __init__(self, profile: ProfileView, image: ImageView) -> None:
-        super().__init__(profile)
-        pictures = (_PictureFollower(image), _PhotoFollower(image.photo))
-        for follower in (_ProfileFollower(profile), *pictures):
-            follower.changed.connect(self.moved)
+def follow_pictures(image: ImageView, show: Callable[[str], None]) -> None:
+    """Show column, row and level under the mouse in picture and photo, as above."""
+    for follower in (_PictureFollower(image), _PhotoFollower(image.photo)):
+        follower.changed.connect(show)

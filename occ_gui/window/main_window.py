@@ -12,14 +12,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 
-from occ_gui.accuracy.accuracy_view import AccuracyView
-from occ_gui.decoding.decode_view import DecodeView
-from occ_gui.photo.photo_view import PhotoView
-from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.event_filters import leave_drops_to_window
-from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.window.dock import Dock
 from occ_gui.window.menus import Menus
 from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
@@ -40,8 +35,6 @@ _WITH_PICTURE = "photo"
 _IN_STORY = ("profile", "decode")
 """Panes that show in detail what the story shows, too."""
 
-_LEAST_DECODING = QSize(320, 264)
-
 
 class MainWindow(QMainWindow):
     """Docks, menus and status bar; :mod:`occ_gui.app.application` connects them."""
@@ -56,10 +49,6 @@ class MainWindow(QMainWindow):
         self,
         controls: ControlPanel,
         story: StoryView,
-        profile: ProfileView,
-        decode: DecodeView,
-        photo: PhotoView,
-        accuracy: AccuracyView,
         *,
         undo_stack: QUndoStack,
     ) -> None:
@@ -72,8 +61,7 @@ class MainWindow(QMainWindow):
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
         self.setCentralWidget(story)
-        self.docks = self._make_docks(controls, decode, photo, profile, accuracy)
-        self.docks["accuracy"].visibilityChanged.connect(accuracy.set_seen)
+        self.docks = {"controls": self._dock("controls", self.tr("Scene"), controls)}
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
         self.modes = ModeSwitch(self, self.docks, self._show_page)
@@ -92,23 +80,6 @@ class MainWindow(QMainWindow):
         self.show_timing = self._status_line.show_timing
         self.show_plan_change = self._status_line.show_plan_change
         self.resize(_FIRST_SIZE)
-
-    def _make_docks(
-        self,
-        controls: QWidget,
-        decode: QWidget,
-        photo: QWidget,
-        profile: QWidget,
-        accuracy: QWidget,
-    ) -> dict[str, Dock]:
-        decoding = ScrollPane(decode, _LEAST_DECODING)
-        return {
-            "controls": self._dock("controls", self.tr("Scene"), controls),
-            "decode": self._dock("decode", self.tr("Decoding"), decoding),
-            "photo": self._dock("photo", self.tr("Photo"), photo),
-            "profile": self._dock("profile", self.tr("Column profile"), profile),
-            "accuracy": self._dock("accuracy", self.tr("Accuracy and time"), accuracy),
-        }
 
     def _dock(self, name: str, title: str, content: QWidget) -> Dock:
         dock = Dock(name, title, content, self)

@@ -95,7 +95,7 @@ def _watch(application: "Application", seconds: float) -> _Found:
 
     def move() -> None:
         found.mapping.append(not application.shell.pane("map").map.is_idle)
-        found.studying.append(not application.study.runner.is_idle)
+        found.studying.append(not application.shell.pane("accuracy").study.runner.is_idle)
         past = perf_counter() - start
         cycle, place = divmod(past, _CYCLE_S)
         held = place < _DRAG_S

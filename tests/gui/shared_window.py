@@ -33,7 +33,7 @@ from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
-from occ_gui.picture.photo_overlay import MODES as OVERLAYS
+from occ_gui.picture.placement import MODES as OVERLAYS
 from occ_gui.picture.placement import Placement
 from occ_gui.window.modes.mode import MODES
 from occ_model.receiver.decoders import DECODERS
@@ -101,14 +101,14 @@ def state_of(application: Application) -> list[object]:
         application.store.undo_stack.count(),
         application.settings.settings,
         application.photos.reading,
-        application.photo_wiring.matching.photo,
-        application.photo_wiring.placements.placement,
-        application.photo.form.choice(),
-        application.photo.form.certain_values,
+        application.shell.pane("photo").matching.photo,
+        application.shell.pane("photo").placements.placement,
+        application.view("photo").form.choice(),
+        application.view("photo").form.certain_values,
         application.preferences.files,
         application.video.path,
         (application.pins.pinned.a, application.pins.pinned.b),
-        application.image.mode.key(),
+        application.view("picture").mode.key(),
         application.desktop.theme.theme,
         window.modes.mode,
         window.windowTitle(),
@@ -158,7 +158,9 @@ class Home:
         """Note what a window has."""
         docks = [dock.isHidden() for dock in application.window.docks.values()]
         column = application.story.rows.crosshair.column or 0
-        return cls(application.window.size(), docks, application.photo.form.choice(), column)
+        return cls(
+            application.window.size(), docks, application.view("photo").form.choice(), column
+        )
 
 
 class SharedWindow:
@@ -232,8 +234,8 @@ class SharedWindow:
         forget_lessons(kept)
         kept.photos.close()
         kept.photos.scan_along(PhotoReading().scan_axis)
-        kept.photo_wiring.placements.reset()
-        kept.photo_wiring.placements.suggest(Placement())
+        kept.shell.pane("photo").placements.reset()
+        kept.shell.pane("photo").placements.suggest(Placement())
         kept.video.close()
         kept.pins.clear()
         kept.preferences.clear()
@@ -242,7 +244,7 @@ class SharedWindow:
         kept.store.undo_stack.clear()
         kept.desktop.document.path = None
         kept.desktop.document.show_photo(None)  # writes the title
-        kept.photo_wiring.many.show_files(())
+        kept.shell.pane("photo").many.show_files(())
         kept._show_listed()
         if kept.desktop.theme.theme != THEMES[0]:
             kept.desktop.theme.choose(THEMES[0])
@@ -254,20 +256,20 @@ class SharedWindow:
             window.modes.layouts.clear()
         elif is_moved or home.docks != Home.of(kept).docks:
             window.modes.reset()
-        kept.photo.form.show_choice(home.choice, {})
+        kept.view("photo").form.show_choice(home.choice, {})
         kept.story.show_whole_picture(False)
-        kept.image.before.chosen.setChecked(False)
+        kept.view("picture").before.chosen.setChecked(False)
         for pages in kept.controls.findChildren(QTabWidget):
             pages.setCurrentIndex(0)
         kept.controls.end_refusals()
         kept.show_mode(OVERLAYS[0])
-        kept.image.choose_picture("camera")
-        kept.decode.choose_decoder(next(iter(DECODERS)))
+        kept.view("picture").choose_picture("camera")
+        kept.view("decode").choose_decoder(next(iter(DECODERS)))
         kept.desktop.brightness.switch(False)
         window.actions_by_name["measure"].setChecked(False)
         qtbot.waitUntil(lambda: kept.is_idle)
         kept.story.rows.crosshair.choose(home.column)
-        kept.image.fit()
+        kept.view("picture").fit()
         window.setFocus()
         QApplication.processEvents()
         # What the status line says of the last change, and of the time that it took.

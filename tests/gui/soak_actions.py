@@ -22,7 +22,7 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.picture.photo_overlay import MODES
+from occ_gui.picture.placement import MODES
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.video.frame_source import FilmSource
@@ -253,7 +253,7 @@ class Monkey:
         self._application.photos.close()
 
     def choose_a_mode(self) -> None:
-        self._application.image.set_mode(self._random.choice(MODES))
+        self._application.view("picture").set_mode(self._random.choice(MODES))
 
     def choose_a_task(self) -> None:
         tabs = self._application.window.toolbar.modes
@@ -266,7 +266,7 @@ class Monkey:
         buttons[self._random.choice([name for name in quiet if name != "open_photo"])].click()
 
     def lay_the_photo_over(self) -> None:
-        image = self._application.image
+        image = self._application.view("picture")
         self._trigger(f"show_{self._random.choice(MODES)}")
         image.opacity.setValue(self._random.randrange(101))
         image.gain.setCurrentIndex(self._random.randrange(image.gain.count()))

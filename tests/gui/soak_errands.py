@@ -97,8 +97,8 @@ class Errands:
 
     def come_home(self) -> None:
         """Put away what these errands leave open."""
-        self._application.photo.many.close_table.click()
-        self._application.decode.decoders.setCurrentIndex(0)
+        self._application.view("photo").many.close_table.click()
+        self._application.view("decode").decoders.setCurrentIndex(0)
         self._close_the_board()
 
     def _trigger(self, name: str) -> None:
@@ -127,7 +127,7 @@ class Errands:
             turn_wheel(self._random.choice(seen), self._random.choice([-9, -3, -1, 1, 3, 9]))
 
     def choose_a_decoder(self) -> None:
-        tabs = self._application.decode.decoders
+        tabs = self._application.view("decode").decoders
         tabs.setCurrentIndex(self._random.randrange(tabs.count()))
 
     def match_the_photo(self) -> None:
@@ -139,12 +139,15 @@ class Errands:
 
     def find_the_lamps(self) -> None:
         self._open_a_photo()
-        self._application.photo.lamps.search.click()
+        self._application.view("photo").lamps.search.click()
         if self._random.random() < 0.7:
             self._settle()
 
     def choose_what_is_matched(self) -> None:
-        form, outlines = self._application.photo.lamps, self._application.photo_wiring.outlines
+        form, outlines = (
+            self._application.view("photo").lamps,
+            self._application.shell.pane("photo").outlines,
+        )
         if rows := form.table.rowCount():
             form.table.selectRow(self._random.randrange(rows))
         elif self._random.random() < 0.5:
@@ -156,7 +159,7 @@ class Errands:
             form.whole.click()
 
     def match_several(self) -> None:
-        view = self._application.photo.many
+        view = self._application.view("photo").many
         self._application.window.dropped.emit(self._photos())
         self._settle()
         view.start.click()

@@ -123,7 +123,7 @@ def _a_panel_behind_the_camera(stage: Stage) -> str:
 @meets(occ.BandModelUndefined)
 def _an_exposure_longer_than_the_period(stage: Stage) -> str:
     stage.user.enter("exposure_time", "1 ms")
-    return stage.application.profile.reason.text()
+    return stage.application.view("profile").reason.text()
 
 
 @meets(occ.PhotoError)
@@ -242,7 +242,7 @@ def test_every_class_has_a_case() -> None:
 
 def picture_stays(application: Application, last: Snapshot) -> bool:
     """Whether the picture shown is the last one that could be made, by a sample of its pixels."""
-    image = application.image
+    image = application.view("picture")
     picture = last.frame.picture(image.whose)
     rows, columns = picture.shape
     places = [(row, column) for row in range(0, rows, 19) for column in range(0, columns, 23)]

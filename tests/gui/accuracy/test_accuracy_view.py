@@ -29,12 +29,14 @@ def in_front(application: Application, monkeypatch: pytest.MonkeyPatch) -> Appli
 
 
 def row(application: Application, effect: str) -> EffectRow:
-    (found,) = [row for row in application.accuracy.table.effects.rows if row.effect == effect]
+    (found,) = [
+        row for row in application.view("accuracy").table.effects.rows if row.effect == effect
+    ]
     return found
 
 
 def choose(qtbot: QtBot, application: Application, effect: str, key: Qt.Key) -> None:
-    qtbot.keyClick(application.accuracy.table.switches[effect], key)
+    qtbot.keyClick(application.view("accuracy").table.switches[effect], key)
 
 
 def test_an_effect_included_by_a_slider_is_marked_with_its_cost(
@@ -46,7 +48,7 @@ def test_an_effect_included_by_a_slider_is_marked_with_its_cost(
     user.wait_until_idle()
     shown = row(in_front, "led-edges")
     assert (shown.included, shown.new) == (True, True)
-    assert "Switched in: LED rise and fall." in in_front.accuracy.summary.toolTip()
+    assert "Switched in: LED rise and fall." in in_front.view("accuracy").summary.toolTip()
     slider.setValue(205)  # the mark stays while the slider goes on
     user.wait_until_idle()
     assert row(in_front, "led-edges").new
@@ -60,7 +62,7 @@ def test_the_mark_goes_to_what_is_switched_next(in_front: Application, user: Use
     user.enter("edge_time", "0")
     edges = row(in_front, "led-edges")
     assert (edges.included, edges.new) == (False, True)
-    assert "Switched out: LED rise and fall." in in_front.accuracy.summary.toolTip()
+    assert "Switched out: LED rise and fall." in in_front.view("accuracy").summary.toolTip()
 
 
 @pytest.mark.own_window
@@ -68,7 +70,9 @@ def test_the_status_line_says_it_also_while_the_pane_is_behind(
     application: Application, user: User
 ) -> None:
     user.enter("edge_time", "5 us")
-    assert application.accuracy.table.effects.rows == ()  # nothing is drawn that nobody sees
+    assert (
+        application.view("accuracy").table.effects.rows == ()
+    )  # nothing is drawn that nobody sees
     tips = [label.toolTip() for label in application.window.statusBar().findChildren(QLabel)]
     assert any(tip.startswith("Switched in: LED rise and fall") for tip in tips)
     application.window.bring_to_front("accuracy")
@@ -80,10 +84,10 @@ def test_what_was_switched_is_news_for_a_while_only(
 ) -> None:
     user.enter("edge_time", "5 us")
     assert row(in_front, "led-edges").new
-    in_front.accuracy._forgetting.setInterval(0)
-    in_front.accuracy._forgetting.start()
+    in_front.view("accuracy")._forgetting.setInterval(0)
+    in_front.view("accuracy")._forgetting.start()
     qtbot.waitUntil(lambda: not row(in_front, "led-edges").new)
-    assert "Switched" not in in_front.accuracy.summary.toolTip()
+    assert "Switched" not in in_front.view("accuracy").summary.toolTip()
     tips = [label.toolTip() for label in in_front.window.statusBar().findChildren(QLabel)]
     assert not any(tip.startswith("Switched") for tip in tips)
 
@@ -92,7 +96,7 @@ def test_a_higher_tolerance_leaves_effects_out(
     qtbot: QtBot, in_front: Application, user: User
 ) -> None:
     assert row(in_front, "sensor-noise").included
-    tolerance = in_front.accuracy.tolerance
+    tolerance = in_front.view("accuracy").tolerance
     tolerance.slider.setValue(tolerance.slider.minimum() + 1)
     user.wait_until_idle()
     assert in_front.settings.settings.tolerance == 100.0
@@ -118,12 +122,15 @@ def test_a_switch_forces_its_effect_and_the_picture_changes(
 def test_both_ends_of_the_slider_are_the_bare_model_and_the_exact_one(
     qtbot: QtBot, in_front: Application, user: User
 ) -> None:
-    slider, field = in_front.accuracy.tolerance.slider, in_front.accuracy.tolerance.field
+    slider, field = (
+        in_front.view("accuracy").tolerance.slider,
+        in_front.view("accuracy").tolerance.field,
+    )
     slider.setValue(slider.minimum())
     user.wait_until_idle()
     assert in_front.settings.settings.tolerance == math.inf
     assert field.lineEdit().text() == "∞ levels"
-    assert not any(row.included for row in in_front.accuracy.table.effects.rows[:-1])
+    assert not any(row.included for row in in_front.view("accuracy").table.effects.rows[:-1])
     slider.setValue(slider.maximum())
     user.wait_until_idle()
     assert in_front.settings.settings.tolerance == 0.0
@@ -135,9 +142,9 @@ def test_a_move_of_the_slider_is_answered_before_the_picture_is(
 ) -> None:
     ask = in_front.simulation.runner.ask
     monkeypatch.setattr(in_front.simulation.runner, "ask", lambda _request: None)
-    slider = in_front.accuracy.tolerance.slider
+    slider = in_front.view("accuracy").tolerance.slider
     slider.setValue(slider.minimum())
-    summary = in_front.accuracy.summary
+    summary = in_front.view("accuracy").summary
     qtbot.waitUntil(lambda: "Switches out: " in summary.toolTip())
     assert summary.toolTip().startswith("Next: ")
     assert row(in_front, "sensor-noise").pending is False
@@ -149,14 +156,14 @@ def test_a_move_of_the_slider_is_answered_before_the_picture_is(
 def test_a_selected_effect_is_shown_with_the_plans_reason(
     in_front: Application, user: User
 ) -> None:
-    in_front.accuracy.table.choose("sensor-noise")
-    detail = in_front.accuracy.detail
+    in_front.view("accuracy").table.choose("sensor-noise")
+    detail = in_front.view("accuracy").detail
     assert detail.title.text() == "Shot and read noise"
     assert "tolerance 0.5" in detail.reason.text()
 
 
 def test_observable_and_noise_are_chosen(qtbot: QtBot, in_front: Application, user: User) -> None:
-    for control in (in_front.accuracy.observable, in_front.accuracy.noise):
+    for control in (in_front.view("accuracy").observable, in_front.view("accuracy").noise):
         qtbot.keyClick(control, Qt.Key.Key_Down)
     user.wait_until_idle()
     settings = in_front.settings.settings
@@ -167,7 +174,7 @@ def test_observable_and_noise_are_chosen(qtbot: QtBot, in_front: Application, us
 def test_a_wrong_tolerance_is_refused_and_the_field_restored(
     qtbot: QtBot, in_front: Application, user: User, text: str
 ) -> None:
-    field = in_front.accuracy.tolerance.field
+    field = in_front.view("accuracy").tolerance.field
     field.selectAll()
     qtbot.keyClicks(field, text)
     qtbot.keyClick(field, Qt.Key.Key_Return)
@@ -178,15 +185,15 @@ def test_a_wrong_tolerance_is_refused_and_the_field_restored(
 
 
 def test_the_stated_time_is_the_sum_of_the_rows(in_front: Application) -> None:
-    assert in_front.accuracy.summary.toolTip().startswith("This picture: ")
-    rows = in_front.accuracy.table.effects.rows
+    assert in_front.view("accuracy").summary.toolTip().startswith("This picture: ")
+    rows = in_front.view("accuracy").table.effects.rows
     total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
     time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"
-    assert f"{time} ms" in in_front.accuracy.summary.toolTip()
+    assert f"{time} ms" in in_front.view("accuracy").summary.toolTip()
 
 
 def test_every_control_of_the_pane_has_a_name_and_a_tooltip(in_front: Application) -> None:
-    pane = in_front.accuracy
+    pane = in_front.view("accuracy")
     controls = [pane.tolerance.slider, pane.tolerance.field, pane.observable, pane.noise]
     assert all(control.accessibleName() and control.toolTip() for control in controls)
 
@@ -195,14 +202,14 @@ def test_the_study_runs_in_front_and_ends_when_the_scene_changes(
     qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(controller, "IDLE_MS", 1)
-    title = application.accuracy.plot.title
+    title = application.view("accuracy").plot.title
     application.window.bring_to_front("accuracy")
     qtbot.waitUntil(lambda: " of " in title.toolTip())
     application.store.change(iso=200.0)
     assert title.toolTip().endswith("stopped")
-    assert application.study.runner.is_idle
+    assert application.shell.pane("accuracy").study.runner.is_idle
     qtbot.waitUntil(lambda: title.toolTip().endswith(": measured"))
-    qtbot.waitUntil(lambda: application.study.is_idle)
+    qtbot.waitUntil(lambda: application.shell.pane("accuracy").study.is_idle)
 
 
 def test_behind_another_pane_no_study_is_made(
@@ -210,14 +217,14 @@ def test_behind_another_pane_no_study_is_made(
 ) -> None:
     monkeypatch.setattr(controller, "IDLE_MS", 1)
     application.window.bring_to_front("accuracy")
-    qtbot.waitUntil(lambda: not application.study.runner.is_idle)
+    qtbot.waitUntil(lambda: not application.shell.pane("accuracy").study.runner.is_idle)
     application.window.modes.switch("explore")
-    qtbot.waitUntil(lambda: application.study.is_idle)
+    qtbot.waitUntil(lambda: application.shell.pane("accuracy").study.is_idle)
     application.store.change(iso=200.0)
     qtbot.waitUntil(lambda: application.is_idle)
     qtbot.wait(50)
-    assert application.study.is_idle
-    assert application.study.runner.is_idle
+    assert application.shell.pane("accuracy").study.is_idle
+    assert application.shell.pane("accuracy").study.runner.is_idle
 
 
 def test_nothing_is_drawn_of_a_pane_that_is_not_seen(

@@ -71,6 +71,7 @@ class Bench:
         self.simulation = SimulationController(self.scenes, self.settings)
         self.pane = RecordingPane()
         self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)
+        self.simulation.snapshot_shown.connect(self.controller.show_snapshot)
 
     def study(
         self, scene: Scene, settings: SimulationSettings, _complete: object

@@ -28,11 +28,11 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture(
     row = user.row("distance")
     assert isinstance(row, QuantityRow)
     application.story.show_whole_picture(True)
-    before = grey_picture(application.image)
+    before = grey_picture(application.view("picture"))
     qtbot.keyClick(row.slider, Qt.Key.Key_PageUp)
     user.wait_until_idle()
     assert application.store.scene.pose.distance == row.field.value() > 1.2
-    assert not np.array_equal(grey_picture(application.image), before)
+    assert not np.array_equal(grey_picture(application.view("picture")), before)
 
 
 def test_a_typed_number_reaches_the_profile_and_the_band_model(
@@ -42,9 +42,9 @@ def test_a_typed_number_reaches_the_profile_and_the_band_model(
     user.enter("exposure_time", "136 us")
     scene = application.store.scene
     assert scene.camera.exposure_time == 136e-6
-    _, profile = application.profile.simulation.getOriginalDataset()
+    _, profile = application.view("profile").simulation.getOriginalDataset()
     assert np.array_equal(profile, occ.column_profile(scene))
-    assert "136 µs" in application.profile.reason.text()
+    assert "136 µs" in application.view("profile").reason.text()
 
 
 def test_bits_typed_arrive_in_the_decode_result(
@@ -56,7 +56,7 @@ def test_bits_typed_arrive_in_the_decode_result(
     qtbot.keyClick(bits, Qt.Key.Key_Return)
     user.wait_until_idle()
     assert application.controls.code.number.value() == 5
-    assert application.decode.strip.accessibleDescription().startswith("sent 0000000101")
+    assert application.view("decode").strip.accessibleDescription().startswith("sent 0000000101")
 
 
 def test_a_drag_of_a_slider_is_undone_as_one_step(
@@ -90,15 +90,15 @@ def test_undo_and_redo_bring_the_controls_and_the_picture_back(
     application: Application, user: User, grey_picture: Picture
 ) -> None:
     application.story.show_whole_picture(True)
-    pictures = [grey_picture(application.image)]
+    pictures = [grey_picture(application.view("picture"))]
     user.enter("distance", "2 m")
-    pictures.append(grey_picture(application.image))
+    pictures.append(grey_picture(application.view("picture")))
     assert not np.array_equal(pictures[0], pictures[1])
     for text, distance, picture in (("&Undo", 1.2, pictures[0]), ("&Redo", 2.0, pictures[1])):
         assert "distance" in user.entry(text).text()
         user.choose(text)
         assert user.row("distance").field.value() == distance
-        assert np.array_equal(grey_picture(application.image), picture)
+        assert np.array_equal(grey_picture(application.view("picture")), picture)
 
 
 def test_the_window_tells_how_long_simulating_and_reading_took(

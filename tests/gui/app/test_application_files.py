@@ -20,10 +20,10 @@ def test_an_open_photo_stands_in_the_title_until_it_is_closed(
     application.open_photo(photo_file)
     user.wait_until_idle()
     assert application.window.windowTitle() == f"stripes.png – {TITLE}"  # noqa: RUF001
-    assert application.image.photo.isVisible()
+    assert application.view("picture").photo.isVisible()
     close.trigger()
     assert application.window.windowTitle() == TITLE
-    assert not application.image.photo.isVisible()
+    assert not application.view("picture").photo.isVisible()
     assert not close.isEnabled()
 
 
@@ -33,24 +33,24 @@ def test_the_menu_turns_the_photo_and_overlays_the_simulation(
     application.open_photo(photo_file)
     user.wait_until_idle()
     user.choose("&Line by line")
-    assert "its lines shown as columns" in application.image.photo.caption.toolTip()
-    assert application.photo.facts.scan_axis.key() == "lines"
+    assert "its lines shown as columns" in application.view("picture").photo.caption.toolTip()
+    assert application.view("photo").facts.scan_axis.key() == "lines"
     user.choose("&Blended over")
-    assert application.image.opacity.isVisible()
-    assert not application.image.photo.isVisible()
+    assert application.view("picture").opacity.isVisible()
+    assert not application.view("picture").photo.isVisible()
 
 
 def test_the_photos_profile_is_drawn_beside_the_simulations(
     application: Application, user: User, photo_file: Path
 ) -> None:
-    assert not application.profile.residual.isVisible()
+    assert not application.view("profile").residual.isVisible()
     application.open_photo(photo_file)
     user.wait_until_idle()
-    columns, levels = application.profile.photo.getOriginalDataset()
-    _, residual = application.profile.residual.curve.getOriginalDataset()
-    profile = application.profile.simulation.getOriginalDataset()[1]
+    columns, levels = application.view("profile").photo.getOriginalDataset()
+    _, residual = application.view("profile").residual.curve.getOriginalDataset()
+    profile = application.view("profile").simulation.getOriginalDataset()[1]
     assert np.allclose(levels - profile[columns.astype(int)], residual)
-    assert "correlation" in application.profile.residual.numbers.toolTip()
+    assert "correlation" in application.view("profile").residual.numbers.toolTip()
 
 
 def test_the_picture_on_the_screen_is_the_one_that_is_saved(

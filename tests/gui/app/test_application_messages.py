@@ -42,11 +42,11 @@ def test_a_scene_without_a_picture_says_why_and_the_last_stays(
     grey_picture: Callable[[QWidget], NDArray[np.uint8]],
 ) -> None:
     application.story.show_whole_picture(True)
-    before = grey_picture(application.image)
+    before = grey_picture(application.view("picture"))
     application.store.change(**BEHIND_THE_CAMERA)
     user.wait_until_idle()
     assert "behind the camera" in user.message
-    assert np.array_equal(grey_picture(application.image), before)
+    assert np.array_equal(grey_picture(application.view("picture")), before)
 
 
 def test_the_sentence_goes_once_the_scene_has_a_picture_again(

@@ -42,8 +42,8 @@ def matched(
 ) -> Application:
     application.open_photo(taken)
     user.wait_until_idle()
-    application.photo.form.sent.show_key("square")
-    application.photo.form.square.set_value(SENT["switching_frequency"] / 2)
+    application.view("photo").form.sent.show_key("square")
+    application.view("photo").form.square.set_value(SENT["switching_frequency"] / 2)
     user.choose("&Match photo")
     return application
 
@@ -79,20 +79,20 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
     qtbot.waitUntil(lambda: bar.progress.value() == bar.progress.maximum() // 2)
     bar.cancel.click()
     assert not bar.isVisible()
-    assert application.photo_wiring.is_idle
+    assert application.shell.pane("photo").is_idle
     go_on.set()
     application.open_photo(taken)
     user.wait_until_idle()
     assert not bar.isVisible()
-    assert application.photo_wiring.matching.photo is not None
-    assert application.photo_wiring.matching.match is None
+    assert application.shell.pane("photo").matching.photo is not None
+    assert application.shell.pane("photo").matching.match is None
 
 
 def test_a_match_finds_the_readout_time_and_one_step_applies_it(
     matched: Application, user: User, small_scene: Scene
 ) -> None:
     assert matched.store.scene == small_scene
-    found = matched.photo_wiring.matching.match
+    found = matched.shell.pane("photo").matching.match
     assert found is not None
     assert found.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
     steps = matched.store.undo_stack.count()
@@ -106,45 +106,45 @@ def test_a_match_finds_the_readout_time_and_one_step_applies_it(
 def test_an_applied_match_lies_on_the_photo_pixel_by_pixel(
     matched: Application, user: User
 ) -> None:
-    corner = matched.photo_wiring.placements.placement
+    corner = matched.shell.pane("photo").placements.placement
     assert corner != Placement()
-    matched.photo.result.apply.click()
+    matched.view("photo").result.apply.click()
     user.wait_until_idle()
-    assert matched.photo_wiring.placements.placement == Placement()
-    found = matched.photo_wiring.matching.match
+    assert matched.shell.pane("photo").placements.placement == Placement()
+    found = matched.shell.pane("photo").matching.match
     assert found is not None
-    columns, levels = matched.profile.photo.getOriginalDataset()
+    columns, levels = matched.view("profile").photo.getOriginalDataset()
     assert columns[0] == found.region.first_column
-    simulated = matched.profile.simulation.getOriginalDataset()[1][columns.astype(int)]
+    simulated = matched.view("profile").simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
-    assert matched.photo_wiring.placements.placement == corner
+    assert matched.shell.pane("photo").placements.placement == corner
 
 
 def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> None:
-    matched.photo.result.apply.click()
+    matched.view("photo").result.apply.click()
     user.wait_until_idle()
-    told = matched.profile.residual.numbers.toolTip()
+    told = matched.view("profile").residual.numbers.toolTip()
     user.enter("exposure_time", "40 us")
-    assert matched.profile.residual.numbers.toolTip() != told
+    assert matched.view("profile").residual.numbers.toolTip() != told
 
 
 def test_moving_the_photo_moves_it_in_every_pane_until_reset(
     matched: Application, user: User
 ) -> None:
-    before = matched.photo_wiring.placements.placement
-    matched.photo.placement.by_mouse.click()
-    assert matched.image.mode.key() == "blend"
-    assert matched.image.overlay.frame.isVisible()
-    matched.image.overlay.frame.setPos((199.5, 49.5))
-    assert matched.photo_wiring.placements.placement == Placement(200.0, 50.0)
-    assert matched.photo.placement.column.value() == 200.0
-    columns, _ = matched.profile.photo.getOriginalDataset()
-    found = matched.photo_wiring.matching.match
+    before = matched.shell.pane("photo").placements.placement
+    matched.view("photo").placement.by_mouse.click()
+    assert matched.view("picture").mode.key() == "blend"
+    assert matched.view("picture").overlay.frame.isVisible()
+    matched.view("picture").overlay.frame.setPos((199.5, 49.5))
+    assert matched.shell.pane("photo").placements.placement == Placement(200.0, 50.0)
+    assert matched.view("photo").placement.column.value() == 200.0
+    columns, _ = matched.view("profile").photo.getOriginalDataset()
+    found = matched.shell.pane("photo").matching.match
     assert found is not None
     assert columns[0] == 200 + found.region.first_column
-    matched.photo.placement.reset.click()
-    assert matched.photo_wiring.placements.placement == before
+    matched.view("photo").placement.reset.click()
+    assert matched.shell.pane("photo").placements.placement == before
 
 
 def test_a_photo_without_stripes_gives_a_sentence_everywhere(
@@ -154,13 +154,15 @@ def test_a_photo_without_stripes_gives_a_sentence_everywhere(
     Image.fromarray(np.full((60, 100), 90, dtype=np.uint8)).save(path)
     application.open_photo(path)
     user.wait_until_idle()
-    sentence = application.profile.residual.numbers.toolTip()
+    sentence = application.view("profile").residual.numbers.toolTip()
     assert sentence.endswith(".")
     user.choose("&Match photo")
-    banner = application.photo.verdict
+    banner = application.view("photo").verdict
     assert banner.isVisible()
     assert user.message in (banner.sentence.text(), banner.wrapped.text())
-    seen = [each.text() for each in application.photo.findChildren(QLabel) if each.isVisible()]
+    seen = [
+        each.text() for each in application.view("photo").findChildren(QLabel) if each.isVisible()
+    ]
     assert seen
     assert user.message not in seen  # the banner says it
     application.photos.close()
@@ -176,8 +178,8 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
     user.wait_until_idle()
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
-    application.photo.form.sent.show_key("square")
-    application.photo.form.square.set_value(SENT["switching_frequency"] / 2)
+    application.view("photo").form.sent.show_key("square")
+    application.view("photo").form.square.set_value(SENT["switching_frequency"] / 2)
     user.choose("&Match photo")
     assert all(actions[name].isEnabled() for name in with_match)
     application.photos.close()
@@ -203,25 +205,25 @@ def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
     application.open_photo(photos / "led_1khz_frame.png")
     user.wait_until_idle()
     assert application.photos.reading.scan_axis == "auto"
-    application.photo.form.sent.show_key("square")
+    application.view("photo").form.sent.show_key("square")
     user.choose("&Match photo")
-    found = application.photo_wiring.matching.match
+    found = application.shell.pane("photo").matching.match
     assert found is not None
     assert found.readout_time == pytest.approx(14.565e-6, rel=3e-3)
     user.choose("&Apply to the scene")
-    assert application.photo_wiring.placements.placement == Placement()
-    told = application.profile.residual.numbers.toolTip()
+    assert application.shell.pane("photo").placements.placement == Placement()
+    told = application.view("profile").residual.numbers.toolTip()
     assert float(told.split("correlation ")[1].split()[0]) >= 0.99
 
 
 def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     matched: Application, user: User
 ) -> None:
-    story, verdict = matched.story, matched.photo.verdict
+    story, verdict = matched.story, matched.view("photo").verdict
     assert matched.window.modes.mode == "photo"
     assert verdict.isVisible()
     assert not story.verdict.isVisible()
-    match = matched.photo_wiring.matching.match
+    match = matched.shell.pane("photo").matching.match
     assert match is not None
     assert verdict.heading.startswith(f"Photo: {match.verdict}")
     chips = {chip.key: chip for chip in verdict.chips.chips}

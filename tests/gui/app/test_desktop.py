@@ -82,9 +82,9 @@ def test_the_theme_changes_everything_that_is_drawn(
         rows = application.story.rows
         for row in (rows.light, rows.profile, rows.columns):
             assert (np.median(grey_picture(row)) > 128) == is_light
-        axis = application.profile.plot.getAxis("left").textPen().color()
+        axis = application.view("profile").plot.getAxis("left").textPen().color()
         assert (axis.lightness() < 128) == is_light
-        ring = application.accuracy.plot.rings.opts["pen"].color()
+        ring = application.view("accuracy").plot.rings.opts["pen"].color()
         assert (ring.lightness() < 128) == is_light
     user.choose("&System")
     assert QApplication.palette().color(QPalette.ColorRole.Window) == before
@@ -205,8 +205,8 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     application: Application, qtbot: QtBot
 ) -> None:
     application.story.show_whole_picture(True)
-    pane = application.image.simulation
-    frame = application.image._frame
+    pane = application.view("picture").simulation
+    frame = application.view("picture")._frame
     assert frame is not None
     told = application.window.pointed
     view = pane.graphics
@@ -219,7 +219,7 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
     qtbot.waitUntil(lambda: told.toolTip() == expected.format(column, row, *levels))
     application.window.bring_to_front("profile")
     QApplication.processEvents()
-    plot = application.profile.plot
+    plot = application.view("profile").plot
     place = plot.mapFromScene(plot.getViewBox().sceneBoundingRect().center())
     qtbot.mouseMove(plot.viewport(), QPoint(place))
     qtbot.waitUntil(lambda: told.text().startswith("Profile: column "))

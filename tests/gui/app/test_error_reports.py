@@ -100,14 +100,14 @@ def test_an_exception_in_a_thread_is_a_sentence(
 def test_an_exception_in_the_simulation_keeps_the_last_picture(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shown = application.image.simulation.level_at(10, 10)
+    shown = application.view("picture").simulation.level_at(10, 10)
     with monkeypatch.context() as patched:
         patched.setattr("occ_gui.simulation.controller.render_with", broken)
         application.store.change(iso=333.0)
         user.wait_until_idle()
         assert user.message == "The simulation failed: ZeroDivisionError: a mistake."
     assert application.store.scene.camera.iso == 333.0
-    assert application.image.simulation.level_at(10, 10) == shown
+    assert application.view("picture").simulation.level_at(10, 10) == shown
     assert works(application, user)
 
 
@@ -117,7 +117,7 @@ def test_an_exception_while_a_picture_is_painted_is_a_sentence(
     with monkeypatch.context() as patched:
         patched.setattr(AveragedImage, "_averaged", broken)
         application.story.show_whole_picture(True)
-        application.image.simulation.fit()
+        application.view("picture").simulation.fit()
         application.store.change(iso=222.0)
         user.wait_until_idle()
         application.window.grab()

@@ -48,10 +48,10 @@ def start(*arguments):
     qt, application = begin(*arguments)
     looks = QTimer(application)
     def look():
-        if not application.decode.decoders.count() > 4:
+        if not application.view("decode").decoders.count() > 4:
             return
         if {decoder!r}:
-            application.decode.choose_decoder({decoder!r})
+            application.view("decode").choose_decoder({decoder!r})
         if Path({folder!r}, "begun").exists():
             looks.stop()
             application.store.change(iso=321.0)

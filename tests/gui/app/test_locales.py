@@ -54,7 +54,7 @@ begin = app.start
 def start(*arguments):
     qt, application = begin(*arguments)
     def look():
-        place = application.photo.placement.column
+        place = application.view("photo").placement.column
         print("i:", hex(ctypes.CDLL(None).towupper(ord("i"))))
         print("point:", locale.localeconv()["decimal_point"])
         print("code:", application.controls.code.number.text())

@@ -89,7 +89,7 @@ def test_the_decoding_pane_says_what_the_decoder_does(application: Application, 
         application.store.put(scene, "another scene")
         user.wait_until_idle()
         result = occ.decode(occ.render(scene).image, scene)
-        shown = application.decode.verdict.text()
+        shown = application.view("decode").verdict.text()
         verdicts.add(result.code == scene.transmitter.code)
         if result.code is None:
             assert "No code" in shown
@@ -105,7 +105,7 @@ def test_a_picture_that_the_studies_would_contradict_says_what_it_lacks(
     scene = occ.load_preset("phone-136us").replace(rows=800, switching_frequency=14.6e3)
     application.store.put(scene, "another scene")
     user.wait_until_idle()
-    lacks = application.decode.left_out
+    lacks = application.view("decode").left_out
     assert lacks.isHidden()
     application.settings.set_observable("profile")  # its means hide what the signal shows
     user.wait_until_idle()

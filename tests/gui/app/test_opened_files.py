@@ -119,7 +119,7 @@ def test_photos_dropped_together_become_a_table_and_the_first_opens(
 ) -> None:
     application.window.dropped.emit([photo_file, taken])
     user.wait_until_idle()
-    assert application.photo.many.rows.paths == (photo_file, taken)
+    assert application.view("photo").many.rows.paths == (photo_file, taken)
     assert application.window.actions_by_name["match_all"].isEnabled()
     assert application.window.windowTitle().startswith("stripes.png")
 
@@ -132,8 +132,8 @@ def test_a_table_whose_first_photo_is_damaged_is_shown(
     damaged.write_bytes(b"nothing")
     application.window.dropped.emit([damaged, photo_file])
     user.wait_until_idle()
-    assert application.photo.many.isVisibleTo(application.photo)
-    application.photo.many.photo_chosen.emit(photo_file)
+    assert application.view("photo").many.isVisibleTo(application.view("photo"))
+    application.view("photo").many.photo_chosen.emit(photo_file)
     user.wait_until_idle()
     assert application.window.windowTitle().startswith("stripes.png")
 

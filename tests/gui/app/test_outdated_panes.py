@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.outdated_panes import VERDICT_DELAY, OutdatedPanes
 from occ_gui.background.result_age import PAUSE, ResultAges
+from occ_gui.shell.feature import Pane
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
@@ -45,7 +46,7 @@ def marks(application: Application) -> list[QWidget]:
 
 
 def tabs(application: Application) -> list[str]:
-    bar = application.decode.decoders
+    bar = application.view("decode").decoders
     texts = {name: bar.tabText(place) for place, name in enumerate(DECODERS)}
     return [texts[name].split()[-1] for name in QUICK_DECODERS]
 
@@ -53,13 +54,13 @@ def tabs(application: Application) -> list[str]:
 def test_a_verdict_does_not_wait_for_the_picture(
     application: Application, user: User, held: Event, qtbot: QtBot
 ) -> None:
-    decode = application.decode
+    decode = application.view("decode")
     assert (decode.verdict.text(), tabs(application)) == (RIGHT, ["✓", "✓"])
     application.store.change(switching_frequency=500.0)
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
     assert decode.origin.text() == "By the column profile; the picture follows."
-    shown = application.profile._reading
+    shown = application.view("profile")._reading
     assert shown is not None
     assert shown.scene == application.store.scene
     held.set()
@@ -73,32 +74,36 @@ def test_without_a_profile_path_a_verdict_is_soon_the_earlier_scenes(
 ) -> None:
     application.store.change(switching_frequency=500.0, jpeg_quality=60)
     earlier = f"Earlier scene: {RIGHT}"
-    qtbot.waitUntil(lambda: application.decode.verdict.text() == earlier)
+    qtbot.waitUntil(lambda: application.view("decode").verdict.text() == earlier)
     assert tabs(application) == ["…", "…"]
-    assert application.decode.strip.accessibleDescription().startswith("earlier scene: sent ")
-    assert not application.decode.strip.isEnabled()
+    assert (
+        application.view("decode").strip.accessibleDescription().startswith("earlier scene: sent ")
+    )
+    assert not application.view("decode").strip.isEnabled()
     held.set()
     user.wait_until_idle()
-    assert application.decode.verdict.text() == "✗ No code read"
+    assert application.view("decode").verdict.text() == "✗ No code read"
     assert tabs(application) == ["✗", "✗"]
-    assert application.decode.strip.isEnabled()
+    assert application.view("decode").strip.isEnabled()
 
 
 @pytest.mark.parametrize("jpeg", [0, 60])
 def test_each_pane_is_marked_while_its_result_is_outdated(
     application: Application, user: User, held: Event, qtbot: QtBot, jpeg: int
 ) -> None:
+    for name in ("picture", "profile", "decode", "accuracy"):
+        application.view(name)
     application.window.bring_to_front("equations")
     application.shell.pane("equations").set_seen(True)
-    assert [mark.parentWidget() for mark in marks(application)] == [
-        application.image.simulation,
+    assert {mark.parentWidget() for mark in marks(application)} == {
         application.story.rows.stripes,
+        application.view("picture").simulation,
         application.story.rows,
-        application.profile,
-        application.decode,
-        *application.accuracy.of_scene,
+        application.view("profile"),
+        application.view("decode"),
+        *application.view("accuracy").of_scene,
         application.shell.pane("equations").pane.exposure,
-    ]
+    }
     assert all(mark.isHidden() for mark in marks(application))
     application.store.change(iso=60.0, jpeg_quality=jpeg)
     outdated = application.outdated
@@ -114,19 +119,19 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
 def test_after_a_refusal_the_last_picture_is_marked_as_older(
     application: Application, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    shown = application.image._frame
+    shown = application.view("picture")._frame
     application.store.change(distance=0.1, yaw=1.2)
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:5]))
-    assert application.image._frame is shown
+    assert application.view("picture")._frame is shown
     earlier = f"Earlier scene: {RIGHT}"
-    qtbot.waitUntil(lambda: application.decode.verdict.text() == earlier)
+    qtbot.waitUntil(lambda: application.view("decode").verdict.text() == earlier)
     text = "of an earlier scene: this one has no picture"
     assert {mark.accessibleName() for mark in marks(application)} == {text}
     application.store.undo_stack.undo()
     assert application.store.scene == small_scene
     user.wait_until_idle()
-    assert application.decode.verdict.text() == RIGHT
+    assert application.view("decode").verdict.text() == RIGHT
     assert all(mark.isHidden() for mark in marks(application))
 
 
@@ -182,8 +187,11 @@ class Drag:
         ]
         self.latest = self.snapshots[0]
         self.simulation, self.verdict = Simulation(self.latest), Verdict()
-        self.outdated = OutdatedPanes(self.simulation, self.verdict, pane)  # type: ignore[arg-type]
-        self.outdated.mark_results(pane)
+        self.outdated = OutdatedPanes(self.simulation, pane)  # type: ignore[arg-type]
+        self.outdated.mark_verdict(self.verdict)
+        shown: Pane[None] = Pane(pane)
+        shown.of_results = (pane,)
+        self.outdated.mark(shown)
         self.outdated.mark_picture(pane)
         self.simulation.deliver(self.snapshots[0])
 

@@ -44,7 +44,7 @@ def test_a_text_typed_for_the_code_is_sent_read_and_shown(
     assert (transmitter.payload, transmitter.line_code, transmitter.framing) == (
         "text:HI", "4b6b", "c-ook",
     )  # fmt: skip
-    view = application.decode
+    view = application.view("decode")
     assert view.verdict.text() == "✓ “HI” read, all bits right"
     assert view.payload.accessibleDescription() == "sent HI, received HI, 0 wrong"
     application.store.undo_stack.undo()
@@ -87,7 +87,7 @@ def test_all_places_say_that_what_was_typed_is_sent(
     assert [letter.sent for letter in rows.light.letters] == list(letters)
     assert [letter.received for letter in rows.code.letters] == list(letters)
     assert rows.light.sent_in_words().endswith(f", {bits} bits")
-    assert len(application.decode.strip._sent) == bits
+    assert len(application.view("decode").strip._sent) == bits
     code.bits.clear()
     qtbot.keyClick(code.bits, Qt.Key.Key_Return)
     user.wait_until_idle()
@@ -121,7 +121,7 @@ def test_a_code_and_a_framing_that_do_not_fit_are_told_at_both_fields(
         notice = row(application, name).notice
         assert "'nrz', which limits no run" in notice.text()
     choose(application, user, "line_code", "manchester")
-    assert application.decode.verdict.text() == "✓ Code 718 read, all bits right"
+    assert application.view("decode").verdict.text() == "✓ Code 718 read, all bits right"
     assert row(application, "framing").notice.text() == ""
 
 
@@ -149,7 +149,7 @@ def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iter
 def test_decoders_of_plugins_have_tabs_and_say_why_they_fail(
     application: Application, user: User
 ) -> None:
-    view = application.decode
+    view = application.view("decode")
     tabs = [view.decoders.tabText(place) for place in range(view.decoders.count())]
     assert tabs[-2:] == ["nothing", "gone"]
     assert application.story.decoder.findData("nothing") >= 0

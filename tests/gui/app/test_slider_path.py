@@ -13,7 +13,10 @@ from occ_gui.app.application import Application
 from occ_gui.background.task import Task
 from occ_gui.picture.averaged_image import AveragedImage
 
-MOST_FUNCTIONS = 15
+MOST_FUNCTIONS = 19
+"""It were 12 when each pane was called by name. Three more are the store's and the task's, and four
+the same for every pane: the board takes the picture and tells of it, the pane's place looks whether
+its part differs, and the pane shows it. These are a part of a thousandth of a second."""
 
 
 class CallPath:
@@ -46,7 +49,7 @@ class CallPath:
 
 
 @pytest.mark.parametrize("is_first_move", [True, False])
-def test_a_slider_reaches_the_pixel_in_at_most_fifteen_functions(
+def test_a_slider_reaches_the_pixel_in_at_most_nineteen_functions(
     application: Application, user: User, monkeypatch: pytest.MonkeyPatch, is_first_move: bool
 ) -> None:
     slider = application.controls.main_rows()["exposure_time"].slider
@@ -67,4 +70,4 @@ def test_a_slider_reaches_the_pixel_in_at_most_fifteen_functions(
     functions = [*path.functions, "AveragedImage.paint"]
     ends = ("QuantityRow._slide", "_Worker.run", "AveragedImage.set_image")
     assert set(ends) <= set(functions)
-    assert len(functions) <= MOST_FUNCTIONS, functions
+    assert len(functions) <= MOST_FUNCTIONS, "\n".join(functions)

@@ -47,7 +47,7 @@ def test_the_bar_and_the_decoding_pane_say_the_same(
 ) -> None:
     application.store.change(**changes)
     user.wait_until_idle()
-    pane, bar = application.decode, application.story.verdict
+    pane, bar = application.view("decode"), application.story.verdict
     for place in range(pane.decoders.count()):
         pane.decoders.setCurrentIndex(place)
         user.wait_until_idle()
@@ -63,7 +63,7 @@ def test_the_bar_and_the_decoding_pane_say_the_same(
 def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(
     application: Application, user: User
 ) -> None:
-    story, pane = application.story, application.decode
+    story, pane = application.story, application.view("decode")
     for name in ("matched", "threshold", "sequence"):
         story.decoder.show_key(name)
         story.decoder.chosen.emit(name)
@@ -81,19 +81,19 @@ def test_the_thumbnail_opens_the_whole_picture_and_a_button_leads_back(
     application: Application, qtbot: QtBot
 ) -> None:
     story = application.story
-    assert not application.image.isVisible()
+    assert not application.view("picture").isVisible()
     qtbot.mouseClick(story.rows.stripes.thumbnail, Qt.MouseButton.LeftButton)
-    assert application.image.isVisible()
+    assert application.view("picture").isVisible()
     assert not story.rows.isVisible()
     assert story.shows_whole_picture
     assert story.verdict.isVisible()
     qtbot.mouseClick(story.whole, Qt.MouseButton.LeftButton)
     assert story.rows.isVisible()
-    assert not application.image.isVisible()
+    assert not application.view("picture").isVisible()
 
 
 def test_the_picture_before_is_shown_in_the_whole_one(application: Application) -> None:
-    story, before = application.story, application.image.before.chosen
+    story, before = application.story, application.view("picture").before.chosen
     before.setChecked(True)
     assert story.shows_whole_picture
     before.setChecked(False)
@@ -109,7 +109,11 @@ def test_the_picture_before_is_shown_in_the_whole_one(application: Application) 
 
 
 def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) -> None:
-    story, image, profile = application.story, application.image, application.profile
+    story, image, profile = (
+        application.story,
+        application.view("picture"),
+        application.view("profile"),
+    )
     story.picture_chosen.emit("receiver")
     assert (story.whose.key(), image.whose, profile.is_enhanced) == ("receiver", "receiver", True)
     reading = profile._reading
@@ -129,7 +133,7 @@ def test_an_open_photo_is_drawn_in_the_story(
     application.open_photo(photo_file)
     user.wait_until_idle()
     assert application.story.shows_whole_picture
-    photo, shown = rows.profile.photo, application.profile._photo_levels
+    photo, shown = rows.profile.photo, application.view("profile")._photo_levels
     assert photo is not None
     assert shown is not None
     np.testing.assert_array_equal(photo[1], shown)

@@ -86,7 +86,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
     application.presets._update()
     application.files.open_file(hostile_photo)
     user.wait_until_idle()
-    facts = application.photo.facts
+    facts = application.view("photo").facts
     assert seen(facts.name.toolTip()).endswith(f"{SHOWN}.png")
     assert seen(facts.size_line.toolTip()).startswith(f"{TAG}, ")
     assert window.windowTitle().startswith(f"{SHOWN}.png")
@@ -137,7 +137,7 @@ def test_a_name_that_is_no_utf_8_is_shown_and_remembered(
     photo_file.rename(path)
     application.open_photo(path)
     user.wait_until_idle()
-    assert application.photo.facts.name.text().endswith("caf\\udce9.png")
+    assert application.view("photo").facts.name.text().endswith("caf\\udce9.png")
     application.files.save_scene(path.with_suffix(".toml"))
     assert application.window.statusBar().currentMessage() == "Saved caf\\udce9.toml"
     assert path.with_suffix(".toml").is_file()

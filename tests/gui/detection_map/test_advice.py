@@ -177,10 +177,10 @@ def test_a_destination_button_changes_the_scene_in_one_step(
     advised: Application, place: int, name: str, value: float
 ) -> None:
     before = advised.store.scene
-    advised.decode.choose_decoder("matched")
+    advised.view("decode").choose_decoder("matched")
     advised.shell.pane("map").view.advice.destinations[place].click()
     assert advised.store.scene == before.replace(**{name: value})
-    assert advised.decode.decoder() == "threshold", "the limit is another decoder's"
+    assert advised.view("decode").decoder() == "threshold", "the limit is another decoder's"
     label = quantity(name).label.lower()
     assert advised.shell.pane("map").view.advice.state.toolTip() == (
         f"This advice is on the scene before the change. Its limits of the {label} still hold."

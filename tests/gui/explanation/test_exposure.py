@@ -199,14 +199,14 @@ def test_nothing_is_worked_out_unseen(pane: Pane, bare_snapshot_of: SnapshotOf) 
 
 
 def place_of(application: Application, column: float) -> QPoint:
-    plot = application.profile.plot
+    plot = application.view("profile").plot
     scene = plot.getViewBox().mapViewToScene(QPointF(column, 20.0))
     return plot.mapFromScene(scene)
 
 
 def move_mouse(application: Application, column: float) -> None:
     """Move the mouse over a column of the profile, no button down."""
-    viewport = application.profile.plot.viewport()
+    viewport = application.view("profile").plot.viewport()
     place = place_of(application, column)
     none, no_key = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
     event = QMouseEvent(
@@ -227,7 +227,7 @@ def seen(application: Application, qtbot: QtBot) -> Application:
 def test_mouse_click_and_keys_over_the_profile_choose_a_column(
     seen: Application, qtbot: QtBot
 ) -> None:
-    exposure, plot = seen.shell.pane("equations").pane.exposure, seen.profile.plot
+    exposure, plot = seen.shell.pane("equations").pane.exposure, seen.view("profile").plot
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
     there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
@@ -270,8 +270,8 @@ def test_the_profiles_mark_stays_while_the_exposure_is_visible(
     seen.window.bring_to_front("decode")
     qtbot.waitUntil(lambda: not picker.marker.isVisible())
     messages = seen.shell.pane("equations").pane.exposure.sentence.text()
-    move_mouse(seen, seen.profile.plot.getViewBox().viewRange()[0][0] + 50.0)
-    qtbot.keyClick(seen.profile.plot, Qt.Key.Key_Right)
+    move_mouse(seen, seen.view("profile").plot.getViewBox().viewRange()[0][0] + 50.0)
+    qtbot.keyClick(seen.view("profile").plot, Qt.Key.Key_Right)
     assert seen.shell.pane("equations").pane.exposure.sentence.text() == messages
 
 
@@ -279,7 +279,7 @@ def test_the_exposure_follows_the_scene(seen: Application, user: User) -> None:
     exposure = seen.shell.pane("equations").pane.exposure
     user.enter("exposure_time", "136 us")
     assert "136 µs exposure" in exposure.sentence.text()
-    level = seen.profile.simulation.getOriginalDataset()[1]
+    level = seen.view("profile").simulation.getOriginalDataset()[1]
     column = seen.shell.pane("equations").pane.exposure.column.value()
     assert (
         f"{level[column]:.1f} grey levels"

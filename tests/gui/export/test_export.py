@@ -19,7 +19,7 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import SHAPE
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
-from occ_gui.picture.photo_overlay import MODES
+from occ_gui.picture.placement import MODES
 from occ_model.figures import drawing
 from occ_model.results import AccuracyPoint, SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
@@ -56,7 +56,7 @@ def test_the_accuracy_plot_is_exported_once_it_is_measured(
     path = tmp_path / "accuracy.csv"
     assert "not measured yet" in export(application, user, "accuracy", path)
     assert not path.exists()
-    plot = application.accuracy.plot
+    plot = application.view("accuracy").plot
     plot.show_study_begun()
     plot.show_point(AccuracyPoint("noise", "exact", 0.125, 0.25, current=True), 1, 1)
     plot.show_study_finished()
@@ -112,7 +112,7 @@ def test_the_difference_is_exported_as_it_is_seen(
     path = tmp_path / "difference.csv"
     assert export(application, user, "picture", path) == f"Exported difference.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
-    photo = application.photo_wiring.matching.photo
+    photo = application.shell.pane("photo").matching.photo
     assert photo is not None
     rows, columns = photo.image.shape
     assert len(lines) == 1 + rows
@@ -150,12 +150,12 @@ def test_a_figure_is_copied_with_its_scene(application: Application, user: User)
 def test_the_copied_figure_is_that_of_the_pane_in_front(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
-    application.profile.enhanced.setFocus()
+    application.view("profile").enhanced.setFocus()
     qtbot.waitUntil(lambda: application.desktop.export.current_pane.name == "profile")
     user.choose("Copy fi&gure")
     assert "Column profile" in QGuiApplication.clipboard().image().text("Title")
-    application.decode.decoders.setCurrentIndex(1)
-    application.decode.decoders.setFocus()
+    application.view("decode").decoders.setCurrentIndex(1)
+    application.view("decode").decoders.setFocus()
     user.choose("Copy fi&gure")
     assert "matched" in QGuiApplication.clipboard().image().text("Title")
 
@@ -181,7 +181,7 @@ def test_a_picture_without_a_scene_inside_is_opened_as_a_photo(
 ) -> None:
     application.window.dropped.emit([photo_file])
     user.wait_until_idle()
-    assert application.image.photo.isVisible()
+    assert application.view("picture").photo.isVisible()
 
 
 def test_what_is_not_there_or_no_figure_is_refused_in_a_sentence(

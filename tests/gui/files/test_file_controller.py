@@ -23,7 +23,7 @@ class Bench:
 
     def __init__(self, scene: Scene) -> None:
         self.store = store_of(scene)
-        self.photos = PhotoController([])
+        self.photos = PhotoController()
         self.preferences = Preferences()
         self.shown: Snapshot | None = None
         self.waiting: list[Callable[[Snapshot], None]] = []

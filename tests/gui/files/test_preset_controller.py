@@ -73,10 +73,10 @@ def matched(
     """Open a photo and match it, as if with a known LED."""
     application.open_photo(photo_file)
     user.wait_until_idle()
-    application.photo.form.sent.show_key("square")
-    application.photo_wiring.match()
+    application.view("photo").form.sent.show_key("square")
+    application.shell.pane("photo").match()
     user.wait_until_idle()
-    assert application.photo_wiring.matching.match is not None
+    assert application.shell.pane("photo").matching.match is not None
     return application
 
 
@@ -117,7 +117,7 @@ def test_an_unreadable_preset_is_replaced_on_request_only(
     matched: Application, user: User, answer: Answer, own: Path
 ) -> None:
     answer("rubbish", False)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     assert (own / "rubbish.toml").read_bytes() == b"\xff no preset"
     user.choose("D&elete preset")
     assert not (own / "rubbish.toml").exists()
@@ -129,14 +129,14 @@ def test_a_saved_match_is_listed_last_and_can_be_loaded(
 ) -> None:
     answer("my phone", False)
     *before, unreadable = names(matched)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     assert names(matched) == [*before, "my phone", unreadable]
     assert user.message == "Saved the preset my phone"
     assert preset_named("my phone").title == "Measured from stripes.png"
     matched.controls.preset_chosen.emit("my phone")
     user.wait_until_idle()
-    assert matched.photo_wiring.matching.match is not None
-    assert matched.store.scene == matched.photo_wiring.matching.match.scene
+    assert matched.shell.pane("photo").matching.match is not None
+    assert matched.store.scene == matched.shell.pane("photo").matching.match.scene
     assert matched.controls.preset.currentText() == "my phone"
 
 
@@ -145,7 +145,7 @@ def test_the_shown_preset_stays_shown_when_another_is_saved(
 ) -> None:
     shown = user.choose_next_preset()
     answer("mine", False)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     assert matched.controls.preset.currentData() == shown
 
 
@@ -155,7 +155,7 @@ def test_a_preset_is_replaced_only_if_the_user_says_so(
     save_preset("mine", Scene())
     for replace in (False, True):
         answer("mine", replace)
-        matched.photo.result.save.click()
+        matched.view("photo").result.save.click()
         assert (preset_named("mine").scene != Scene()) == replace
 
 
@@ -163,7 +163,7 @@ def test_a_name_that_cannot_be_is_answered_by_a_sentence(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("phone-136us", False)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     assert user.message == "'phone-136us' is a preset of the program; choose another name."
     assert user_presets() == ()
 
@@ -173,7 +173,7 @@ def test_a_cancelled_dialog_saves_and_deletes_nothing(
 ) -> None:
     save_preset("mine", Scene())
     answer("", False)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     user.choose("D&elete preset")
     assert user_presets() == ("mine",)
 
@@ -183,7 +183,7 @@ def test_a_deleted_preset_is_listed_no_more(
 ) -> None:
     (own / "rubbish.toml").unlink()
     answer("mine", False)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     assert "mine" in names(matched)
     user.choose("D&elete preset")
     assert "mine" not in names(matched)
@@ -196,7 +196,7 @@ def test_a_missing_preset_gives_a_sentence_and_leaves_the_list(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("mine", False)
-    matched.photo.result.save.click()
+    matched.view("photo").result.save.click()
     scene = matched.store.scene
     delete_preset("mine")
     matched.controls.preset_chosen.emit("mine")
@@ -206,7 +206,7 @@ def test_a_missing_preset_gives_a_sentence_and_leaves_the_list(
 
 
 def test_without_a_match_there_is_nothing_to_save(application: Application, user: User) -> None:
-    application.presets.ask_to_save_match()
+    application.presets.ask_to_save_match(application.shell.pane("photo").matching)
     assert user.message == "There is no match yet that could be saved."
 
 

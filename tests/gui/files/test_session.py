@@ -75,15 +75,19 @@ def test_scene_settings_photo_and_options_are_there_again(
         application.window.actions_by_name["hold_brightness"].trigger()
         application.desktop.theme.choose("dark")
         application.show_mode("blend")
-        application.image.choose_picture("receiver")
+        application.view("picture").choose_picture("receiver")
         scene, settings = application.store.scene, application.settings.settings
     with start() as application:
         assert application.store.scene == scene
         assert not application.store.undo_stack.canUndo()
         assert application.settings.settings == settings
-        assert application.image.mode.key() == "blend"
-        assert application.image.switch.key() == application.image.whose == "receiver"
-        assert not application.image.photo.isVisible()  # it lies on the picture
+        assert application.view("picture").mode.key() == "blend"
+        assert (
+            application.view("picture").switch.key()
+            == application.view("picture").whose
+            == "receiver"
+        )
+        assert not application.view("picture").photo.isVisible()  # it lies on the picture
         assert application.desktop.brightness.is_on
         assert application.desktop.theme.theme == "dark"
         application.desktop.theme.choose("system")

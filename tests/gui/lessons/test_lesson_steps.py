@@ -406,11 +406,11 @@ def test_a_lab_sheet_has_buttons_for_what_it_asks(
     # The lesson stays beside the photo.
     assert application.window.modes.mode == "lessons"
     assert guide.isVisible()
-    assert application.photo.isVisible()
+    assert application.view("photo").isVisible()
     lessons = application.shell.pane("lessons")
     assert lessons.controller.lesson_under_way is not None
     given = lessons.answers.all_of(lessons.controller.lesson_under_way)
-    assert given[3].match is application.photo_wiring.matching.match
+    assert given[3].match is application.shell.pane("photo").matching.match
     assert given[3].photo == "led-1khz.jpg"
     assert given[0].match is None
     guide.step.all.click()
@@ -427,7 +427,7 @@ def test_a_lab_sheet_keeps_a_photo_of_one_s_own(
     for _ in range(3):
         guide.step.next.click()
     user.wait_until_idle()
-    opened = application.photo_wiring.matching.photo
+    opened = application.shell.pane("photo").matching.photo
     assert opened is not None
     assert opened.path == photo_file
     guide.step.all.click()
@@ -441,20 +441,20 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
     application.open_photo(sample)
     user.wait_until_idle()
-    application.photo.form.sent.show_key("square")
+    application.view("photo").form.sent.show_key("square")
     sheet.click()
     for _ in range(2):
         guide.step.next.click()
     user.wait_until_idle()
     assert application.photos.path == sample  # in place of a photo of one's own
-    assert application.photo.form.choice().sent == "auto"
+    assert application.view("photo").form.choice().sent == "auto"
     guide.step.back.click()
     user.wait_until_idle()
     assert application.photos.path is None
     guide.step.all.click()
     user.wait_until_idle()
     assert application.photos.path == sample
-    assert application.photo.form.choice().sent == "square"
+    assert application.view("photo").form.choice().sent == "square"
 
 
 @pytest.mark.parametrize("goal", ["", "Find the null."])

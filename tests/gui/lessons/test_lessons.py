@@ -165,7 +165,7 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
-    application.photo.form.sent.show_key("read")
+    application.view("photo").form.sent.show_key("read")
     application.window.bring_to_front("lessons")
     guide.list.choices[1].click()
     user.wait_until_idle()
@@ -173,7 +173,7 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
     guide.step.all.click()
     user.wait_until_idle()
     assert application.photos.path == photo_file
-    assert application.photo.form.choice().sent == "read"
+    assert application.view("photo").form.choice().sent == "read"
     assert in_front(application, "lessons")
 
 
@@ -185,7 +185,7 @@ def test_the_photos_give_the_numbers_that_the_answers_state(
     user.wait_until_idle()
     for expected in ("12.8", "8.9"):
         user.choose("&Match photo")
-        found = application.photo.result.values["readout_time"].text()
+        found = application.view("photo").result.values["readout_time"].text()
         value = float(found.split()[0])  # with no condition: the frequency is told
         assert f"{value:.1f}" == expected, found
         if expected == "12.8":
@@ -213,7 +213,7 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
 def test_a_step_about_a_photo_shows_its_verdict_first_and_takes_its_frequency_as_certain(
     application: Application, guide: LessonView, user: User
 ) -> None:
-    story, photo = application.story, application.photo
+    story, photo = application.story, application.view("photo")
     photo.form.sent.show_key("square")  # of the user's own photo before
     guide.list.choices[5].click()
     for frequency in (2e3, 6e3):
@@ -277,7 +277,7 @@ def test_the_lessons_stand_at_the_right_of_what_they_explain(
     application: Application, guide: LessonView, qtbot: QtBot
 ) -> None:
     window = application.window
-    dock, picture = window.docks["lessons"], application.image
+    dock, picture = window.docks["lessons"], application.view("picture")
     assert window.modes.mode == "lessons"
     qtbot.waitUntil(lambda: not dock.visibleRegion().isEmpty())
     assert dock.height() > window.height() // 2
@@ -336,21 +336,21 @@ def test_the_users_photo_returns_after_a_lesson(
 def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that_was_found(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
-    photo, sample = application.photo, sample_photos()[0]
+    photo, sample = application.view("photo"), sample_photos()[0]
     application.open_photo(sample)
     user.wait_until_idle()
     photo.form.sent.show_key("square")
     photo.form.sent.chosen.emit("square")
-    application.photo_wiring.lamps.draw(Region(100, 800, 0, 900))
+    application.shell.pane("photo").lamps.draw(Region(100, 800, 0, 900))
     user.choose("&Match photo")
 
     def state() -> tuple[object, ...]:
         shown = {name: label.text() for name, label in photo.result.values.items()}
         title = photo.verdict.heading
         return (
-            application.photo_wiring.matching.match, photo.form.choice(),
+            application.shell.pane("photo").matching.match, photo.form.choice(),
             photo.form.certain_values, photo.form.certain.isChecked(),
-            application.photo_wiring.lamps.region, shown, title, photo.result.isHidden(),
+            application.shell.pane("photo").lamps.region, shown, title, photo.result.isHidden(),
             photo.result.stale.isHidden(), application.photos.path,
         )  # fmt: skip
 
@@ -388,7 +388,7 @@ def test_a_lesson_beside_its_photo_fits_into_a_small_window(
     application: Application, guide: LessonView, user: User, qtbot: QtBot
 ) -> None:
     window = begin_with_photo(application, guide, user, QSize(1000, 700))
-    qtbot.waitUntil(lambda: application.photo.placement.isVisible())
+    qtbot.waitUntil(lambda: application.view("photo").placement.isVisible())
     assert window.minimumSizeHint().width() <= 1000
     assert window.width() == 1000
 

@@ -15,7 +15,7 @@ import occ_model as occ
 from occ_gui.photo import comparison_controller as comparison_room
 from occ_gui.photo.comparison_controller import ComparisonController
 from occ_gui.picture.placement import Placement, PlacementStore
-from occ_gui.profile.photo_profile import PhotoProfile
+from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError

@@ -29,7 +29,8 @@ class Bench:
         self.go_on = threading.Event()
         self.go_on.set()
         monkeypatch.setattr(occ, "load_photo", self._read)
-        self.controller = PhotoController([self])
+        self.controller = PhotoController()
+        self.controller.show_on([self])
         self.controller.opened.connect(self.opened.append)
         self.controller.failed.connect(self.failures.append)
         self._load = load_photo

@@ -29,11 +29,11 @@ def test_a_rectangle_that_is_drawn_is_the_one_matched(
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
-    wiring = application.photo_wiring
+    wiring = application.shell.pane("photo")
     wiring.lamps.set_by_hand(True)
     wiring.outlines.drawn.emit(Region(5, 25, 10, 40))
     assert wiring.lamps.by_hand == wiring.matching._region == Region(5, 25, 10, 40)
-    form = application.photo.lamps
+    form = application.view("photo").lamps
     form.whole_asked.emit()
     assert wiring.lamps.by_hand is None
     form.by_hand_chosen.emit(True)

@@ -205,18 +205,18 @@ def test_a_wipe_before_any_change_shows_nothing(
 def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     application: Application, user: User, grey_picture: Callable[[QWidget], Grey]
 ) -> None:
-    application.image.before.chosen.setChecked(True)
-    _, start = application.profile.simulation.getOriginalDataset()
+    application.view("picture").before.chosen.setChecked(True)
+    _, start = application.view("profile").simulation.getOriginalDataset()
     slider = user.slider("exposure_time")
     slider.setSliderDown(True)
     for position in (500, 600, 700):
         slider.setValue(position)
         user.wait_until_idle()
     slider.setSliderDown(False)
-    _, then = application.profile.before.getOriginalDataset()
+    _, then = application.view("profile").before.getOriginalDataset()
     assert np.array_equal(then, start)
-    assert application.image.before.picture.isVisible()
-    grey_picture(application.image)
+    assert application.view("picture").before.picture.isVisible()
+    grey_picture(application.view("picture"))
     assert application.before.before is not None
 
 

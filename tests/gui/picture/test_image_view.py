@@ -13,9 +13,8 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.image_view import ImageView
-from occ_gui.picture.photo_overlay import MODES
 from occ_gui.picture.picture_pane import PicturePane
-from occ_gui.picture.placement import Placement
+from occ_gui.picture.placement import MODES, Placement
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo

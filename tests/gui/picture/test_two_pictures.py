@@ -110,7 +110,7 @@ def test_the_pointer_reads_the_levels_of_both_pictures(
     application: Application, qtbot: QtBot
 ) -> None:
     application.story.show_whole_picture(True)
-    pane, frame = application.image.simulation, application.image._frame
+    pane, frame = application.view("picture").simulation, application.view("picture")._frame
     assert frame is not None
     view = pane.graphics
     centre = QPointF(frame.image.shape[1] / 2, frame.image.shape[0] / 2)
@@ -122,16 +122,16 @@ def test_the_pointer_reads_the_levels_of_both_pictures(
         f"Simulation: column {column}, row {row}, camera level {camera}, receiver level {receiver}"
     )
     for whose in PICTURES:
-        application.image.choose_picture(whose)
+        application.view("picture").choose_picture(whose)
         qtbot.mouseMove(view.viewport(), place + QPoint(1, 0))
         qtbot.mouseMove(view.viewport(), place)
         qtbot.waitUntil(lambda: application.window.pointed.toolTip() == expected)
-    assert application.image.levels_at(-1, 0) is None
-    assert application.image.levels_at(column, frame.image.shape[0]) is None
+    assert application.view("picture").levels_at(-1, 0) is None
+    assert application.view("picture").levels_at(column, frame.image.shape[0]) is None
 
 
 def test_the_position_where_a_fast_mouse_stops_is_read(application: Application) -> None:
-    pane = application.image.simulation
+    pane = application.view("picture").simulation
     viewport = pane.graphics.viewport()
     middle = viewport.rect().center()
     kind, none, no_key = QEvent.Type.MouseMove, Qt.MouseButton.NoButton, Qt.KeyboardModifier(0)
@@ -148,10 +148,10 @@ def test_the_position_where_a_fast_mouse_stops_is_read(application: Application)
 def test_save_picture_writes_and_names_the_one_that_is_shown(
     application: Application, user: User, tmp_path: Path
 ) -> None:
-    frame = application.image._frame
+    frame = application.view("picture")._frame
     assert frame is not None
     for whose in PICTURES:
-        application.image.choose_picture(whose)
+        application.view("picture").choose_picture(whose)
         path = tmp_path / f"{whose}.png"
         application.files.save_picture(path)
         assert f"{whose}'s picture" in user.message
@@ -165,7 +165,7 @@ def test_an_export_draws_and_names_the_one_that_is_shown(
 ) -> None:
     means = []
     for whose in PICTURES:
-        application.image.choose_picture(whose)
+        application.view("picture").choose_picture(whose)
         path = tmp_path / f"{whose}.csv"
         application.desktop.export.export("picture", path)
         user.wait_until_idle()
@@ -173,7 +173,7 @@ def test_an_export_draws_and_names_the_one_that_is_shown(
         assert f"{whose.title()}'s picture" in lines[0]
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))
         means.append(np.mean([float(cell) for row in rows[1:] for cell in row[1:]]))
-    frame = application.image._frame
+    frame = application.view("picture")._frame
     assert frame is not None
     assert means == pytest.approx([frame.camera_image.mean(), frame.image.mean()], abs=1.0)
 
@@ -182,7 +182,7 @@ def test_an_exported_profile_is_the_one_that_is_shown(
     application: Application, user: User, tmp_path: Path
 ) -> None:
     for enhanced in (False, True):
-        application.profile.enhanced.setChecked(enhanced)
+        application.view("profile").enhanced.setChecked(enhanced)
         path = tmp_path / f"{enhanced}.csv"
         application.desktop.export.export("profile", path)
         user.wait_until_idle()
@@ -191,7 +191,10 @@ def test_an_exported_profile_is_the_one_that_is_shown(
         table = np.array(
             [line.split(",") for line in lines if line[:1].isdigit()], dtype=np.float64
         )
-        for column, curve in ((1, application.profile.simulation), (2, application.profile.band)):
+        for column, curve in (
+            (1, application.view("profile").simulation),
+            (2, application.view("profile").band),
+        ):
             np.testing.assert_allclose(table[:, column], curve.getOriginalDataset()[1], atol=0.01)
 
 
@@ -200,12 +203,12 @@ def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(
 ) -> None:
     application.window.bring_to_front("decode")
     for whose in PICTURES:
-        application.image.choose_picture(whose)
+        application.view("picture").choose_picture(whose)
         application.store.change(iso=200.0 if whose == "camera" else 300.0)
         user.wait_until_idle()
-        frame = application.image._frame
+        frame = application.view("picture")._frame
         assert frame is not None
-        signal = application.decode.signal.signal.getOriginalDataset()[1]
+        signal = application.view("decode").signal.signal.getOriginalDataset()[1]
         read = occ.decode(frame.image, frame.scene).signal
         assert read is not None
         assert np.array_equal(signal, read)

@@ -17,7 +17,7 @@ from occ_gui.pins.pin_controller import PinController
 from occ_gui.pins.pinned import Pinned
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.widgets.plot import PACKETS_IN_VIEW
+from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_model.scene.scene import Scene
 
 SnapshotOf = Callable[..., Snapshot]

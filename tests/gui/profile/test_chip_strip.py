@@ -6,8 +6,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
+from occ_gui.shell.photo_profile import PhotoProfile
 from occ_model.results import ChipReading, Region
 
 CHIPS = np.array([1, 0, 1, 1, 0], np.uint8)

@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
 from occ_gui.profile import profile_view
-from occ_gui.profile.photo_profile import PhotoProfile
 from occ_gui.profile.profile_view import ProfileView
+from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot, Source
 from occ_gui.widgets import first_periods

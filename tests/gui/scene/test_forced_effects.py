@@ -47,7 +47,7 @@ def test_a_click_gives_all_effects_back_to_the_plan(by_hand: Application, user: 
     user.wait_until_idle()
     assert forced(by_hand) == {}
     assert not by_hand.controls.forced.isVisible()
-    assert by_hand.accuracy.table._force == {}
+    assert by_hand.view("accuracy").table._force == {}
     user.choose("&Undo")
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}
 

@@ -45,8 +45,8 @@ def test_the_pane_of_the_manual_shows_the_stripes_of_each_picture(
 ) -> None:
     window, board, found = Window(), Board(), snapshot_of()
     qtbot.addWidget(window)
-    shell = Shell(window, Store(Workspace(found.scene)), board)
-    shell.add(example)
+    shell = Shell(Store(Workspace(found.scene)), board)
+    shell.add(example, window)
     window.show()
     window.dock.visibilityChanged.emit(True)
     pane = shell.pane("run_lengths")
@@ -56,4 +56,4 @@ def test_the_pane_of_the_manual_shows_the_stripes_of_each_picture(
     for curve, histogram in zip(pane.curves, found.decoded.histograms, strict=True):
         assert np.array_equal(curve.getData()[1], histogram.counts)
     board.show_snapshot(snapshot_of(switching_frequency=500.0, exposure_time=1e-3))
-    assert pane.of_picture == (pane.plot,)
+    assert pane.of_results == (pane.plot,)

@@ -61,7 +61,7 @@ class Bench:
     def __init__(self, qtbot: QtBot) -> None:
         self.store, self.board, self.window = Store(Workspace(Scene())), Board(), Window()
         qtbot.addWidget(self.window)
-        self.shell = Shell(self.window, self.store, self.board)
+        self.shell = Shell(self.store, self.board)
         self.done: list[str] = []
         self.shell.add(
             Feature(
@@ -71,7 +71,8 @@ class Bench:
                 make=Noting,
                 part=lambda workspace, results: (workspace.scene.camera.iso, results.snapshot),
                 actions={"do": lambda: self.done.append("done")},
-            )
+            ),
+            self.window,
         )
 
     def see(self, seen: bool) -> None:
@@ -132,8 +133,10 @@ def test_a_hidden_pane_is_told_when_it_is_seen_again(bench: Bench) -> None:
 def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
     window, board = Window(), Board()
     qtbot.addWidget(window)
-    shell = Shell(window, Store(Workspace(Scene())), board)
-    shell.add(Feature(name="x", title="x", help="", make=Noting, part=lambda _, r: r.snapshot))
+    shell = Shell(Store(Workspace(Scene())), board)
+    shell.add(
+        Feature(name="x", title="x", help="", make=Noting, part=lambda _, r: r.snapshot), window
+    )
     window.docks["x"].visibilityChanged.emit(True)
     board.changed.emit()
     assert shell.pane("x").parts == []

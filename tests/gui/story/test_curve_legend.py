@@ -4,7 +4,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from occ_gui.story.curve_legend import CurveLegend
-from occ_gui.widgets.plot import BAND, SIMULATION, THRESHOLD, thin
+from occ_gui.widgets.pens import BAND, SIMULATION, THRESHOLD, thin
 
 KEYS = ("simulation", "band", "threshold")
 

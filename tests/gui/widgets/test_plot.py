@@ -6,7 +6,8 @@ from PySide6.QtGui import QImage, QPainter, QPalette
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.widgets.plot import SIMULATION, Plot, new_plot, thin
+from occ_gui.widgets.pens import SIMULATION, thin
+from occ_gui.widgets.plot import Plot, new_plot
 
 
 @pytest.fixture

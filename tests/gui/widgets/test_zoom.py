@@ -44,7 +44,9 @@ def test_every_plot_of_the_window_has_an_end_to_its_zoom(
     for dock in application.window.docks.values():
         dock.show()
     application.window.actions_by_name["pin_a"].trigger()
-    qtbot.waitUntil(lambda: application.is_idle and application.study.is_idle)
+    qtbot.waitUntil(
+        lambda: application.is_idle and application.shell.pane("accuracy").study.is_idle
+    )
     views = views_of(application.window)
     assert len(views) >= 9
     for view in views:

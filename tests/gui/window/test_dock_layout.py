@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.picture.photo_overlay import MODES
+from occ_gui.picture.placement import MODES
 from occ_gui.window.modes.mode import MODES as WINDOW_MODES
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
@@ -142,7 +142,7 @@ def pages(application: Application) -> Iterator[str]:
 
 def show_everything_about_the_photo(application: Application) -> None:
     """Show a match being worked on, its failure, and the result of the one before."""
-    photo = application.photo
+    photo = application.view("photo")
     photo.form.sent.show_key("square")
     photo.form.sent.chosen.emit("square")
     photo.result.show()
@@ -162,7 +162,7 @@ def test_no_control_is_cut_off_squeezed_or_overlapped(
         user.wait_until_idle()
         assert_faultless(qtbot, application.window, changes)
     application.open_photo(photo_file)
-    application.profile.enhanced.setChecked(True)
+    application.view("profile").enhanced.setChecked(True)
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "photo beside")
     for mode in MODES:
@@ -200,7 +200,7 @@ def test_explaining_and_comparing_panes_are_whole_at_any_size(
         application.store.change(**changes)
         user.wait_until_idle()
         pins.pin("B")
-        application.image.before.chosen.setChecked(True)
+        application.view("picture").before.chosen.setChecked(True)
         assert_faultless(qtbot, window, changes)
         assert axis_labels_cut_off(window) == []
         assert plots_cut_off(window) == []
@@ -268,7 +268,7 @@ def test_the_window_keeps_the_size_that_the_user_gave_it(
 ) -> None:
     application.window.resize(size)
     application.open_photo(photo_file)
-    application.profile.enhanced.setChecked(True)
+    application.view("profile").enhanced.setChecked(True)
     for changes in STATES:
         application.store.change(**changes)
         user.wait_until_idle()
@@ -284,8 +284,8 @@ def test_every_axis_label_fits_its_axis(application: Application, user: User, si
     application.store.change(**MISREAD)
     user.wait_until_idle()
     QApplication.processEvents()
-    for decoder in range(application.decode.decoders.count()):
-        application.decode.decoders.setCurrentIndex(decoder)
+    for decoder in range(application.view("decode").decoders.count()):
+        application.view("decode").decoders.setCurrentIndex(decoder)
         QApplication.processEvents()
         assert axis_labels_cut_off(application.window) == []
 
@@ -295,7 +295,7 @@ def test_every_effect_is_in_view_at_the_windows_first_size(
 ) -> None:
     application.window.bring_to_front("accuracy")
     QApplication.processEvents()
-    table = application.accuracy.table
+    table = application.view("accuracy").table
     assert table.model().rowCount() * table.rowHeight(0) <= table.viewport().height()
 
 
@@ -325,6 +325,7 @@ def test_both_steps_of_the_decoder_share_the_height(application: Application, us
     user.wait_until_idle()
     QApplication.processEvents()
     heights = [
-        plot.height() for plot in (application.decode.signal, application.decode.run_lengths)
+        plot.height()
+        for plot in (application.view("decode").signal, application.view("decode").run_lengths)
     ]
     assert min(heights) >= 0.5 * max(heights)

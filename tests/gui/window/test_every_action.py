@@ -251,7 +251,7 @@ def dialogs(monkeypatch: pytest.MonkeyPatch) -> Dialogs:
 def looks(application: Application, dialogs: Dialogs) -> list[Any]:
     """Give all that an entry could change."""
     window = application.window
-    image = application.image
+    image = application.view("picture")
     return [
         application.store.scene,
         application.settings.settings,
@@ -267,7 +267,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
         image.simulation.box.viewRange(),
         application.photos.reading,
         application.desktop.theme.theme,
-        not application.photo_wiring.matching.runner.is_idle,
+        not application.shell.pane("photo").matching.runner.is_idle,
         window.windowTitle(),
         window.saveState().toBase64().data(),
         QGuiApplication.clipboard().image().size(),
@@ -304,7 +304,7 @@ def test_each_entry_of_the_menus_does_something(
             application.store.change(iso=100.0 + place)
             application.window.bring_to_front("decode")
             user.wait_until_idle()
-        application.image.simulation.box.setRange(xRange=(3, 9), yRange=(3, 9))
+        application.view("picture").simulation.box.setRange(xRange=(3, 9), yRange=(3, 9))
         application.window.statusBar().clearMessage()
         before = looks(application, dialogs)
         action.trigger()

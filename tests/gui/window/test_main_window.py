@@ -25,7 +25,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.picture.photo_overlay import MODES as OVERLAYS
+from occ_gui.picture.placement import MODES as OVERLAYS
 from occ_gui.window.modes.mode import MODES
 
 
@@ -185,7 +185,7 @@ def test_one_way_of_showing_the_photo_is_chosen_at_a_time(application: Applicati
     for action in (*modes, modes[0]):
         action.trigger()
         assert [mode.data() for mode in modes if mode.isChecked()] == [action.data()]
-        assert application.image.mode.key() == action.data()
+        assert application.view("picture").mode.key() == action.data()
 
 
 def drop(application: Application, *urls: QUrl) -> None:

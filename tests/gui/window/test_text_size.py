@@ -22,7 +22,7 @@ def sizes(application: Application) -> list[float]:
     bar, scene = application.story.verdict, application.controls
     shown = (
         bar.title, bar.sentence, scene.panels["Main"].labels["distance"], scene.preset,
-        scene.code.bits, application.decode.verdict, application.accuracy.table,
+        scene.code.bits, application.view("decode").verdict, application.view("accuracy").table,
     )  # fmt: skip
     QApplication.processEvents()  # Qt tells its windows of another font by an event
     return [widget.font().pointSizeF() for widget in shown]

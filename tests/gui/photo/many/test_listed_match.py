@@ -52,8 +52,8 @@ def listed(
 
     monkeypatch.setattr(match_photos, "matched_rows", rows)
     application.store.change(pattern="10", switching_frequency=2e3, readout_time=12e-6)
-    application.photo_wiring.many.show_files(paths)
-    application.photo_wiring.match_all()
+    application.shell.pane("photo").many.show_files(paths)
+    application.shell.pane("photo").match_all()
     user.wait_until_idle()
     return paths
 
@@ -63,16 +63,18 @@ def listed(
 def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     application: Application, user: User, listed: tuple[Path, ...]
 ) -> None:
-    matching, started = application.photo_wiring.matching, list[object]()
-    matching.runner.ask = started.append  # type: ignore[method-assign, assignment]
-    row = application.photo.many.rows.row_of(listed[1])
+    matching, started = application.shell.pane("photo").matching, list[object]()
+    matching.runner.ask = started.append
+    row = application.view("photo").many.rows.row_of(listed[1])
     assert row is not None
     assert row.match is not None
     application.open_photo(listed[1])
     user.wait_until_idle()
     assert matching.match is row.match
-    assert application.photo._scroll.verticalScrollBar().value() == 0  # the table is at hand
-    assert application.photo.verdict.heading.startswith(f"Photo: {row.verdict}")
+    assert (
+        application.view("photo")._scroll.verticalScrollBar().value() == 0
+    )  # the table is at hand
+    assert application.view("photo").verdict.heading.startswith(f"Photo: {row.verdict}")
     user.choose("&Apply to the scene")
     assert application.store.scene == row.match.scene
     assert not started
@@ -84,13 +86,13 @@ def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
 ) -> None:
     application.open_photo(listed[0])
     user.wait_until_idle()
-    assert application.photo_wiring.matching.match is not None
-    rows = application.photo.many.rows
+    assert application.shell.pane("photo").matching.match is not None
+    rows = application.view("photo").many.rows
     marks = [rows.data(rows.index(n, 0), Qt.ItemDataRole.BackgroundRole) for n in range(2)]
     assert [mark is not None for mark in marks] == [True, False]
     application.photos.scan_along("lines")
     user.wait_until_idle()
-    assert application.photo_wiring.matching.match is None
+    assert application.shell.pane("photo").matching.match is None
     application.photos.scan_along("auto")
     user.wait_until_idle()
 
@@ -99,13 +101,13 @@ def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
 def test_a_row_says_that_its_photo_was_matched_by_itself_since(
     application: Application, user: User, listed: tuple[Path, ...]
 ) -> None:
-    rows = application.photo.many.rows
+    rows = application.view("photo").many.rows
     application.open_photo(listed[1])
     user.wait_until_idle()
     before = rows.text(1, 1)
     assert "earlier" not in before
-    application.photo.form.gamma.setChecked(True)
-    application.photo_wiring.match()
+    application.view("photo").form.gamma.setChecked(True)
+    application.shell.pane("photo").match()
     user.wait_until_idle()
     assert rows.text(1, 1) == f"{before}, earlier match"
     assert rows.text(0, 1) == before

@@ -2,7 +2,7 @@
 
 import pytest
 
-from occ_gui.decoding.verdict import Verdict
+from occ_gui.simulation.verdict import Verdict
 from occ_gui.widgets.state_look import State
 
 

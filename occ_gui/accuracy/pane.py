@@ -1,0 +1,61 @@
+"""The pane of accuracy and time: the settings of the simulation, and what is measured of it."""
+
+from typing import TypeAlias
+
+from occ_gui.accuracy.accuracy_view import AccuracyView
+from occ_gui.accuracy.controller import AccuracyController
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
+from occ_gui.simulation.controller import SimulationController
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results import Decision
+from occ_model.scene.simulation_settings import SimulationSettings
+
+AccuracyPart: TypeAlias = tuple[SimulationSettings, tuple[Decision, ...], Snapshot | None]
+"""The settings, the effects that the plan has just switched, and the exact results."""
+
+
+class AccuracyPane(Pane[AccuracyPart]):
+    """Connects the view with the settings and with the study."""
+
+    def __init__(self, scenes: SceneStore, simulation: SimulationController) -> None:
+        self.view = view = AccuracyView()
+        super().__init__(view)
+        settings = scenes.settings
+        self.of_results = view.of_scene
+        self.study = AccuracyController(scenes, settings, simulation, view)
+        self._snapshot: Snapshot | None = None
+        view.tolerance_edited.connect(settings.set_tolerance)
+        view.observable_chosen.connect(settings.set_observable)
+        view.noise_chosen.connect(settings.set_noise)
+        view.effect_switched.connect(scenes.force)
+        settings.refused.connect(self._show_refused)
+        self._settings = settings
+
+    def show_part(self, part: AccuracyPart) -> None:
+        """Show these settings and results."""
+        settings, switched, snapshot = part
+        self.view.show_settings(settings)
+        self.view.show_switched(switched)
+        if snapshot is not None and snapshot is not self._snapshot:
+            self._snapshot = snapshot
+            self.view.show_snapshot(snapshot)
+            self.study.show_snapshot(snapshot)
+
+    def _show_refused(self, _sentence: str) -> None:
+        # The control still shows the refused value.
+        self.view.show_settings(self._settings.settings)
+
+    def set_seen(self, seen: bool) -> None:
+        """Draw and measure while the pane is seen."""
+        self.view.set_seen(seen)
+        self.study.set_seen(seen)
+
+    @property
+    def is_measured(self) -> bool:
+        """Whether nothing is being measured or about to be."""
+        return self.study.is_idle
+
+    def stop(self) -> None:
+        """Stop measuring."""
+        self.study.stop()

@@ -1,0 +1,41 @@
+"""The pane of the column profile: each of its parts is drawn where it differs."""
+
+from dataclasses import replace
+from typing import TypeAlias
+
+from occ_gui.core.store import Store
+from occ_gui.profile.profile_view import ProfileView
+from occ_gui.shell.feature import Pane
+from occ_gui.shell.photo_profile import PhotoProfile
+from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_model.results import ChipReading
+
+ProfilePart: TypeAlias = tuple[
+    Reading | None, Snapshot | None, PhotoProfile | None, ChipReading | None, bool
+]
+"""The reading, the results before, the photo's profile and chips, and whether all is enhanced."""
+
+
+class ProfilePane(Pane[ProfilePart]):
+    """The profile of the scene, with those of before and of a photo."""
+
+    def __init__(self, store: Store) -> None:
+        self.view = view = ProfileView()
+        super().__init__(view)
+        self.of_readings = (view,)
+        self._shown: ProfilePart = (None, None, None, None, False)
+        view.enhanced_chosen.connect(lambda on: store.put(replace(store.workspace, is_enhanced=on)))
+
+    def show_part(self, part: ProfilePart) -> None:
+        """Draw what differs from what is drawn."""
+        view, shown, self._shown = self.view, self._shown, part
+        reading, before, photo, chips, is_enhanced = part
+        view.enhanced.setChecked(is_enhanced)
+        if before is not None and before is not shown[1]:
+            view.show_before(before)
+        if reading is not None and reading is not shown[0]:
+            view.show_reading(reading)
+        if photo is not shown[2]:
+            view.show_photo_profile(photo)
+        if chips is not shown[3]:
+            view.chips.show_chips(chips)

@@ -7,7 +7,8 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from occ_gui.bands.shown_bands import EXPOSURES, FREQUENCIES, ShownBands
-from occ_gui.widgets.plot import new_plot, thin
+from occ_gui.widgets.pens import thin
+from occ_gui.widgets.plot import new_plot
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 

@@ -4,7 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
-from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.recording import FRAME_RATE
@@ -38,7 +37,7 @@ class Workspace:
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
     shown: Shown = "rate"
-    decoder: str = PAPER_DECODER
+    decoder: str = "threshold"
     """Whose result and steps are shown."""
     whose: str = PICTURES[0]
     """Whose picture is shown, one of PICTURES."""

@@ -11,7 +11,7 @@ Request = TypeVar("Request")
 PAUSE = 0.15
 """Seconds: changes that follow each other faster are one movement, such as a drag."""
 
-_MOST = 64
+_REMEMBERED_REQUESTS = 64
 """Former requests whose end is remembered; the result of an older one is of any age."""
 
 
@@ -27,7 +27,7 @@ class ResultAges(Generic[Request]):
     def __init__(self, request: Request, clock: Callable[[], float] = monotonic) -> None:
         self.present = request
         self._clock = clock
-        self._ended: deque[tuple[Request, float]] = deque(maxlen=_MOST)
+        self._ended: deque[tuple[Request, float]] = deque(maxlen=_REMEMBERED_REQUESTS)
         self._changed_at = -math.inf
         self._is_moving = False
 

@@ -59,7 +59,7 @@ class JobChannel(QObject):
         self._queue.scheduler().put(run)
 
     def request(self, run: int) -> Any:
-        """Give the request of a run, None where it is not wanted any more."""
+        """Return the request of a run, None where it is not wanted any more."""
         return self._requests.get(run)
 
     def cancel(self) -> None:
@@ -118,7 +118,7 @@ class WorkQueue(QObject):
         self._reported.connect(self._on_report, queued)
 
     def scheduler(self) -> Scheduler:
-        """Give the scheduler; its thread starts when it is first needed."""
+        """Return the scheduler; its thread starts when it is first needed."""
         if self._scheduler is None:
             self._scheduler = Scheduler(
                 self._start,
@@ -138,7 +138,7 @@ class WorkQueue(QObject):
         return None if self._scheduler is None else self._scheduler.workers
 
     def counted(self, counter: int) -> int:
-        """Give the number of heartbeats in a counter."""
+        """Return the number of heartbeats in a counter."""
         workers = self.workers
         return 0 if workers is None else workers.counted(counter)
 

@@ -44,7 +44,7 @@ class Reporter:
         self._worker, self._run = worker, run
 
     def __call__(self, part: Any = None) -> None:
-        """Give a part of the result, or the share that is done; end work that is not wanted."""
+        """Report a part of the result, or the fraction done; end work that is not wanted."""
         if not self._run.is_wanted:
             raise Superseded
         if part is not None:

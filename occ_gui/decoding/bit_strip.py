@@ -26,7 +26,7 @@ _OVER = 2
 _MOST_DIGITS = 64
 """Bits up to which the tool tip writes them out."""
 
-_FADED = 0.35
+_FADED_OPACITY = 0.35
 """Opacity of bits that are not of the present scene."""
 
 _RIGHT = QColor(colours.RIGHT)
@@ -95,7 +95,7 @@ class BitStrip(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self.isEnabled():  # the bits are those of an earlier scene
-            painter.setOpacity(_FADED)
+            painter.setOpacity(_FADED_OPACITY)
         rows = ((self.tr("sent"), self._sent), (self.tr("received"), self._received))
         count = max(1, len(self._sent))
         width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)

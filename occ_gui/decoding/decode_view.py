@@ -146,7 +146,7 @@ class DecodeView(QWidget):
                 self.verdict.setText(self._verdict(self._chosen(self._reading)))
 
     def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
-        """Give the result of every decoder; of one that has not read, that it will."""
+        """Return the result of every decoder; of one that has not read, that it will."""
         there = [result.decoder for result in reading.results]
         names = dict.fromkeys((*self._names, *there))
         return tuple(result_of(reading, name) for name in names)

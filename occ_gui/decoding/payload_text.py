@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from occ_model import colours
 from occ_model.scene.payload import Piece, compared
 
-_MOST = 120
+_MAX_SHOWN_LETTERS = 120
 """Letters that are shown; the bits of the others are in the strip of bits."""
 
 _MISSING = "·"
@@ -49,7 +49,7 @@ class PayloadText(QLabel):
 
 
 def _shortened(text: str) -> str:
-    return text if len(text) <= _MOST else f"{text[: _MOST - 1]}…"
+    return text if len(text) <= _MAX_SHOWN_LETTERS else f"{text[: _MAX_SHOWN_LETTERS - 1]}…"
 
 
 def _marked(pieces: Iterable[Piece]) -> str:
@@ -57,7 +57,7 @@ def _marked(pieces: Iterable[Piece]) -> str:
     marked, letters = "", 0
     for piece in pieces:
         letters += len(piece.sent)
-        if letters > _MOST:
+        if letters > _MAX_SHOWN_LETTERS:
             return f"{marked}…"
         text = escape(piece.received or _MISSING)
         marked += text if piece.is_right else f'<s style="color:{colours.WRONG}">{text}</s>'

@@ -12,8 +12,8 @@ _EXPORTS = "files/exports"
 _FOLDERS = (_FOLDER, _EXPORTS)
 _MARGINS, _NO = "view/margins", "no"
 
-_LONGEST = 1_000_000
-"""Most characters of a stored text."""
+_MAX_TEXT_LENGTH = 1_000_000
+"""Maximum characters of a stored text."""
 
 _LONGEST_PATH = 4096
 """Most characters of a stored path; no system allows longer ones."""
@@ -108,7 +108,7 @@ class Preferences(QObject):
     def recall(self, key: str) -> str:
         """Return the text stored under a key; empty where there is none."""
         value = self._value(key)
-        return value if isinstance(value, str) and len(value) <= _LONGEST else ""
+        return value if isinstance(value, str) and len(value) <= _MAX_TEXT_LENGTH else ""
 
     def keep(self, key: str, text: str) -> None:
         """Store a text under a key."""

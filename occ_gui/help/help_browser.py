@@ -56,7 +56,7 @@ class HelpBrowser(QTextBrowser):
         return self._fitted(self._pictures[key])
 
     def _fitted(self, picture: QImage) -> QImage:
-        """Give a copy of a picture that is no wider than the page."""
+        """Return a copy of a picture that is no wider than the page."""
         ratio = self.devicePixelRatioF()
         width = int((self.viewport().width() - 2 * _MARGIN - 1) * ratio)
         if picture.width() > width > 0:

@@ -20,7 +20,7 @@ _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 
 
 def docs_folder() -> Path:
-    """Give the folder of the pages; the pictures they show are in a folder beside it.
+    """Return the folder of the pages; the pictures they show are in a folder beside it.
 
     Raises
     ------
@@ -45,5 +45,5 @@ def pages(folder: Path) -> list[tuple[str, str]]:
 
 
 def heading_id(text: str) -> str:
-    """Give the name by which a link reaches a heading, as the usual viewers of Markdown make it."""
+    """Return the anchor of a heading, as the usual viewers of Markdown make it."""
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")

@@ -14,7 +14,7 @@ from occ_model.results import Region
 
 _REGION_PEN = pg.mkPen(REGION, width=2)
 
-_FARTHEST = 1e7
+_MAX_DISTANCE = 1e7
 """Largest distance from the first pixel that can be shown, in pixels."""
 
 _LARGEST_SPAN = 4e6
@@ -35,7 +35,7 @@ class PicturePane(QWidget):
         self.graphics.setAccessibleName(caption)
         self.box = pg.ViewBox(lockAspect=True, invertY=True, enableMenu=False)
         self.box.setLimits(
-            xMin=-_FARTHEST, xMax=_FARTHEST, yMin=-_FARTHEST, yMax=_FARTHEST,
+            xMin=-_MAX_DISTANCE, xMax=_MAX_DISTANCE, yMin=-_MAX_DISTANCE, yMax=_MAX_DISTANCE,
             minXRange=_LEAST_SPAN, minYRange=_LEAST_SPAN,
             maxXRange=_LARGEST_SPAN, maxYRange=_LARGEST_SPAN,
         )  # fmt: skip

@@ -9,8 +9,8 @@ _LEAST_WIDTH = 1.3
 """Width of a pixel from which its value is written, relative to that of the widest value."""
 
 _WIDEST = "255"
-_MOST = 5000
-"""Most values that are written: more pixels than that cannot be so large on any screen."""
+_MAX_VALUES = 5000
+"""Maximum number of values written: more pixels than that cannot be so large on any screen."""
 
 _MIDDLE = 128
 
@@ -31,7 +31,7 @@ def draw_pixel_values(painter: QPainter, image: ByteArray, part: QRect, target: 
     metrics = QFontMetricsF(painter.font())
     least = _LEAST_WIDTH * metrics.horizontalAdvance(_WIDEST)
     count = part.width() * part.height()
-    if width < least or height < metrics.height() or count > _MOST:
+    if width < least or height < metrics.height() or count > _MAX_VALUES:
         return 0
     painter.save()
     painter.setWorldTransform(QTransform())

@@ -37,7 +37,7 @@ _LONGEST_LEVEL, _AXIS_GAPS = "-200", 14
 _SHADE = 20
 """Opacity of the text's colour over the columns that are not read, of 255."""
 
-_FAR = 1e7
+_BEYOND_ANY_PICTURE = 1e7
 """Column beyond any picture."""
 
 
@@ -255,8 +255,8 @@ class ProfileView(QWidget):
             item.setVisible(region is not None)
         if region is not None:
             low, high = self._outside
-            low.setRegion((-_FAR, region.first_column))
-            high.setRegion((region.last_column, _FAR))
+            low.setRegion((-_BEYOND_ANY_PICTURE, region.first_column))
+            high.setRegion((region.last_column, _BEYOND_ANY_PICTURE))
         self.threshold.setVisible(enhanced and decoded.threshold is not None)
         if decoded.threshold is not None:
             self.threshold.setValue(decoded.threshold)

@@ -31,7 +31,7 @@ from occ_model.scene.parameter_kinds import (
 _SLIDER_STEPS = 1000
 
 _DIGITS = 4
-"""Significant digits of a value that is told."""
+"""Significant digits of a value in a message."""
 
 
 class ParameterRow(QWidget):

@@ -21,7 +21,7 @@ _RED = QColor("#b3261e")
 
 _FRAME_WIDTH = 2
 
-_PADDING, _BESIDE, _GAP = 6, 4, 2
+_PADDING, _MARGIN, _GAP = 6, 4, 2
 """Pixels round the sentence, beside it, and between it and the field."""
 
 
@@ -74,13 +74,13 @@ class RefusalNotice(QLabel):
     def _place(self) -> None:
         """Lie under the field, or above it where there is no room below."""
         page = self.parentWidget() or self._field
-        width = page.width() - 2 * _BESIDE
+        width = page.width() - 2 * _MARGIN
         height = self.heightForWidth(width)
         top = self._field.mapTo(page, self._field.rect().bottomLeft()).y() + _GAP
         if top + height > page.height():
             above = self._field.mapTo(page, self._field.rect().topLeft()).y() - _GAP - height
             top = above if above >= 0 else top
-        self.setGeometry(_BESIDE, top, width, height)
+        self.setGeometry(_MARGIN, top, width, height)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         """Follow the field, and be seen only where it is."""

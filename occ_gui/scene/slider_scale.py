@@ -22,7 +22,7 @@ _DIGITS = 4
 _Text: TypeAlias = tuple[str, QRectF]
 """A text with its place."""
 
-_NEAR = 6.0
+_TOOLTIP_DISTANCE = 6.0
 """Pixels from a mark within which its tooltip is shown."""
 
 
@@ -69,7 +69,11 @@ class SliderScale(QWidget):
     def event(self, event: QEvent) -> bool:
         """Tell what a mark means when the mouse rests near it."""
         if event.type() == QEvent.Type.ToolTip and isinstance(event, QHelpEvent):
-            near = [m for m in self.marks if abs(self._x(m.value) - event.pos().x()) <= _NEAR]
+            near = [
+                m
+                for m in self.marks
+                if abs(self._x(m.value) - event.pos().x()) <= _TOOLTIP_DISTANCE
+            ]
             if near:
                 QToolTip.showText(event.globalPos(), self._meaning(near[0]), self)
             else:

@@ -5,14 +5,14 @@ from PySide6.QtCore import QCoreApplication
 from occ_gui.simulation.snapshot import ColumnView
 from occ_model.scene.parameters import PARAMETERS
 
-_LEAST = 0.05
-"""Columns a packet below which nothing is seen of it."""
+_MIN_VISIBLE_DRIFT = 0.05
+"""Drift in columns per packet below which it is not seen."""
 
 
 def drift_of(reading: ColumnView) -> str:
     """Say by how much the band model drifts; empty where it does not."""
     columns = abs(reading.band_drift)
-    if columns < _LEAST:
+    if columns < _MIN_VISIBLE_DRIFT:
         return ""
     text = (
         _tr("drifts {columns} columns a cycle")

@@ -50,8 +50,8 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
 
-_REST = 0.05
-"""Seconds without a change after which a hand rests, and the exact picture is begun."""
+_REST_TIME = 0.05
+"""Seconds without a change after which the exact picture is begun."""
 
 _LONGEST_PAINT = 0.1
 """Seconds for which work waits at most until the window has painted what it has been given."""
@@ -207,7 +207,7 @@ class SimulationController(QObject):
             report(Picture.of(draft, request.whose, request, reading))
             report.wait_for_paint(_LONGEST_PAINT)
             reading, heartbeat = None, report.give_way
-            report.give_way(self.ages.rest(_REST))
+            report.give_way(self.ages.rest(_REST_TIME))
             self._wait_for_others(report)
         elif reading is not None and not is_soon(planned):
             report(reading)

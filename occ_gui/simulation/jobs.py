@@ -94,7 +94,7 @@ def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
 
 
 def _in_whole_picture(result: DecodeResult, draft: Frame) -> DecodeResult:
-    """Give the region in the rows of the picture; how it was found holds for the draft alone."""
+    """Return the region in the rows of the picture; how it was found holds for the draft alone."""
     region, step = result.region, draft.rows_step
     if region is not None:
         last = min(region.last_row * step, draft.scene.camera.rows)

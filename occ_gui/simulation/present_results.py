@@ -46,7 +46,7 @@ class PresentResults(QObject):
             self.status_message.emit(self.tr("Waiting for the picture of this scene…"))
 
     def _serve(self) -> bool:
-        """Give the latest results to all who wait, if they are those of the present scene."""
+        """Deliver the latest results to all who wait, if they are those of the present scene."""
         snapshot = self.latest
         if snapshot is None or not self.is_present(snapshot):
             return False

@@ -10,7 +10,7 @@ from occ_gui.simulation.snapshot import Reading, SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results import Frame
 
-_SMALLEST = 256
+_MIN_COPY_SIDE = 256
 """Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
 
 
@@ -69,7 +69,7 @@ class Picture:
         return self.frame.rows_step > 1
 
     def seen_by(self, whose: str) -> PictureView:
-        """Give the pixels of the camera's picture or of the receiver's."""
+        """Return the pixels of the camera's picture or of the receiver's."""
         frame, camera = self.frame, self.frame.scene.camera
         image = frame.picture(whose)
         smallest = self.halves[-1] if self.halves and self.whose == whose else image
@@ -88,7 +88,7 @@ class Picture:
         """Compute the smaller copies; to be called on a background thread."""
         halves = []
         pixels = frame.picture(whose)
-        while min(pixels.shape) >= 2 * _SMALLEST:
+        while min(pixels.shape) >= 2 * _MIN_COPY_SIDE:
             pixels = halved(pixels)
             halves.append(pixels)
         return cls(frame, whose, tuple(halves), request, reading)

@@ -38,7 +38,7 @@ class Door(QPushButton):
         self._draw()
 
     def size_for(self, width: int = _LEAST_SIDE) -> QSize:
-        """Give the size that shows all texts, at least as wide as asked for and no narrower."""
+        """Return the size that shows all texts, at least as wide as asked for and no narrower."""
         width = max(width, self._layout.minimumSize().width())
         return QSize(width, max(_LEAST_SIDE, self._layout.heightForWidth(width)))
 

@@ -11,10 +11,10 @@ from occ_gui.widgets.contrast import seen_on
 _LEAST_FOR_DIGIT = 7.5
 """Pixels of a chip from which its digit is drawn."""
 
-_MOST = 0.6
-"""Share of the cells that must have room for a digit: at the edges are parts of cells."""
+_MIN_FITTING_FRACTION = 0.6
+"""Fraction of the cells that must have room for a digit: at the edges are parts of cells."""
 
-_FADED = 0.45
+_FADED_OPACITY = 0.45
 
 
 @cache
@@ -47,7 +47,7 @@ def draw_digits(
 def have_room_for_digits(cells: Sequence[tuple[int, QRectF]]) -> bool:
     """Return whether most cells have room for their digits: else none has one."""
     wide = sum(cell.width() >= _LEAST_FOR_DIGIT for _, cell in cells)
-    return wide >= _MOST * len(cells)
+    return wide >= _MIN_FITTING_FRACTION * len(cells)
 
 
 def draw_chips(
@@ -69,7 +69,7 @@ def draw_chips(
     with_digits = have_room_for_digits(cells)
     for value in (0, 1):
         some = [(chip, cell) for chip, cell in cells if chip == value]
-        painter.setOpacity(1.0 if certain else _FADED)
+        painter.setOpacity(1.0 if certain else _FADED_OPACITY)
         painter.setPen(QPen(lit))
         painter.setBrush(lit if value else base)
         painter.drawRects([cell for _, cell in some])

@@ -5,8 +5,8 @@ from PySide6.QtGui import QGuiApplication
 
 from occ_model.errors import one_line
 
-_MOST = 80
-"""Characters of a copied text that are told."""
+_MAX_SHOWN_CHARACTERS = 80
+"""Characters of a copied text that the message shows."""
 
 
 def copy_text(text: str) -> str:
@@ -14,4 +14,4 @@ def copy_text(text: str) -> str:
     QGuiApplication.clipboard().setText(text)
     told = QCoreApplication.translate("Copying", "Copied: {text}")
     first, _, more = text.strip().partition("\n")
-    return told.format(text=one_line(f"{first} …" if more else first, _MOST))
+    return told.format(text=one_line(f"{first} …" if more else first, _MAX_SHOWN_CHARACTERS))

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
-_BESIDE = 36
-"""Pixels beside a list's words: their margins, and a bar where it is long."""
+_POPUP_MARGIN = 36
+"""Pixels that a list takes beside its words: margins, and a scroll bar where it is long."""
 
 
 class KeyedComboBox(QComboBox):
@@ -34,7 +34,7 @@ class KeyedComboBox(QComboBox):
         """Open the list as wide as its widest word, however narrow the box is."""
         words = (self.itemText(place) for place in range(self.count()))
         widest = max(map(self.fontMetrics().horizontalAdvance, words), default=0)
-        self.view().setMinimumWidth(widest + _BESIDE)
+        self.view().setMinimumWidth(widest + _POPUP_MARGIN)
         super().showPopup()
 
     def key(self) -> str:

@@ -16,14 +16,14 @@ CURVE_WIDTH = 2.0
 """Width of a curve in pixels of the window. pyqtgraph draws a solid one line by line, in 1 to 4 ms
 of processor time for 1800 points, and a dashed one as a path, in 7 ms."""
 
-_FARTHEST = 2e6
+_MAX_RANGE = 2e6
 """Largest distance from zero in view, in columns, levels or runs: twice the most columns."""
 
 _LEAST_SPAN = 0.01
 """Smallest range in view, in columns, levels or runs."""
 
 _LEAST_HEIGHT = 86
-_NAMED_FROM = 76
+_MIN_HEIGHT_FOR_AXIS_NAME = 76
 """Least height in pixels of a plot that shows the name of its lower axis."""
 
 
@@ -103,7 +103,9 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
             self._show_name()
 
     def _show_name(self) -> None:
-        self.getAxis("bottom").showLabel(self._is_named and self.height() >= _NAMED_FROM)
+        self.getAxis("bottom").showLabel(
+            self._is_named and self.height() >= _MIN_HEIGHT_FOR_AXIS_NAME
+        )
 
 
 def marker(symbol: str, size: float, fill: QColor | None) -> Drawing:
@@ -147,6 +149,6 @@ def new_plot(
     plot.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
     plot.hideButtons()
     for side in ("left", "bottom"):
-        plot.limit(side, _FARTHEST, _LEAST_SPAN)
+        plot.limit(side, _MAX_RANGE, _LEAST_SPAN)
     plot.getViewBox().disableAutoRange()
     return plot

@@ -72,7 +72,7 @@ class StateBar(QWidget):
         return title, metrics.height() + (self._lines - 1) * metrics.lineSpacing() + 2
 
     def _place(self) -> None:
-        """Give the title the width that it needs, and the chips what is left."""
+        """Assign the title the width that it needs, and the chips what is left."""
         left = 2 * _PADDING + _ICON
         room = whole = max(0, self.width() - left - _PADDING)
         if not self.step.isHidden():

@@ -87,7 +87,7 @@ class MainWindow(QMainWindow):
         return dock
 
     def _on_opened(self) -> None:
-        """Give a pane that the user has opened by the menu the place to be seen."""
+        """Make room for a pane that the user has opened by the menu."""
         dock = self.sender()
         if isinstance(dock, Dock):
             QTimer.singleShot(0, dock, lambda: self._give_place(dock, True))

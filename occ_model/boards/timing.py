@@ -1,6 +1,6 @@
 """How long a chip lasts on a board: whole cycles of its clock, in exact arithmetic.
 
-A period that is no whole number of cycles is rounded, and the error is stated. Spreading the
+A period that is not a whole number of cycles is rounded, and the error is stated. Spreading the
 fraction over the chips would keep the mean frequency, but move single edges by up to half a cycle,
 which no photo can be corrected for; a frequency that is known exactly is taken into the scene.
 """

@@ -33,7 +33,7 @@ _LARGEST_WAV = 64_000_000
 
 
 def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:
-    """Give the chips of one period at which the light changes, with exact times.
+    """Yield the chips of one period at which the light changes, with exact times.
 
     The first row is the start, and the last the start of the next period.
     """
@@ -58,7 +58,7 @@ def vcd_text(sent: Transmission) -> str:
     Raises
     ------
     OutputError
-        The clock's period is no whole number of femtoseconds.
+        The clock's period is not a whole number of femtoseconds.
     """
     unit, ticks = _vcd_unit(Fraction(1, sent.timing.clock))
     lines = [

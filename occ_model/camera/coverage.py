@@ -18,13 +18,13 @@ _REACH = 4.0
 _FINE = 4.0
 """Standard deviations of the blur, in cells, from which a coarser grid is as good."""
 
-_SAMPLED = 16
+_SAMPLED_ROWS = 16
 """Rows of a cell that are sampled where the outline is high: they are as good as all."""
 
 _FEW_ROWS = 4
 """Rows of a rim that are not divided further."""
 
-_WIDE = 4
+_RIM_WIDTH_IN_BLURS = 4
 """Width of a rim, in those of the blur, from which its rows are divided."""
 
 _EXACT = 4096
@@ -98,7 +98,7 @@ class Coverage:
         self._seen = seen = range(-self._margin, rows + self._margin)
         cell = max(1, int(blur / _FINE))
         # The widest blur needs no more rows than a narrow one.
-        self._stride = max(1, min(cell // _SAMPLED, _height(outline, seen) // _EXACT))
+        self._stride = max(1, min(cell // _SAMPLED_ROWS, _height(outline, seen) // _EXACT))
         self._cell = cell - cell % self._stride
         self._coarse = self._whole(rows) if self._cell > 1 else None
 
@@ -177,7 +177,7 @@ class Coverage:
             return self._enlarged(self._coarse, rows, range(columns.start, columns.stop))
         margin, step = self._margin, rows.step
         width = 2 * margin + 1
-        if len(rows) > _FEW_ROWS and columns.stop - columns.start > _WIDE * width:
+        if len(rows) > _FEW_ROWS and columns.stop - columns.start > _RIM_WIDTH_IN_BLURS * width:
             # Most of these rows are near an outline in a small part of the columns only.
             half = len(rows) // 2
             return np.concatenate(

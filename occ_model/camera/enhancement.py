@@ -15,10 +15,10 @@ _SAME = 1e-9
 """Grey levels within which column values are equal: their own error is no smaller."""
 
 
-_FAR = 5.0
+_NEGLIGIBLE_TAIL = 5.0
 """Standard deviations beyond which less than a part in 10^6 of a normal distribution is left."""
 
-_TABULATED = 8.0
+_TABLE_END = 8.0
 """Standard deviations to which it is tabulated: beyond, none of 10^14 pixels is expected."""
 
 _PER_DEVIATION = 2048
@@ -166,7 +166,7 @@ def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, F
     passed : ndarray of float64, shape (values, steps)
         The share of the pixels above it.
     """
-    reach = min(math.ceil(_FAR * float(spread.max())) + 1, 256)
+    reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
     lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
     step = lowest[:, None] + np.arange(2 * reach)
     scale = (1.0 / np.maximum(spread, _SAME))[:, None]
@@ -180,16 +180,16 @@ def _tail(deviations: FloatArray) -> FloatArray:
 
     From a table: exact to 10^-4.
     """
-    place = np.clip(deviations, -_TABULATED, _TABULATED)
-    place += _TABULATED
+    place = np.clip(deviations, -_TABLE_END, _TABLE_END)
+    place += _TABLE_END
     place *= _PER_DEVIATION
     return _tail_table()[place.astype(np.int32)]
 
 
 @lru_cache(maxsize=1)
 def _tail_table() -> FloatArray:
-    entries = 2 * round(_TABULATED) * _PER_DEVIATION + 1
-    places = (np.arange(entries) + 0.5) / _PER_DEVIATION - _TABULATED
+    entries = 2 * round(_TABLE_END) * _PER_DEVIATION + 1
+    places = (np.arange(entries) + 0.5) / _PER_DEVIATION - _TABLE_END
     return np.array([0.5 * math.erfc(u / math.sqrt(2.0)) for u in places.tolist()])
 
 

@@ -131,7 +131,7 @@ def _outputs(options: argparse.Namespace) -> Iterator[tuple[str, Path]]:
 
 
 def _written(options: argparse.Namespace, option: str) -> Written:
-    """Give what a command line writes to the path of an option."""
+    """Return what a command line writes to the path of an option."""
     written: Written | Callable[[argparse.Namespace], Written]
     written = vars(options).get("writes", {}).get(option, Written("A file"))
     return written if isinstance(written, Written) else written(options)

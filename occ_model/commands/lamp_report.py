@@ -15,7 +15,7 @@ def region_from(text: str) -> Region:
     Raises
     ------
     ParameterError
-        The text is no such rectangle.
+        The text is not such a rectangle.
     """
     found = _REGION.fullmatch(text.strip())
     if found is None:

@@ -191,5 +191,5 @@ def _cut(text: str, width: int) -> str:
 
 
 def written_by(options: argparse.Namespace) -> Written:
-    """Give what ``--out`` is: the table of several photos, or the scene fitted to one."""
+    """Return what ``--out`` is: the table of several photos, or the scene fitted to one."""
     return TABLE if options.more else SCENE_FILE

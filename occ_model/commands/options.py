@@ -48,7 +48,7 @@ def number(text: str) -> float:
     Raises
     ------
     ArgumentTypeError
-        It is no number, or its comma can separate thousands as well.
+        It is not a number, or its comma can separate thousands as well.
     """
     readings = NONE.readings(text)
     if len(readings) > 1:

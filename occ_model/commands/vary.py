@@ -28,7 +28,7 @@ def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
     Raises
     ------
     ParameterError
-        A text is no axis, names no parameter or one a second time, or a value is out of range.
+        A text is not an axis, names no parameter or one twice, or a value is out of range.
     """
     axes: dict[str, list[ParameterValue]] = {}
     for setting in settings:
@@ -72,7 +72,7 @@ def _forms(parameter: Parameter) -> str:
 def _spread(
     parameter: Quantity | Count, low: float, high: float, text: str
 ) -> list[ParameterValue]:
-    """Give N values from low to high, in even ratios or steps."""
+    """Return N values from low to high, in even ratios or steps."""
     factor = text[1:].lstrip("0")
     # Python refuses to convert numbers of thousands of digits.
     is_whole = factor.isdecimal() and len(factor) <= len(str(MOST_POINTS))
@@ -89,7 +89,7 @@ def _spread(
 def _stepped(
     parameter: Quantity | Count, low: float, high: float, text: str
 ) -> list[ParameterValue]:
-    """Give the values from low to high in even steps."""
+    """Return the values from low to high in even steps."""
     step = parameter.unit.parse(text) if isinstance(parameter, Quantity) else _whole(text)
     if step is None or not step > 0.0 or math.isinf(step):
         raise parameter.refuse(f"varies in steps of {shown(text)}", "a step above 0")

@@ -41,14 +41,14 @@ _SIZE, _DOTS = (9.6, 5.4), 100
 
 _ROWS, _SHOWN_COLUMNS = 120, 900
 _DEFAULT_RATE = 15.0
-_FASTEST = 50.0
+_MAX_GIF_RATE = 50.0
 """Frames a second; players of GIF files show none faster."""
 
 _HEADROOM, _HIGHEST = 1.2, 260.0
 """The level axis reaches above the brightest level, by this factor, but no higher than this."""
 
-_LONGEST = 110
-"""Letters of a title."""
+_MAX_TITLE_LETTERS = 110
+"""Maximum letters of a title."""
 
 
 def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
@@ -100,8 +100,10 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
         raise ParameterError(f"{name} cannot run through values; allowed: a parameter with a unit.")
     if not 1 <= len(values) <= MOST_FRAMES:
         raise ParameterError(f"frames is {len(values)}; allowed: 1 to {MOST_FRAMES}.")
-    if isinstance(rate, bool) or not 0.0 < rate <= _FASTEST:
-        raise ParameterError(f"rate is {shown(rate)} a second; allowed: above 0 to {_FASTEST:g}.")
+    if isinstance(rate, bool) or not 0.0 < rate <= _MAX_GIF_RATE:
+        raise ParameterError(
+            f"rate is {shown(rate)} a second; allowed: above 0 to {_MAX_GIF_RATE:g}."
+        )
     check_film_path(path, rate)
     check_replaceable(path)
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
@@ -120,7 +122,7 @@ def _frames(
     decoder: str,
     progress: Callable[[int], object],
 ) -> Iterator[ByteArray]:
-    """Give the frames, shape (rows, columns, 3), one after the other."""
+    """Yield the frames, shape (rows, columns, 3), one after the other."""
     with house_style():
         brightest = max(float(level_values(scene)[1]) for scene in scenes)
         drawing = _Drawing(parameter, min(_HEADROOM * brightest, _HIGHEST))
@@ -170,7 +172,9 @@ class _Drawing:
         self._lower.set_xlim(first, last)
         value = self._parameter.format(frame.scene.value(self._parameter.name), 4)  # type: ignore[arg-type]
         read = result.failure or f"code {result.code} read"
-        self._title.set_text(one_line(f"{self._parameter.label} {value}:  {read}", _LONGEST))
+        self._title.set_text(
+            one_line(f"{self._parameter.label} {value}:  {read}", _MAX_TITLE_LETTERS)
+        )
         self._canvas.draw()  # type: ignore[no-untyped-call]
         pixels = np.asarray(self._canvas.buffer_rgba())  # type: ignore[no-untyped-call]
         return pixels[:, :, :3].copy()

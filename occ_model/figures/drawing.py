@@ -42,7 +42,7 @@ _LOOK: dict[Any, Any] = {
 
 
 def house_style() -> AbstractContextManager[None]:
-    """Give all figures drawn within this context the same style, whatever the user's settings."""
+    """Draw all figures within this context in the same style, whatever the user's settings."""
     look = dict[Any, Any](rcParamsDefault) | _LOOK
     # The backend only concerns windows, and these figures become files.
     del look["backend"]
@@ -63,7 +63,7 @@ def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
 
 
 def figure_format(path: Path) -> str:
-    """Give the format that a file's ending names.
+    """Return the format that a file's ending names.
 
     Raises
     ------

@@ -37,7 +37,7 @@ _TOP, _BOTTOM = 0.915, 0.025
 def steps_of_pages(
     steps: Sequence[AnsweredStep],
 ) -> Iterator[tuple[int, tuple[AnsweredStep, ...]]]:
-    """Give the number of the first step of each page, from 1, and the page's steps."""
+    """Yield the number of the first step of each page, from 1, and the page's steps."""
     page: list[AnsweredStep] = []
     for place, each in enumerate(steps):
         if page and sum(map(_room, page)) + _room(each) > _MOST_ROOM:

@@ -18,7 +18,7 @@ _Kind = TypeVar("_Kind", Text, Legend)
 _MARGIN = 0.05
 """Inches between a text and the edge of the page."""
 
-_HINTED = 1.08
+_HINTED_WIDTH_FACTOR = 1.08
 """By how much a line of small letters, placed on whole pixels, is wider than its outlines."""
 
 _MOST_LINES = 12
@@ -44,7 +44,7 @@ def lines_within(text: str, inches: float, font: FontProperties, most: int) -> l
 
 def _inches(line: str, font: FontProperties) -> float:
     width, _, _ = text_to_path.get_text_width_height_descent(line, font, ismath=False)
-    return _HINTED * float(width) / _POINTS
+    return _HINTED_WIDTH_FACTOR * float(width) / _POINTS
 
 
 def fit_texts(figure: Figure) -> None:
@@ -70,7 +70,7 @@ def fit_texts(figure: Figure) -> None:
 
 
 def _over_the_edge(figure: Figure) -> tuple[float, float]:
-    """Give the inches by which what is drawn reaches over the upper and the lower edge."""
+    """Return the inches by which what is drawn reaches over the upper and the lower edge."""
     figure.draw_without_rendering()
     drawn = figure.get_tightbbox()
     return max(drawn.y1 - figure.get_figheight(), 0.0), max(-drawn.y0, 0.0)
@@ -116,7 +116,7 @@ def _rooms(figure: Figure) -> Iterator[_Room]:
 
 
 def _headings(ax: Axes) -> Iterator[Text]:
-    """Give the titles of axes, and the label below them."""
+    """Yield the titles of axes, and the label below them."""
     titles = [child for child in ax.get_children() if isinstance(child, Text)]
     for text in (*titles, ax.xaxis.label):
         # Others stand at places of the data.
@@ -125,13 +125,13 @@ def _headings(ax: Axes) -> Iterator[Text]:
 
 
 def _across(ax: Axes) -> int:
-    """Give the number of axes that stand side by side."""
+    """Return the number of axes that stand side by side."""
     place = ax.get_subplotspec()
     return 1 if place is None else place.get_gridspec().ncols // len(place.colspan)
 
 
 def _to_the_edge(text: Text, figure: Figure) -> float:
-    """Give the width that a text may have where it stands."""
+    """Return the width that a text may have where it stands."""
     box, width = text.get_window_extent(), float(figure.get_figwidth())
     left, right = float(box.x0 / figure.dpi), float(box.x1 / figure.dpi)
     match text.get_horizontalalignment():

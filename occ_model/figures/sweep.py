@@ -35,7 +35,7 @@ _STYLES: tuple[dict[str, Any], ...] = (
 _TITLES = {"rate": "Success rate", "bits": "Bits a second"}
 _LABELS = {"rate": "success rate (%)", "bits": "bits a second"}
 
-_REFUSED = "0.75"
+_REFUSED_COLOUR = "0.75"
 """Grey, which is not one of the map's colours."""
 
 _TICKS = 10
@@ -197,13 +197,13 @@ def _maps(table: SweepTable, shown: Shown) -> Figure:
     colour = ScalarMappable(Normalize(0, _most(table, shown)), "cividis")
     figure.colorbar(colour, ax=list(axes), label=_LABELS[shown])
     if table.notes:
-        refused = [Patch(color=_REFUSED, label="no picture: see the notes in the table")]
+        refused = [Patch(color=_REFUSED_COLOUR, label="no picture: see the notes in the table")]
         figure.legend(handles=refused, loc="outside upper left", frameon=False, fontsize=7)
     return figure
 
 
 def _draw_map(ax: Axes, grid: FloatArray, most: float) -> None:
-    ax.set_facecolor(_REFUSED)
+    ax.set_facecolor(_REFUSED_COLOUR)
     ax.imshow(
         grid, cmap="cividis", vmin=0, vmax=most, origin="lower", aspect="auto",
         interpolation="nearest",
@@ -230,7 +230,7 @@ def _label_cells(axis: Any, name: str, values: tuple[ParameterValue, ...]) -> No
 
 
 def _round_ticks(at: FloatArray, is_log: bool) -> tuple[FloatArray, list[str]]:
-    """Give the positions of round values among cells of increasing values, and their labels."""
+    """Return the positions of round values among cells of increasing values, and their labels."""
     locator = LogLocator(subs=(1, 2, 5)) if is_log else MaxNLocator(_TICKS - 1, steps=[1, 2, 5, 10])
     marks = [mark for mark in locator.tick_values(at[0], at[-1]) if at[0] <= mark <= at[-1]]
     scale = np.log if is_log else np.asarray
@@ -244,7 +244,7 @@ def _step(count: int) -> int:
 def _places(
     name: str, values: tuple[ParameterValue, ...], factor: float
 ) -> tuple[FloatArray, list[str] | None]:
-    """Give the positions of values on an axis, and their labels where they are words."""
+    """Return the positions of values on an axis, and their labels where they are words."""
     if isinstance(PARAMETERS[name], Choice):
         return np.arange(len(values), dtype=np.float64), [str(value) for value in values]
     return np.array([float(value) / factor for value in values]), None

@@ -227,7 +227,7 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
 
 
 def _threshold_among(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:
-    """Give the level of a decoder's threshold in a profile, None where it has none there."""
+    """Return the level of a decoder's threshold in a profile, None where it has none there."""
     between = threshold_levels(simulated, decoded)
     if between is None or decoded.threshold is None:
         return None
@@ -275,7 +275,7 @@ def _profile_figure(
 
 
 def _placed(comparison: Comparison, columns: int) -> FloatArray:
-    """Give a photo's profile over all columns of the simulation, not a number outside it."""
+    """Return a photo's profile over all columns of the simulation, not a number outside it."""
     placed = np.full(columns, np.nan)
     first = comparison.first_column
     placed[first : first + len(comparison.photo)] = comparison.photo

@@ -38,7 +38,7 @@ def read_bytes(path: Path, largest: int) -> bytes:
     Raises
     ------
     SceneFileError
-        There is no such file, it may not be read, is no regular file, or is larger.
+        There is no such file, it may not be read, is not a regular file, or is larger.
     """
     content = read_start(path, largest + 1)
     if len(content) > largest:
@@ -57,7 +57,7 @@ def read_start(path: Path, count: int) -> bytes:
     Raises
     ------
     SceneFileError
-        There is no such file, it may not be read, or is no regular file.
+        There is no such file, it may not be read, or is not a regular file.
     """
     try:
         descriptor = os.open(path, _FLAGS)
@@ -89,7 +89,7 @@ def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
     Raises
     ------
     SceneFileError
-        There is no such file, it may not be read, is no regular file, is larger, or is no text.
+        There is no such file, it may not be read, is not a regular file, is larger, or not text.
     """
     try:
         return read_bytes(path, largest).decode("utf-8-sig")

@@ -40,7 +40,7 @@ def write_whole(path: Path, content: bytes) -> None:
     Raises
     ------
     OutputError
-        It cannot be written, is write-protected, or is no regular file; an older file is
+        It cannot be written, is write-protected, or is not a regular file; an older file is
         unchanged.
     """
     permissions = check_replaceable(path)
@@ -81,7 +81,7 @@ def check_replaceable(path: Path) -> int | None:
     Raises
     ------
     OutputError
-        It is no regular file, is write-protected, cannot be a path, or its folder is not there or
+        It is not a regular file, is write-protected, cannot be a path, or its folder is missing or
         takes no files.
     """
     try:
@@ -134,7 +134,7 @@ def written_whole(path: Path) -> Iterator[Path]:
     Raises
     ------
     OutputError
-        It cannot be written, is write-protected, or is no regular file.
+        It cannot be written, is write-protected, or is not a regular file.
     """
     permissions = check_replaceable(path)
     try:

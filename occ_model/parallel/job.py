@@ -106,7 +106,7 @@ class Workers(Protocol):
         """Let the jobs of all runs of a channel that are earlier than ``run`` end."""
 
     def counted(self, counter: int) -> int:
-        """Give the number of heartbeats in a counter."""
+        """Return the number of heartbeats in a counter."""
 
     def renew(self) -> None:
         """Replace workers that ended.
@@ -186,7 +186,7 @@ def counting_heartbeat(
 
 
 def reason_of(error: BaseException) -> str:
-    """Give an exception's type and text in one line."""
+    """Return an exception's type and text in one line."""
     text = " ".join(str(error).split()).rstrip(".")
     name = type(error).__name__
     return f"{name}: {text}" if text else name

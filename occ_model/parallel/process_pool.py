@@ -80,7 +80,7 @@ class ProcessPool:
         self._first_runs[channel] = run
 
     def counted(self, counter: int) -> int:
-        """Give the number of heartbeats in a counter."""
+        """Return the number of heartbeats in a counter."""
         return int(self._counts[counter])
 
     def renew(self) -> None:

@@ -30,7 +30,7 @@ class WorkerThread:
         self._first_runs[channel] = run
 
     def counted(self, counter: int) -> int:
-        """Give the number of heartbeats in a counter."""
+        """Return the number of heartbeats in a counter."""
         return self._counts[counter]
 
     def renew(self) -> None:

@@ -81,7 +81,7 @@ class PhotoRow:
         return DOUBTFUL if self.is_exposure_doubtful else self.verdict
 
     def uncertainty(self, name: str) -> float | None:
-        """Give the standard deviation of an estimate, None where it was not estimated."""
+        """Return the standard deviation of an estimate, None where it was not estimated."""
         return dict(self.uncertainties).get(name)
 
 

@@ -10,8 +10,8 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.version import __version__
 
-_LONGEST = 10_000
-"""Characters of a text; a path has fewer."""
+_MAX_TEXT_LENGTH = 10_000
+"""Maximum characters of a text; a path has fewer."""
 
 _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",
@@ -106,7 +106,7 @@ _FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
 
 def _text(text: str) -> str:
     """Write a text of a file, such as its camera's name, which no spreadsheet calculates."""
-    text = one_line(text, _LONGEST)
+    text = one_line(text, _MAX_TEXT_LENGTH)
     return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
 
 

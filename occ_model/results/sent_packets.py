@@ -149,7 +149,7 @@ class SentPackets(Sequence[PacketReading]):
         )
 
     def __iter__(self) -> Iterator[PacketReading]:
-        """Give all packets."""
+        """Yield all packets."""
         return (self[number] for number in range(len(self)))
 
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:

@@ -92,7 +92,7 @@ class SweepTable:
         return tuple(self.each_row())
 
     def each_row(self) -> Iterator[SweepRow]:
-        """Give the rows one by one: those of a large table need not fit in memory."""
+        """Yield the rows one by one: those of a large table need not fit in memory."""
         for point in self.each_point():
             values = self.request.values(point.index)
             place = np.unravel_index(point.index, self.request.shape)
@@ -107,7 +107,7 @@ class SweepTable:
                 )  # fmt: skip
 
     def each_point(self) -> Iterator[SweepPoint]:
-        """Give the counts point by point, in the order of the axes."""
+        """Yield the counts point by point, in the order of the axes."""
         right = self.right.reshape(-1, len(self.decoders))
         whole = self.whole.reshape(-1, len(self.decoders))
         for index, sent in enumerate(self.sent.ravel().tolist()):
@@ -116,7 +116,7 @@ class SweepTable:
             yield SweepPoint(index, sent, counts, note, tuple(whole[index].tolist()))
 
     def rates(self, decoder: str | None = None) -> FloatArray:
-        """Give the success rates of a decoder in percent.
+        """Return the success rates of a decoder in percent.
 
         Parameters
         ----------
@@ -139,7 +139,7 @@ class SweepTable:
         return rates
 
     def bits_a_second(self, decoder: str | None = None) -> FloatArray:
-        """Give the net bits a second of a decoder, in the shape of :meth:`rates`.
+        """Return the net bits a second of a decoder, in the shape of :meth:`rates`.
 
         Not a number where the model refuses the scene.
         """
@@ -149,7 +149,7 @@ class SweepTable:
         return np.array(numbers).reshape(self.sent.shape)
 
     def intervals(self, decoder: str | None = None) -> tuple[FloatArray, FloatArray]:
-        """Give the ends of the 95 % intervals of :meth:`rates`, percent, in the same shape."""
+        """Return the ends of the 95 % intervals of :meth:`rates`, percent, in the same shape."""
         place = self._place(decoder)
         return self.low[..., place], self.high[..., place]
 
@@ -163,7 +163,7 @@ class SweepTable:
         return self.decoders.index(decoder)
 
     def csv(self) -> Iterator[str]:
-        """Give the table as CSV, in parts: its provenance in comment lines, then a row a rate."""
+        """Yield the table as CSV, in parts: its provenance in comment lines, then a row a rate."""
         yield header_text(self.request)
         low = self.low.reshape(-1, len(self.decoders)).tolist()
         high = self.high.reshape(-1, len(self.decoders)).tolist()

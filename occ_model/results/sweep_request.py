@@ -37,7 +37,7 @@ MOST_JOBS = 1024
 JOBS_A_CORE = 4
 """Processes that are started at most for each core: more take memory and save no time."""
 
-_SLOWEST = ("bits", "exposure_time", "switching_frequency")
+_OUTER_AXES = ("bits", "exposure_time", "switching_frequency")
 """Parameters that change least often from point to point: for each of their values the matched
 decoder computes the forward model of all codes."""
 
@@ -90,7 +90,7 @@ class SweepRequest:
         return math.prod(self.shape)
 
     def values(self, index: int) -> dict[str, ParameterValue]:
-        """Give the parameters of a point by its index, the last axis running fastest."""
+        """Return the parameters of a point by its index, the last axis running fastest."""
         found: list[ParameterValue] = []
         for values in reversed(list(self.axes.values())):
             index, place = divmod(index, len(values))
@@ -98,7 +98,7 @@ class SweepRequest:
         return dict(zip(self.axes, reversed(found), strict=True))
 
     def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
-        """Give the net bits a second of a point; None where the model refuses the scene.
+        """Return the net bits a second of a point; None where the model refuses the scene.
 
         Each image shows another payload, and counts where all its bits are right.
         """
@@ -113,10 +113,10 @@ class SweepRequest:
         return bits_a_second(share, bits, self.settings.frames_a_second, readout_time)
 
     def in_order_of_work(self) -> Iterator[int]:
-        """Give the indices of the points in the order in which they take the least time."""
+        """Yield the indices of the points in the order in which they take the least time."""
         names = list(self.axes)
-        slow = sorted((name for name in names if name in _SLOWEST), key=_SLOWEST.index)
-        order = [*slow, *(name for name in names if name not in _SLOWEST)]
+        slow = sorted((name for name in names if name in _OUTER_AXES), key=_OUTER_AXES.index)
+        order = [*slow, *(name for name in names if name not in _OUTER_AXES)]
         sizes = [math.prod(self.shape[names.index(name) + 1 :]) for name in order]
         for place in product(*(range(len(self.axes[name])) for name in order)):
             yield sum(size * step for size, step in zip(sizes, place, strict=True))

@@ -96,7 +96,7 @@ class Video(ABC):
 
     @abstractmethod
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:
-        """Give the frames in order, from the one with the number ``first``.
+        """Yield the frames in order, from the one with the number ``first``.
 
         Raises
         ------
@@ -108,7 +108,7 @@ class Video(ABC):
 
     @abstractmethod
     def frame(self, index: int) -> VideoFrame:
-        """Give one frame; that after the one given before takes the least time.
+        """Return one frame; that after the one given before takes the least time.
 
         Raises
         ------
@@ -119,5 +119,5 @@ class Video(ABC):
         """
 
     def __iter__(self) -> Iterator[VideoFrame]:
-        """Give all frames in order."""
+        """Yield all frames in order."""
         return self.frames()

@@ -37,12 +37,12 @@ def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
 
 
 def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
-    """Return switches, on (True) or off (False) by name, or refuse a value that is no such mapping.
+    """Return switches, on (True) or off (False) by name, or refuse what is not such a mapping.
 
     Raises
     ------
     ParameterError
-        It is no mapping, or a name or a value is not allowed.
+        It is not a mapping, or a name or a value is not allowed.
     """
     if switches is None:
         return {}

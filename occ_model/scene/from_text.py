@@ -24,7 +24,7 @@ def read_scene_file(path: Path) -> Scene:
     Raises
     ------
     SceneFileError
-        It cannot be read, or is no scene file.
+        It cannot be read, or is not a scene file.
     ParameterError
         A value in it is not of its kind or out of range.
     """

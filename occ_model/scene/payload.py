@@ -35,7 +35,7 @@ def canonical(value: object) -> str:
     Raises
     ------
     ValueError
-        It is no payload; the message is the part of a sentence that says why.
+        It is not a payload; the message is the part of a sentence that says why.
     """
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
@@ -102,7 +102,7 @@ def bits_of_payload(payload: str) -> tuple[int, ...]:
 def payload_of_bits(bits: Sequence[int], form: str) -> str:
     """Write bits in a form: ``text``, ``hex`` or ``bits``, without the form's name.
 
-    Bits after the last whole byte are left out of a text and of hex. Bytes that are no text are
+    Bits after the last whole byte are left out of a text and of hex. Bytes that are not text are
     written as question marks, and so are characters that cannot be shown.
     """
     if form == "bits":

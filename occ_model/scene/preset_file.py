@@ -44,7 +44,7 @@ def preset_from(name: str, text: str) -> Preset:
     Raises
     ------
     SceneFileError
-        It is no preset.
+        It is not a preset.
     ParameterError
         A value is out of range, or a note is on an unknown parameter.
     """
@@ -59,7 +59,7 @@ def package_preset(name: str) -> Preset:
     Raises
     ------
     SceneFileError
-        There is no such file, or it is no preset.
+        There is no such file, or it is not a preset.
     """
     return _put_together(name, _package_layers(name))
 
@@ -127,12 +127,12 @@ def _over(
 
 
 def checked_notes(table: object) -> dict[str, str]:
-    """Return the notes on a preset's values, or refuse a value that is no table of notes.
+    """Return the notes on a preset's values, or refuse a value that is not a table of notes.
 
     Raises
     ------
     SceneFileError
-        It is no table of texts.
+        It is not a table of texts.
     ParameterError
         A note is on an unknown parameter.
     """

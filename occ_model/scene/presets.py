@@ -81,7 +81,7 @@ def load_preset(name: str) -> Scene:
     PresetError
         No preset has that name; the message lists the known names.
     SceneFileError, ParameterError
-        The user's own file of that name is no preset.
+        The user's own file of that name is not a preset.
     """
     return preset_named(name).scene
 
@@ -94,7 +94,7 @@ def preset_named(name: str) -> Preset:
     PresetError
         No preset has that name.
     SceneFileError, ParameterError
-        The user's own file of that name is no preset.
+        The user's own file of that name is not a preset.
     """
     if isinstance(name, str):
         if name in _built_in():
@@ -130,7 +130,7 @@ def save_preset(
     PresetError
         The name is not allowed, or is that of a preset of the package.
     ParameterError
-        ``scene`` is no scene, ``title`` no text, or a source is given for an unknown parameter.
+        ``scene`` is not a scene, ``title`` no text, or a source is given for an unknown parameter.
     OutputError
         The file cannot be written.
     """

@@ -21,10 +21,10 @@ ENDINGS = (".png", ".svg", ".pdf", ".csv")
 
 _SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
 
-_LARGEST = 64_000_000
+_MAX_SEARCHED_BYTES = 64_000_000
 """Bytes of a drawing or document that are searched: its text may stand anywhere."""
 
-_LONGEST = 1_000_000
+_MAX_TEXT_BYTES = 1_000_000
 """Bytes of the text itself, and of the start of a picture or table, which holds it."""
 
 _SVG = b"<dc:description>", b"</dc:description>"
@@ -138,7 +138,7 @@ def scene_inside(path: Path) -> Scene:
 
 
 def _of_png(path: Path) -> str:
-    start = BytesIO(read_start(path, _LONGEST))
+    start = BytesIO(read_start(path, _MAX_TEXT_BYTES))
     # Pillow is slow to import, and only needed when a picture is really opened.
     from PIL.PngImagePlugin import PngImageFile
 
@@ -151,13 +151,13 @@ def _of_png(path: Path) -> str:
 
 
 def _of_svg(path: Path) -> str:
-    content = read_bytes(path, _LARGEST)
+    content = read_bytes(path, _MAX_SEARCHED_BYTES)
     start, end = _SVG
     first = content.find(start)
     last = content.find(end, first)
     if first < 0 or last < 0:
         return ""
-    text = content[first + len(start) : min(last, first + _LONGEST)].decode("utf-8")
+    text = content[first + len(start) : min(last, first + _MAX_TEXT_BYTES)].decode("utf-8")
     try:
         return html.unescape(text)
     except ValueError:  # the number of a character has thousands of digits
@@ -165,17 +165,17 @@ def _of_svg(path: Path) -> str:
 
 
 def _of_csv(path: Path) -> str:
-    comments = _COMMENTS.match(read_start(path, _LONGEST).removeprefix(codecs.BOM_UTF8))
+    comments = _COMMENTS.match(read_start(path, _MAX_TEXT_BYTES).removeprefix(codecs.BOM_UTF8))
     lines = comments[0].decode("utf-8").splitlines() if comments else []
     return "\n".join(line[1:].removeprefix(" ") for line in lines if line.startswith("#"))
 
 
 def _of_pdf(path: Path) -> str:
-    content = read_bytes(path, _LARGEST)
+    content = read_bytes(path, _MAX_SEARCHED_BYTES)
     place = content.find(_PDF)
     while place >= 0:
         place += len(_PDF)
-        literal = _PDF_LITERAL.match(content, place, place + _LONGEST)
+        literal = _PDF_LITERAL.match(content, place, place + _MAX_TEXT_BYTES)
         if literal:
             return _literal_text(literal[1])
         # The bytes after a start are searched once; the next start is beyond it.

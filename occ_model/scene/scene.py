@@ -80,7 +80,7 @@ class Scene:
         Raises
         ------
         SceneFileError
-            The text is no scene file, or has a key that is not a parameter.
+            The text is not a scene file, or has a key that is not a parameter.
         ParameterError
             A value is not of its kind or out of range.
         """

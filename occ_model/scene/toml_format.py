@@ -37,7 +37,7 @@ def from_toml(text: str) -> dict[str, Any]:
     Raises
     ------
     SceneFileError
-        It is no text, is not TOML, names no format, or a format that this version does not know.
+        It is not a text, is not TOML, names no format, or a format that this version does not know.
     """
     content = parse_toml(text)
     version = content.pop("format", None)
@@ -56,7 +56,7 @@ def parse_toml(text: str) -> dict[str, Any]:
     Raises
     ------
     SceneFileError
-        It is no text, or not TOML of reasonable depth.
+        It is not a text, or not TOML of reasonable depth.
     """
     if not isinstance(text, str):
         raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")

@@ -29,8 +29,8 @@ BAND = 8
 BANDS = 24
 """Bands across the panel."""
 
-_BESIDE = 6
-"""Bands above the panel, and below it: they show its surroundings, and stray light."""
+_SURROUNDING_BANDS = 6
+"""Bands of rows above the panel, and below it: they show the surroundings and stray light."""
 
 _PAIRS = BANDS // 2
 """Pairs of neighbouring bands, whose noise is opposite: its mean is nothing."""
@@ -115,7 +115,7 @@ def _beside(rows: range, rows_each: float) -> _Part:
     height = len(rows)
     if height < BAND:
         return _Part((), 0)
-    count = min(_BESIDE, height // BAND)
+    count = min(_SURROUNDING_BANDS, height // BAND)
     return _Part(_spread(rows, count), max(1, round(height / (rows_each * BAND * count))))
 
 

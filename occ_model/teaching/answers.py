@@ -10,8 +10,8 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.quantities import QUANTITIES
 from occ_model.teaching.result_text import result_text
 
-_NEAR = 3.0
-"""An answer within so many tolerances is near."""
+_NEAR_TOLERANCES = 3.0
+"""An answer within this many tolerances is near."""
 
 _LEAST_NEAR = 0.02
 """Relative difference that is near however small the tolerance is."""
@@ -71,7 +71,7 @@ def check_answer(
             text, "wrong", f"Not yet: that is not the {quantity.called}. Try again."
         )
     side = "high" if given > expected else "low"
-    if difference <= max(_NEAR * check.tolerance, _LEAST_NEAR):
+    if difference <= max(_NEAR_TOLERANCES * check.tolerance, _LEAST_NEAR):
         return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look once more.")
     return CheckedAnswer(text, "wrong", f"Not yet: that is too {side}. Try again.")
 

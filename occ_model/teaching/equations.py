@@ -25,7 +25,7 @@ _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
 
 
 def equations(scene: Scene) -> tuple[Equation, ...]:
-    """Give the equations that determine a scene's stripes, with its numbers in them.
+    """Return the equations that determine a scene's stripes, with its numbers in them.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
 
 
 def _shown(scene: Scene, name: str) -> Term:
-    """Give a parameter's value as a term."""
+    """Return a parameter's value as a term."""
     return Term(PARAMETERS[name].format(scene.value(name)), (name,))  # type: ignore[arg-type]
 
 

@@ -8,7 +8,7 @@ _MOST_NAMED = 2
 
 
 def explanation(step: Step, scene: Scene) -> str:
-    """Give a step's explanation beside another scene than its own.
+    """Return a step's explanation beside another scene than its own.
 
     Returns
     -------

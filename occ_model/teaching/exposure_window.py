@@ -1,4 +1,4 @@
-"""Give the chips that a column's exposure covers."""
+"""Returns the chips that a column's exposure covers."""
 
 import math
 from fractions import Fraction
@@ -17,7 +17,7 @@ _MOST_CHIPS = 400
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
-    """Give the chips that a column's exposure covers.
+    """Return the chips that a column's exposure covers.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Give the light of the LED over the columns of the picture, column i at t_0 + i t_r."""
+"""Returns the light of the LED over the columns of the picture, column i at t_0 + i t_r."""
 
 import math
 from fractions import Fraction
@@ -18,7 +18,7 @@ _ROUNDING = 1e-12
 def light_over_columns(
     scene: Scene, first: float, last: float, most: int, edged: bool = False
 ) -> LightCurve | None:
-    """Give the light while some columns begin their exposures.
+    """Return the light while some columns begin their exposures.
 
     Column ``i`` begins at ``t_0 + i t_r``, and so does every point ``i`` of this axis, also one
     between two columns.

@@ -1,4 +1,4 @@
-"""Give the values of a parameter at which the picture changes in kind, to mark on its slider."""
+"""Returns the values of a parameter at which the picture changes in kind, to mark on its slider."""
 
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
@@ -6,7 +6,7 @@ from occ_model.study.theory import band_model_frequency, null_frequency
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
-    """Give the values to mark on the slider of a parameter, all else as in a scene.
+    """Return the values to mark on the slider of a parameter, all else as in a scene.
 
     Returns
     -------

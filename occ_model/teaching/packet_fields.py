@@ -1,4 +1,4 @@
-"""Give the places of header and bits among the chips sent, and among the chips received."""
+"""Returns the places of header and bits among the chips sent, and among the chips received."""
 
 from dataclasses import dataclass
 

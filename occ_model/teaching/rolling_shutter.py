@@ -1,4 +1,4 @@
-"""Give some columns' exposures on the LED's waveform: how a rolling shutter makes stripes."""
+"""Returns some columns' exposures on the LED's waveform: how a rolling shutter makes stripes."""
 
 import numpy as np
 
@@ -15,7 +15,7 @@ _MOST_CHIPS = 400
 
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
-    """Give the exposures of some of the first columns, which begin within four chips.
+    """Return the exposures of some of the first columns, which begin within four chips.
 
     Parameters
     ----------

@@ -16,8 +16,8 @@ from occ_model.photo.stripes.period import correlated_columns
 _ROUNDS = 6
 """Most improvements of the timing."""
 
-_SETTLED = 1e-5
-"""Change of the timing in chips below which it is found."""
+_CONVERGED_CHANGE = 1e-5
+"""Change of the timing in chips below which the fit has converged."""
 
 _MOST_STEP = 0.2
 """Largest change of the phase in one improvement, in chips."""
@@ -28,13 +28,13 @@ _SHIFTS = np.linspace(-0.75, 0.75, 13)
 _POWERS = 3
 """Coefficients of each parabola."""
 
-_SHORTEST = 1e-3
+_MIN_EXPOSURE_CHIPS = 1e-3
 """Shortest exposure in chips: a shorter one makes the same light."""
 
 _LEAST_NOISE = 1e-6
 """Least variance of a column about its model that is believed, as a share of the swing squared."""
 
-_SUREST = 50.0
+_MAX_LOG_LIKELIHOOD_RATIO = 50.0
 """Largest log-likelihood ratio of a chip: no model is surer."""
 
 _MOST_RIM = 8
@@ -226,14 +226,14 @@ def _improved(light: FloatArray, lattice: ChipLattice) -> tuple[ChipLattice, Flo
         parts = np.column_stack([powers, powers * share[:, None], later, later * place, longer])
         shift, turn, growth = _solved(parts, light)[2 * _POWERS :]
         shift, turn = np.clip([shift, turn], -_MOST_STEP, _MOST_STEP).tolist()
-        longest = 0.5 * lattice.exposure + _SHORTEST
-        growth = float(np.clip(growth, -longest + 2.0 * _SHORTEST, longest))
+        longest = 0.5 * lattice.exposure + _MIN_EXPOSURE_CHIPS
+        growth = float(np.clip(growth, -longest + 2.0 * _MIN_EXPOSURE_CHIPS, longest))
         moved = _moved(lattice, shift, turn / half, growth, count)
         better = _Levels.fitted(light, moved)
         if better.residual_power >= levels.residual_power:
             break
         lattice, levels = moved, better
-        if abs(shift) + abs(turn) < _SETTLED:
+        if abs(shift) + abs(turn) < _CONVERGED_CHANGE:
             break
     variance = _noise(levels) * correlated_columns(levels.residual)
     products = parts.T @ parts
@@ -261,7 +261,7 @@ def _moved(
     lattice: ChipLattice, shift: float, step: float, growth: float, count: int
 ) -> ChipLattice:
     """Shift the middle of the picture, and change the step and the exposure about it."""
-    exposure = max(lattice.exposure + growth, _SHORTEST)
+    exposure = max(lattice.exposure + growth, _MIN_EXPOSURE_CHIPS)
     phase = lattice.phase + shift - 0.5 * step * (count - 1)
     phase -= 0.5 * (exposure - lattice.exposure)
     return replace(lattice, phase=phase, step=lattice.step + step, exposure=exposure)
@@ -298,4 +298,4 @@ def _ratios(lattice: ChipLattice, levels: _Levels) -> FloatArray:
     # For a lit chip: distance if dark, less the distance as it is.
     margin = np.where(lit, power + 2.0 * along, -(power - 2.0 * along))
     noise = _noise(levels) * correlated_columns(levels.residual)
-    return np.clip(margin / (2.0 * noise), -_SUREST, _SUREST)
+    return np.clip(margin / (2.0 * noise), -_MAX_LOG_LIKELIHOOD_RATIO, _MAX_LOG_LIKELIHOOD_RATIO)

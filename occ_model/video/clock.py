@@ -14,14 +14,14 @@ READOUT_TOLERANCE = 0.01
 _OVERLAP = 1e-3
 """Share of a frame period by which reading out may seem to last longer: of measurement errors."""
 
-_FEWEST = 3
-"""Frames from which the clock is fitted."""
+_MIN_FRAMES = 3
+"""Minimum number of frames to fit the clock to."""
 
 _OUTLIERS = 0.1
-"""Share of phases that do not agree with the others that is told."""
+"""Outlier fraction of the phases that triggers a warning."""
 
-_NAMED = 5
-"""Most other frequencies that a sentence names."""
+_MAX_NAMED_FREQUENCIES = 5
+"""Maximum number of other frequencies that a sentence names."""
 
 _WANDERING = 3.0
 """Ratio of the phases' scatter to that from frame to frame from which they wander."""
@@ -41,7 +41,7 @@ def fits_of(
     period
         The frame period in seconds: reading out a frame takes no longer.
     """
-    if len(phases.times) < _FEWEST:
+    if len(phases.times) < _MIN_FRAMES:
         return ()
     step, _ = mean_step(phases)
     low = step / (readout_time * (1.0 + tolerance))
@@ -97,8 +97,12 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
     if len(fits) > 1:
         others = ", ".join(
             f"{HERTZ.format(fit.frequency)} ({SECOND.format(fit.step / fit.frequency)} a column)"
-            for fit in fits[1 : 1 + _NAMED]
-        ) + (f" and {len(fits) - 1 - _NAMED} more" if len(fits) > 1 + _NAMED else "")
+            for fit in fits[1 : 1 + _MAX_NAMED_FREQUENCIES]
+        ) + (
+            f" and {len(fits) - 1 - _MAX_NAMED_FREQUENCIES} more"
+            if len(fits) > 1 + _MAX_NAMED_FREQUENCIES
+            else ""
+        )
         problems.append(
             f"Several frequencies fit the frames alike: {HERTZ.format(best.frequency)} is stated, "
             f"but also {others}; a surer readout time, or a longer packet, would tell them apart."

@@ -15,8 +15,8 @@ _FEWEST_EDGES = 4
 _OFF = 0.3
 """Chips off the lattice from which an edge shows that chips were miscounted."""
 
-_NEAR = 0.05
-"""Share of the expected length of a chip within which another one is searched."""
+_SEARCHED_FRACTION = 0.05
+"""Fraction of the expected length of a chip within which another length is searched."""
 
 _STEPS_A_TURN = 8.0
 """Lengths of a chip that are tried while the last edge moves by a chip against the first."""
@@ -81,7 +81,7 @@ def _regular(
 def _most_coherent(places: FloatArray, rising: BoolArray, expected: float) -> float:
     """Return the chips a column, near what is expected, on whose lattice edges lie best."""
     extent = max(float(np.ptp(places)), 1.0)
-    reach = max(_NEAR * expected, 1.0 / extent)
+    reach = max(_SEARCHED_FRACTION * expected, 1.0 / extent)
     count = int(np.ceil(2.0 * reach * extent * _STEPS_A_TURN)) + 1
     steps = expected + np.linspace(-reach, reach, count)
     turns = np.exp(2j * np.pi * np.outer(steps, places))

@@ -12,19 +12,19 @@ _EVEN = 0.25
 """Share of a period by which an interval may differ from a whole number of them."""
 
 _UNEVEN = 0.02
-"""Standard deviation of the frame times, as a share of the period, that is told."""
+"""Standard deviation of the frame times, as a fraction of the period, that triggers a warning."""
 
-_NAMED = 3
-"""Most frames that a sentence names."""
+_MAX_NAMED_FRAMES = 3
+"""Maximum number of frames that a sentence names."""
 
 BREAK = 16.0
 """Periods between two frames from which the film goes on as another part: what a camera that is
 stopped, or a file that is damaged, states for them tells nothing of the frames before."""
 
-_FEWEST = 4.0
-"""Frames of a part on average from which the times tell anything."""
+_MIN_FRAMES_PER_PART = 4.0
+"""Mean number of frames per part from which the times are meaningful."""
 
-_SHORTEST = 1e-9
+_MIN_INTERVAL = 1e-9
 """Seconds below which two frames have the same time."""
 
 
@@ -67,12 +67,12 @@ class FrameTimes:
 
     def is_jump(self, interval: float) -> bool:
         """Whether an interval is so long that another part begins after it, or leads back."""
-        return interval > BREAK * self.period.value or interval < -_SHORTEST
+        return interval > BREAK * self.period.value or interval < -_MIN_INTERVAL
 
     @property
     def follow(self) -> bool:
         """Whether most frames follow each other, so that their times tell a clock."""
-        return len(self.parts) == 1 or len(self.numbers) >= _FEWEST * len(self.parts)
+        return len(self.parts) == 1 or len(self.numbers) >= _MIN_FRAMES_PER_PART * len(self.parts)
 
     def part_of(self, frame: int) -> Part:
         """Return the part that a frame is in; the last one for those that came since."""
@@ -101,11 +101,11 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
         None where fewer than two times differ.
     """
     intervals = np.diff(times)
-    ahead = intervals[intervals > _SHORTEST]
+    ahead = intervals[intervals > _MIN_INTERVAL]
     if ahead.size == 0:
         return None
     usual = float(np.median(ahead))
-    jumps = (intervals > BREAK * usual) | (intervals < -_SHORTEST)
+    jumps = (intervals > BREAK * usual) | (intervals < -_MIN_INTERVAL)
     counts = np.where(jumps, 0, np.rint(intervals / usual)).astype(np.int64)
     firsts = np.concatenate([[0], np.flatnonzero(jumps) + 1])
     sizes = np.diff(np.append(firsts, len(times)))
@@ -179,6 +179,6 @@ def _frames(count: int) -> str:
 
 
 def _named(frames: IndexArray) -> str:
-    names = [str(frame) for frame in frames[:_NAMED].tolist()]
-    more = f" and {len(frames) - _NAMED} more" if len(frames) > _NAMED else ""
+    names = [str(frame) for frame in frames[:_MAX_NAMED_FRAMES].tolist()]
+    more = f" and {len(frames) - _MAX_NAMED_FRAMES} more" if len(frames) > _MAX_NAMED_FRAMES else ""
     return ("frame " if len(frames) == 1 else "frames ") + ", ".join(names) + more

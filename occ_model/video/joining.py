@@ -14,13 +14,13 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.results.video_reading import FrameReading
 from occ_model.video.period import SentPeriod
 
-_MOST = 8.0
+_MAX_FRAME_RATIO = 8.0
 """Largest log-likelihood ratio that one frame gives to a chip: a frame may be misplaced."""
 
 _KNOWN = 30.0
 """Log-likelihood ratio of a chip that is the same in every packet."""
 
-_SURE = 2.0
+_KNOWN_CHIP_RATIO = 2.0
 """Log-likelihood ratio from which a chip counts as known when places are compared."""
 
 _AHEAD = 7.0
@@ -126,7 +126,7 @@ class Joined:
     def add(self, frame: FrameReading, place: int) -> None:
         """Add what a frame says of its chips."""
         length = self._period.length
-        ratios = np.clip(frame.ratios.astype(np.float64), -_MOST, _MOST)
+        ratios = np.clip(frame.ratios.astype(np.float64), -_MAX_FRAME_RATIO, _MAX_FRAME_RATIO)
         at = (place + np.arange(len(ratios))) % length
         np.add.at(self._votes, at, ratios)
         np.add.at(self._counts, at[slice(*frame.whole)], 1)
@@ -138,8 +138,13 @@ class Joined:
     def _likelihood(self, frame: FrameReading) -> FloatArray:
         """Return the logarithm of the likelihood of each place, 0 for one that tells nothing."""
         ratios, length = self.ratios, self._period.length
-        lit, dark = (ratios > _SURE).astype(np.float64), (ratios < -_SURE).astype(np.float64)
-        sureness = np.tanh(0.5 * np.clip(frame.ratios.astype(np.float64), -_MOST, _MOST))
+        lit, dark = (
+            (ratios > _KNOWN_CHIP_RATIO).astype(np.float64),
+            (ratios < -_KNOWN_CHIP_RATIO).astype(np.float64),
+        )
+        sureness = np.tanh(
+            0.5 * np.clip(frame.ratios.astype(np.float64), -_MAX_FRAME_RATIO, _MAX_FRAME_RATIO)
+        )
         folded = np.zeros((2, length))
         at = np.arange(len(sureness)) % length
         for row, agreed in enumerate((np.log1p(sureness), np.log1p(-sureness))):

@@ -31,8 +31,8 @@ from occ_model.video.file.source import CHANNELS, StoredFrame
 _SAME_TIME = 1e-6
 """Seconds by which a frame's time may differ from that which it was stated to have."""
 
-_NEAR = 10
-"""A frame so few frames ahead is decoded to; one further away is looked for by its time."""
+_MAX_DECODED_AHEAD = 10
+"""Frames ahead up to which a frame is decoded to; one further away is found by its time."""
 
 _STEPS_LEFT = 2.0
 """The last frame of a whole film is no further from its end than so many of the longest steps."""
@@ -128,7 +128,7 @@ class VideoFile(Video):
             put_back(decoder)
 
     def __del__(self) -> None:
-        """Give the decoder back."""
+        """Release the decoder."""
         with suppress(AttributeError):  # a film that could not be opened has none
             self.close()
 
@@ -163,7 +163,7 @@ class VideoFile(Video):
         """Find one frame: the next after the one at hand, else by its time, else from the start."""
         stepping, self._stepping = self._stepping, None
         try:
-            if stepping is not None and 0 < index - stepping.frame.index <= _NEAR:
+            if stepping is not None and 0 < index - stepping.frame.index <= _MAX_DECODED_AHEAD:
                 decoder = stepping.decoder
                 passed = index - stepping.frame.index - 1
                 if decoder.skip(passed) < passed:

@@ -21,8 +21,8 @@ from occ_model.video.first_lattice import first_lattice
 _MOST_UNEXPLAINED = 0.3
 """Share of the signal's variance that the chips leave unexplained above which they are not read."""
 
-_REMEMBERED = 5
-"""Frames whose regions tell where the panel ends: it moves little from one to the next."""
+_REMEMBERED_REGIONS = 5
+"""Previous frames whose regions show where the panel ends: it moves little from one to the next."""
 
 _MOST_DARK = 6.0
 """Most dark chips in a row at an end of the panel: more than any line code has."""
@@ -127,7 +127,7 @@ class FrameReader:
     def __init__(self, scene: Scene, decoder: str) -> None:
         self._enhanced, self._scene = scene, scene.replace(enhancement="none")
         self._decoder = decoder
-        self._spans: deque[tuple[int, int]] = deque(maxlen=_REMEMBERED)
+        self._spans: deque[tuple[int, int]] = deque(maxlen=_REMEMBERED_REGIONS)
 
     def read(self, frame: VideoFrame) -> TimedFrame:
         """Read the chips of the next frame."""

@@ -6,6 +6,7 @@ the manual's table are all made from these declarations. Values are in SI units.
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import TypeVar
 
 from occ_model.errors import ParameterError, shown
 from occ_model.scene.parameter_kinds import Count, OpenChoice, Parameter, Payload, Quantity
@@ -13,6 +14,8 @@ from occ_model.scene.parameters.camera import Camera, Lens, Sensor
 from occ_model.scene.parameters.group import Group
 from occ_model.scene.parameters.light import Surroundings, Transmitter
 from occ_model.scene.parameters.pose_receiver_model import Model, Pose, Receiver
+
+_Kind = TypeVar("_Kind", bound=Parameter)
 
 _GROUPS: tuple[type[Group], ...] = (
     Transmitter,
@@ -46,57 +49,29 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
     raise ParameterError(f"There is no parameter {shown(name)}; {hint}")
 
 
-def count(name: str) -> Count:
-    """Return the declaration of a parameter that is a whole number.
-
-    Raises
-    ------
-    TypeError
-        It is of another kind.
-    """
+def _of_kind(name: str, kind: type[_Kind]) -> _Kind:
+    """Return a declaration, or raise a TypeError where it is of another kind."""
     declared = PARAMETERS[name]
-    if not isinstance(declared, Count):
-        raise TypeError(f"{name} is no count")
+    if not isinstance(declared, kind):
+        raise TypeError(f"{name} is declared as a {type(declared).__name__}, not a {kind.__name__}")
     return declared
+
+
+def count(name: str) -> Count:
+    """Return the declaration of a whole number."""
+    return _of_kind(name, Count)
 
 
 def quantity(name: str) -> Quantity:
-    """Return the declaration of a parameter that is a quantity, with a unit and a slider.
-
-    Raises
-    ------
-    TypeError
-        It is a choice, a count or a pattern.
-    """
-    declared = PARAMETERS[name]
-    if not isinstance(declared, Quantity):
-        raise TypeError(f"{name} is no quantity")
-    return declared
+    """Return the declaration of a quantity, with its unit and slider."""
+    return _of_kind(name, Quantity)
 
 
 def open_choice(name: str) -> OpenChoice:
-    """Return the declaration of a parameter that is a choice which plug-ins extend.
-
-    Raises
-    ------
-    TypeError
-        It is of another kind.
-    """
-    declared = PARAMETERS[name]
-    if not isinstance(declared, OpenChoice):
-        raise TypeError(f"{name} is no choice that plug-ins extend")
-    return declared
+    """Return the declaration of a choice that plug-ins extend."""
+    return _of_kind(name, OpenChoice)
 
 
 def payload_parameter() -> Payload:
-    """Return the declaration of the payload.
-
-    Raises
-    ------
-    TypeError
-        It is of another kind.
-    """
-    declared = PARAMETERS["payload"]
-    if not isinstance(declared, Payload):
-        raise TypeError("payload is no payload")
-    return declared
+    """Return the declaration of the payload."""
+    return _of_kind("payload", Payload)

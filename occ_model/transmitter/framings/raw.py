@@ -19,8 +19,8 @@ from occ_model.transmitter.framings.framing import (
 from occ_model.transmitter.framings.repeated_frame import read_repeated
 
 _CRC_BITS = 16
-_SHORT = 8
-_LONG = 16
+_SHORT_LENGTH_BITS = 8
+_LONG_LENGTH_BITS = 16
 
 
 def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
@@ -36,9 +36,9 @@ def length_bits(bits: int) -> int:
 
 
 def _length_field(bits: int) -> ByteArray:
-    if bits < 1 << _SHORT - 1:
-        return _binary(bits, _SHORT)
-    return _binary(bits | 1 << _LONG - 1, _LONG)
+    if bits < 1 << _SHORT_LENGTH_BITS - 1:
+        return _binary(bits, _SHORT_LENGTH_BITS)
+    return _binary(bits | 1 << _LONG_LENGTH_BITS - 1, _LONG_LENGTH_BITS)
 
 
 def _binary(number: int, places: int) -> ByteArray:
@@ -64,11 +64,11 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     """Read the frame that starts the chips, of whatever length it says."""
     code = form.line_code
-    head = code.decode(data[: code.chips_for(_LONG)], level).bits
-    if len(head) < _LONG:
+    head = code.decode(data[: code.chips_for(_LONG_LENGTH_BITS)], level).bits
+    if len(head) < _LONG_LENGTH_BITS:
         return Framed.nothing("The frame ends within its number of bits.")
     is_long = bool(head[0])
-    start = _LONG if is_long else _SHORT
+    start = _LONG_LENGTH_BITS if is_long else _SHORT_LENGTH_BITS
     count = int("".join(map(str, head[is_long:start].tolist())), 2)
     whole = start + count + _CRC_BITS
     if code.chips_for(whole) > len(data):

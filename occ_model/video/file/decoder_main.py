@@ -115,7 +115,7 @@ class _Answering:
         return self._source is not None
 
     def answer(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:
-        """Give the answer and the pixels, if there are any."""
+        """Return the answer and the pixels, if there are any."""
         from occ_model.errors import VideoError
 
         try:

@@ -85,7 +85,7 @@ class DecoderProcess:
         return OpenedFilm(answer["rate"], answer["count"])
 
     def read(self) -> StoredFrame | None:
-        """Give the next frame, None after the last; the one after it is asked for ahead.
+        """Return the next frame, None after the last; the one after it is asked for ahead.
 
         Raises
         ------
@@ -123,7 +123,7 @@ class DecoderProcess:
         return passed
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Give a frame anywhere in the film, None where it is not found so.
+        """Return a frame anywhere in the film, None where it is not found so.
 
         Raises as :meth:`read` does.
 

@@ -7,7 +7,7 @@ from uuid import UUID
 _MARK = UUID("6f63635f-6d6f-4465-8c5f-66696c6d6e74").bytes
 """Before a note in MP4 and MKV files."""
 
-_LONGEST = 1_000_000
+_MAX_NOTE_BYTES = 1_000_000
 """Bytes of a note."""
 
 _VOID = b"\xec"
@@ -15,13 +15,13 @@ _VOID = b"\xec"
 
 
 def mp4_note(note: str) -> bytes:
-    """Give the box of type ``uuid`` that holds a note, to stand at an MP4 file's end."""
+    """Return the box of type ``uuid`` that holds a note, to stand at an MP4 file's end."""
     content = _MARK + note.encode()
     return struct.pack(">I4s", 8 + len(content), b"uuid") + content
 
 
 def mkv_note(note: str) -> bytes:
-    """Give the element that holds a note, to stand at an MKV file's end."""
+    """Return the element that holds a note, to stand at an MKV file's end."""
     content = _MARK + note.encode()
     # A size of eight bytes begins with a 1.
     return _VOID + struct.pack(">Q", 1 << 56 | len(content)) + content
@@ -35,8 +35,8 @@ def note_in(path: Path) -> str:
             if start[:4] in (b"GIF8", b"\x89PNG"):
                 return _of_picture(path)
             file.seek(0, 2)
-            file.seek(max(0, file.tell() - _LONGEST))
-            end = file.read(_LONGEST)
+            file.seek(max(0, file.tell() - _MAX_NOTE_BYTES))
+            end = file.read(_MAX_NOTE_BYTES)
     except OSError:
         return ""
     _before, mark, text = end.rpartition(_MARK)

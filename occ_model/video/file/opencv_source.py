@@ -39,7 +39,7 @@ class OpenCvSource(FrameSource):
         self.frame_count = round(count) if 0.0 < count < _MOST_FRAMES else None
 
     def read(self) -> StoredFrame | None:
-        """Give the next frame, None after the last."""
+        """Return the next frame, None after the last."""
         found, pixels = self._capture.read()
         if not found or pixels is None:
             return None
@@ -50,7 +50,7 @@ class OpenCvSource(FrameSource):
         return bool(self._capture.grab())
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Give a frame anywhere in the film, None where it has another time than was stated."""
+        """Return a frame anywhere in the film, None where it has another time than was stated."""
         # OpenCV counts frames by their times, which fails where they are not equally far apart.
         if not self._capture.set(cv2.CAP_PROP_POS_FRAMES, index):
             return None

@@ -35,7 +35,7 @@ class PillowSource(FrameSource):
         self._next, self._time = 0, 0.0
 
     def read(self) -> StoredFrame | None:
-        """Give the next frame, None after the last."""
+        """Return the next frame, None after the last."""
         try:
             self._picture.seek(self._next)
             shown = self._picture.convert("RGBA") if self._has_colours() else self._picture

@@ -15,13 +15,13 @@ import cv2
 from occ_model.arrays import ByteArray
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
-_MOST = 65_535
-"""Largest number of a frame's delay, which is a fraction of two of them."""
+_MAX_DELAY_PART = 65_535
+"""Largest numerator or denominator of a frame's delay."""
 
 
 def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
     """Write grey or coloured pictures with a note as the text ``Description``; count them."""
-    delay = (1 / Fraction(rate)).limit_denominator(_MOST)
+    delay = (1 / Fraction(rate)).limit_denominator(_MAX_DELAY_PART)
     count = sequence = place = 0
     with path.open("wb") as file:
         for picture in pictures:

@@ -53,14 +53,14 @@ class FrameSource(ABC):
 
     @abstractmethod
     def read(self) -> StoredFrame | None:
-        """Give the next frame, None after the last that can be decoded."""
+        """Return the next frame, None after the last that can be decoded."""
 
     @abstractmethod
     def skip(self) -> bool:
         """Pass over the next frame; tell whether there was one."""
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:  # noqa: ARG002
-        """Give a frame anywhere in the film, None where this source cannot find it surely.
+        """Return a frame anywhere in the film, None where this source cannot find it surely.
 
         Parameters
         ----------

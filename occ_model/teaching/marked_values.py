@@ -2,6 +2,7 @@
 
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
+from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.theory import band_model_frequency, null_frequency
 
 
@@ -12,7 +13,8 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     -------
     tuple of MarkedValue
         Of the switching frequency and the exposure time: where both are equal, t = t_LED, and the
-        first null of an alternating pattern, t = 2 t_LED; of others none.
+        first null of an alternating pattern, t = 2 t_LED, or of a raw pattern the shortest exposure
+        without bars; of others none.
     """
     check_scene(scene)
     camera = scene.camera
@@ -23,9 +25,13 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     if ends is None or camera.exposure_time <= 0.0:
         return ()
     equal, null = ends
+    ends_there = "Exposure and switching period are equal: the band model ends."
+    first = MarkedValue(equal, "t = t_LED", ends_there)
+    if scene.transmitter.pattern and parameter == "exposure_time":
+        period = DepthOver.of(scene).period * scene.transmitter.switching_period
+        why = "A whole period of the pattern: no bars, here and at its whole multiples."
+        return first, MarkedValue(period, "no bars", why)
     return (
-        MarkedValue(
-            equal, "t = t_LED", "Exposure and switching period are equal: the band model ends."
-        ),
+        first,
         MarkedValue(null, "null", "The exposure is two chips long: the first null of 0101."),
     )

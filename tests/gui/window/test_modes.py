@@ -95,7 +95,7 @@ def test_a_mode_comes_back_as_it_was_left(application: Application) -> None:
     window.modes.switch("effects")
     assert shown(application) == set(MODES["effects"].panes)
     window.modes.switch("limits")
-    assert shown(application) == left == {"map", "bench", "equations"}
+    assert shown(application) == left == {"map", "bench", "bands", "equations"}
     window.actions_by_name["reset_layout"].trigger()
     assert shown(application) == set(MODES["limits"].panes)
 

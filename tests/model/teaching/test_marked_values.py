@@ -17,3 +17,13 @@ def test_the_band_model_ends_and_stripes_vanish_at_the_marks() -> None:
             occ.band_lengths(longer)
         assert np.ptp(occ.column_profile(scene.replace(**{name: null.value}))) < 0.1
     assert marked_values(scene, "distance") == ()
+
+
+@pytest.mark.parametrize("pattern", ["10", "1110", "1010", "110100"])
+def test_a_pattern_s_bars_vanish_at_its_mark_and_not_before(pattern: str) -> None:
+    scene = occ.load_preset("phone-136us").replace(pattern=pattern, switching_frequency=8192.0)
+    mark = marked_values(scene, "exposure_time")[1]
+    assert mark.label == "no bars"
+    assert occ.band_depth(scene.replace(exposure_time=mark.value)).peak_to_peak < 1e-12
+    for part in (0.3, 0.5, 0.9):
+        assert occ.band_depth(scene.replace(exposure_time=part * mark.value)).peak_to_peak > 0.01

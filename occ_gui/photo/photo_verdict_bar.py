@@ -21,7 +21,7 @@ class PhotoVerdictBar(StateBar):
     The verdict on the simulated picture, which may be another, is a chip beside it.
     """
 
-    MOST_LINES = 4  # a refusal says its remedy last
+    MOST_LINES = 4  # what a refusal says first is what to do about it
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -103,8 +103,7 @@ class PhotoVerdictBar(StateBar):
             sentence = self.tr("Open one, say what was sent as far as you know, and match it.")
             return State.NEUTRAL, (self.tr("No photo is open"), sentence)
         if self._why_not:
-            reasons = (" ".join(self._why_not), self._first_of(self._why_not))
-            return State.BAD, (self.tr("Photo: not matched"), *reasons)
+            return State.BAD, (self.tr("Photo: not matched"), self._first_of(self._why_not))
         if self._match is None and self._row is not None:
             return self._listed(self._row)
         if self._match is None:

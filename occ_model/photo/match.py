@@ -214,13 +214,13 @@ def _read(candidates: Candidates, as_sent: Hypothesis | None, sent: str) -> list
 def _chosen(
     judge: Judge, hypotheses: Sequence[Hypothesis], stripes: Stripes, sent: str
 ) -> Hypothesis:
-    """Choose among hypotheses; where all are refused, say too why nothing could be read."""
+    """Choose among hypotheses; where all are refused, say first why nothing could be read."""
     try:
         return judge.choose(hypotheses)
     except MatchError as error:
         if sent == "scene" or any(one.was_read for one in hypotheses):
             raise
-        raise MatchError(*error.reasons, *_why_unexplained(stripes, "read")) from None
+        raise MatchError(*_why_unexplained(stripes, "read"), *error.reasons) from None
 
 
 def _at_rate(scene: Scene, found: Hypothesis) -> Scene:

@@ -9,6 +9,7 @@ import occ_model as occ
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.widgets.state_look import State
+from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, PhotoRow
 
@@ -38,7 +39,8 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     view.show_match_begun()
     view.show_match_refused(REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
-    assert REASONS[1] in bar.accessibleDescription()
+    assert f"{REASONS[0]} And 1 more." in bar.accessibleDescription()
+    assert REASONS[1] not in bar.accessibleDescription()  # the pane has it
     view.show_match(match)
     assert (bar.state, bar.heading) == (State.GOOD, "Photo: sure match")
     view.show_photo(None)
@@ -123,19 +125,18 @@ def test_another_photo_of_the_table_keeps_what_is_certain(view: PhotoView, photo
     assert not view.form.certain.isChecked()
 
 
-def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
+def test_a_refusals_first_reason_is_read_to_its_end_where_the_window_is_narrow(
     view: PhotoView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
 ) -> None:
     bar.setParent(None)
     qtbot.addWidget(bar)
-    bar.resize(600, 60)
+    bar.resize(400, 60)
     bar.show()
     view.show_photo(photo)
     low = bar.minimumSizeHint().height()
-    reason = "A plain pulse repeats in the photo, as behind a blind: say that a lamp blinks so."
-    view.show_match_refused([reason, reason.upper()])
+    view.show_match_refused([PLAIN_STRIPES, "They repeat after 40.0 columns."])
     assert bar.wrapped.isVisible()
-    assert bar.wrapped.text().endswith(reason.upper())
+    assert bar.wrapped.text().endswith(f"{PLAIN_STRIPES} And 1 more.")
     assert bar.minimumSizeHint().height() > low
     assert bar.wrapped.heightForWidth(bar.wrapped.width()) <= bar.wrapped.height() + 2
     view.show_photo(photo)

@@ -76,6 +76,12 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         VideoFrame as VideoFrame,
         VideoReading as VideoReading,
     )
+    from occ_model.room.locate import (
+        Located as Located,
+        RoomReading as RoomReading,
+        read_room as read_room,
+    )
+    from occ_model.room.reading import ReadLamp as ReadLamp
     from occ_model.room.render import (
         RoomFrame as RoomFrame,
         render_room as render_room,
@@ -168,6 +174,7 @@ _MODULES = {
     "Lamp": "results",
     "Limits": "results",
     "LineCode": "transmitter.line_codes.line_code",
+    "Located": "room.locate",
     "Match": "results",
     "MatchError": "errors",
     "MostBits": "results",
@@ -183,11 +190,13 @@ _MODULES = {
     "PluginError": "errors",
     "PresetError": "errors",
     "ProjectionError": "errors",
+    "ReadLamp": "room.reading",
     "Recording": "scene.recording",
     "Region": "results",
     "Room": "room.room",
     "RoomFrame": "room.render",
     "RoomLamp": "room.room",
+    "RoomReading": "room.locate",
     "Scene": "scene.scene",
     "SceneFileError": "errors",
     "Scheme": "transmitter.scheme",
@@ -235,6 +244,7 @@ _MODULES = {
     "pulse_depth": "study.bands.pulse",
     "read_chips": "photo.chips.read",
     "read_payload": "receiver.read_payload",
+    "read_room": "room.locate",
     "render": "simulation.render",
     "render_room": "room.render",
     "render_video": "video.render",

@@ -23,6 +23,7 @@ from occ_model.commands import (
     most_bits,
     plan,
     render,
+    room,
     sweep,
     transmit,
 )
@@ -32,7 +33,7 @@ from occ_model.version import __version__
 
 _COMMANDS = (
     render, animate, film, film_study, plan, accuracy, sweep, limits, bench, most_bits, bands,
-    decode, match, figures, transmit, codes, listing,
+    decode, match, figures, room, transmit, codes, listing,
 )  # fmt: skip
 
 

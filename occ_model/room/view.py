@@ -74,7 +74,7 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
         x, y, z = lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z
     else:
         turned = rotation(camera).T @ rotation(lamp)
-        angles = _angles_of(turned)
+        angles = angles_of(turned)
         place = [lamp.x - camera.x, lamp.y - camera.y, lamp.z - camera.z]
         x, y, z = (rotation(camera).T @ place).tolist()
     pose = Pose(distance=z, offset_x=x, offset_y=y, yaw=angles[0], pitch=angles[1], roll=angles[2])
@@ -88,7 +88,7 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
     )
 
 
-def _angles_of(turned: FloatArray) -> tuple[float, float, float]:
+def angles_of(turned: FloatArray) -> tuple[float, float, float]:
     """Return yaw, pitch and roll of a rotation: :func:`rotation_of` undone."""
     yaw = math.asin(min(1.0, max(-1.0, -float(turned[2, 0]))))
     pitch = math.atan2(turned[2, 1], turned[2, 2])

@@ -1,0 +1,208 @@
+"""Read the lamps of a room in a picture: find them, decode each, name it by its code."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.coverage import column_spans
+from occ_model.camera.photometry import luminance_of
+from occ_model.errors import DecodeInputError
+from occ_model.receiver.decode import decode
+from occ_model.results import Region
+from occ_model.room.room import Room, RoomLamp
+from occ_model.scene.scene import Scene
+from occ_model.transmitter.packet import packet
+
+_ROWS = 4
+"""Rows that are averaged where lamps are looked for."""
+
+_ABOVE_NOISE = 6.0
+"""Standard deviations of the noise above the surroundings from which a pixel is a lamp's."""
+
+_SHARE = 0.1
+"""Share of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
+
+_LEAST_SIDE = 12
+"""Rows and columns of the smallest lamp that is looked at."""
+
+_SENT = (
+    "switching_frequency", "bits", "payload", "line_code", "framing", "preamble",
+    "error_correction", "pattern",
+)  # fmt: skip
+"""What a decoder has to know of a lamp besides its code."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReadLamp:
+    """A lamp found in a picture.
+
+    Parameters
+    ----------
+    name
+        Its name in the room, None where it has none.
+    code
+        The code that was read, None where none was.
+    region
+        The rectangle round its lit pixels.
+    hull : ndarray of float64, shape (corners, 2)
+        The convex outline of its lit pixels, (column, row) of each corner.
+    is_cut
+        Whether it reaches the picture's edge.
+    note
+        Why it has no name, or that it is cut; empty where all is well.
+    signal : ndarray of float64, shape (region's columns,)
+        Mean light of its pixels in each column above that of the surroundings, cd/m2.
+    """
+
+    name: str | None
+    code: int | None
+    region: Region
+    hull: FloatArray
+    is_cut: bool
+    note: str
+    signal: FloatArray
+
+
+def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
+    """Return a picture of the room's camera, or refuse what is none.
+
+    Raises
+    ------
+    DecodeInputError
+        It is no picture of bytes of the camera's size.
+    """
+    camera = room.scene.camera
+    picture = np.asarray(image)
+    if picture.dtype != np.uint8 or picture.shape != (camera.rows, camera.columns):
+        raise DecodeInputError(
+            f"A picture of this room has {camera.rows} rows and {camera.columns} columns of bytes "
+            f"(uint8), not the shape {picture.shape} and the type {picture.dtype}."
+        )
+    return np.ascontiguousarray(picture)
+
+
+def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
+    """Find the lamps in the camera's picture and name them, from the largest to the smallest."""
+    found = sorted(_found(image, room), key=lambda one: -one[0].rows * one[0].columns)
+    lamps = [_read(image, region, hull, room) for region, hull in found]
+    names = [lamp.name for lamp in lamps if lamp.name]
+    return tuple(
+        _unnamed(lamp, f"{lamp.name} was read at {names.count(lamp.name)} places")
+        if lamp.name and names.count(lamp.name) > 1
+        else lamp
+        for lamp in lamps
+    )
+
+
+def _unnamed(lamp: ReadLamp, why: str) -> ReadLamp:
+    return ReadLamp(None, lamp.code, lamp.region, lamp.hull, lamp.is_cut, why, lamp.signal)
+
+
+def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
+    """Give the region and the convex outline of each group of lit pixels."""
+    rows, columns = image.shape
+    low = cv2.resize(
+        image.astype(np.float32), (columns, max(1, rows // _ROWS)), interpolation=cv2.INTER_AREA
+    )
+    scale = rows / len(low)
+    dark = float(np.median(low))
+    noise = 1.48 * float(np.median(np.abs(low - dark)))
+    bright = float(np.percentile(low, 99.9))
+    level = dark + max(_ABOVE_NOISE * noise, _SHARE * (bright - dark), 2.0)
+    lit = (low > level).astype(np.uint8)
+    spots = cv2.morphologyEx(lit, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
+    joined = cv2.morphologyEx(spots, cv2.MORPH_CLOSE, np.ones((1, _longest_gap(room)), np.uint8))
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(joined, connectivity=8)
+    for label in range(1, count):
+        x, y, width, height, _ = stats[label].tolist()
+        if width < _LEAST_SIDE or height * scale < _LEAST_SIDE:
+            continue
+        part = np.s_[y : y + height, x : x + width]
+        points = cv2.findNonZero(((labels[part] == label) & (spots[part] > 0)).astype(np.uint8))
+        hull = cv2.convexHull(points).reshape(-1, 2) + np.array([x, y], dtype=np.float64)
+        hull[:, 1] = (hull[:, 1] + 0.5) * scale - 0.5
+        first, last = int(y * scale), min(rows, int((y + height) * scale + 1))
+        yield Region(first, last, x, x + width), hull
+
+
+def _longest_gap(room: Room) -> int:
+    """Return the columns of the longest dark run of any lamp, odd."""
+    longest = 0.0
+    for scene in _settings(room):
+        chips = packet(scene)
+        if chips.all() or not chips.any():
+            continue
+        ends = np.flatnonzero(np.concatenate([chips, chips]))
+        gap = int(np.diff(ends).max()) - 1
+        # Any two data chips may be dark, whatever this code is.
+        longest = max(longest, max(gap, 2) / scene.transmitter.switching_frequency)
+    return int(longest / room.scene.camera.readout_time * 1.1) // 2 * 2 + 5
+
+
+def _settings(room: Room) -> tuple[Scene, ...]:
+    """Return a scene for each way in which lamps of the room send."""
+    return tuple(
+        room.scene.replace(**dict(zip(_SENT, sent, strict=True)), code=0)
+        for sent in dict.fromkeys(sent_by(lamp) for lamp in room.lamps)
+    )
+
+
+def sent_by(lamp: RoomLamp) -> tuple[Any, ...]:
+    """Return what a decoder has to know of a lamp besides its code."""
+    return tuple(getattr(lamp.transmitter, name) for name in _SENT)
+
+
+def _signal(image: ByteArray, region: Region, hull: FloatArray) -> FloatArray:
+    """Return the mean pixel value within the outline in each column of the region."""
+    part = region.crop(image)
+    own = hull - [region.first_column, region.first_row]
+    first, last = column_spans(own, *part.shape)
+    edge = np.minimum(3, (last - first) // 4)
+    first, last = first + edge, last - edge
+    sums = np.zeros((part.shape[0] + 1, part.shape[1]))
+    np.cumsum(part, axis=0, out=sums[1:])
+    column = np.arange(part.shape[1])
+    total = sums[last, column] - sums[first, column]
+    shown = last > first
+    means = total / np.maximum(last - first, 1)
+    return np.asarray(np.interp(column, column[shown], means[shown]))
+
+
+def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> ReadLamp:
+    rows, columns = image.shape
+    is_cut = (
+        region.first_row <= _ROWS or region.first_column <= 1
+        or region.last_row >= rows - _ROWS or region.last_column >= columns - 1
+    )  # fmt: skip
+    signal = _signal(image, region, hull)
+    light = luminance_of(signal, room.scene.camera)
+    codes: list[tuple[int, list[str]]] = []
+    failure = ""
+    for scene in _settings(room):
+        result = decode(signal, scene, "matched")
+        if result.code is None:
+            failure = failure or str(result.failure)
+            continue
+        sent = tuple(getattr(scene.transmitter, name) for name in _SENT)
+        names = [
+            lamp.name for lamp in room.lamps
+            if sent_by(lamp) == sent and lamp.transmitter.code == result.code
+        ]  # fmt: skip
+        codes.append((result.code, names))
+    known = [(code, name) for code, names in codes for name in names]
+    code = codes[0][0] if codes else None
+    cut = "It is cut by the picture's edge." if is_cut else ""
+    if len(known) == 1:
+        return ReadLamp(known[0][1], known[0][0], region, hull, is_cut, cut, light)
+    if known:
+        why = f"{' and '.join(name for _, name in known)} would look the same."
+    elif codes:
+        why = f"No lamp of the room has the code {code}."
+    else:
+        why = f"No code was read: {failure}"
+    return ReadLamp(None, code, region, hull, is_cut, f"{why} {cut}".strip(), light)

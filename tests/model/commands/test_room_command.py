@@ -1,0 +1,44 @@
+"""The command room draws a room's picture and says where a picture was taken."""
+
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+
+
+def _file(folder: Path) -> Path:
+    room = occ.load_room("hall")
+    path = folder / "small.toml"
+    path.write_text(room.to_toml(), encoding="utf-8")
+    return path
+
+
+def test_a_picture_that_was_drawn_is_located(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    room, picture = str(_file(tmp_path)), str(tmp_path / "picture.png")
+    turned = ["--yaw", "10", "--roll", "40"]
+    assert main(["room", "render", "--room", room, *turned, "-o", picture]) == 0
+    assert "of 96 lamps in the picture" in capsys.readouterr().out
+    with Image.open(picture) as written:
+        assert written.size == (3456, 4608)
+    assert main(["room", "locate", picture, "--room", room]) == 0
+    said = capsys.readouterr().out
+    assert "Assumed of the lens: 26 mm equivalent, without distortion" in said
+    assert "I am here:  x 0.5" in said
+    assert "yaw 10.0" in said or "yaw 9.9" in said
+
+
+def test_a_picture_without_a_named_lamp_fails_with_the_reason(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["room", "locate", "--room", str(_file(tmp_path)), "--x", "80"]) != 0
+    assert "No lamp was found" in capsys.readouterr().out
+
+
+def test_an_unknown_room_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["room", "locate", "--room", "cellar"]) != 0
+    assert "There is no room 'cellar'" in capsys.readouterr().err

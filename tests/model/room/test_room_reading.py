@@ -1,0 +1,118 @@
+"""Lamps are named by their codes, and the camera's place is found within its stated error."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.room.room import Place, Room, RoomLamp
+
+
+def _scene() -> occ.Scene:
+    return occ.load_preset("phone-68us").replace(
+        rows=1024, columns=768, readout_time=36e-6, exposure_time=60e-6,
+        switching_frequency=8e3, averaging="light",
+    )  # fmt: skip
+
+
+def _room(seed: int, lamps: int) -> Room:
+    random = np.random.default_rng(seed)
+    scene = _scene()
+    across = int(np.ceil(np.sqrt(lamps)))
+    made = tuple(
+        RoomLamp(
+            name=f"L{n}",
+            x=1.2 * (n % across - (across - 1) / 2),
+            y=1.2 * (n // across - (across - 1) / 2),
+            z=2.8,
+            roll=float(random.uniform(-0.2, 0.2)),
+            start_time=float(random.uniform(0.0, 3e-3)),
+            transmitter=scene.transmitter.replaced(
+                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
+            ),
+        )
+        for n in range(lamps)
+    )
+    x, y, z, yaw, pitch, roll = random.uniform(
+        (-0.2, -0.2, -0.4, -0.2, -0.2, -3.0), (0.2, 0.2, 0.2, 0.2, 0.2, 3.0)
+    ).tolist()
+    return Room(
+        lamps=made, scene=scene, camera=Place(x=x, y=y, z=z, yaw=yaw, pitch=pitch, roll=roll)
+    )
+
+
+def _off(place: Place, true: Place) -> np.ndarray:
+    return np.array(dataclasses.astuple(place)) - np.array(dataclasses.astuple(true))
+
+
+@pytest.mark.parametrize("seed", [2, 3])
+def test_the_place_lies_within_its_stated_error_and_no_lamp_is_named_wrongly(seed: int) -> None:
+    room = _room(seed, 9)
+    frame = occ.render_room(room, seed=seed)
+    reading = occ.read_room(frame.camera_image, room)
+    shown = {one.lamp.name: one.region for one in frame.lamps}
+    named = [lamp for lamp in reading.lamps if lamp.name]
+    assert len(named) >= 2
+    for lamp in named:
+        assert lamp.name is not None
+        true = shown[lamp.name]
+        assert abs(lamp.region.first_row - true.first_row) < 20
+        assert abs(lamp.region.last_row - true.last_row) < 20
+    assert reading.is_sure, reading.reasons
+    assert reading.located is not None
+    deviation = _off(reading.located.place, room.camera) / reading.located.errors
+    assert np.abs(deviation).max() < 4.5
+    assert reading.located.errors[:2].max() < 0.02
+
+
+def test_one_panel_that_looks_alike_from_several_places_is_said_to() -> None:
+    room = _room(5, 1).replace(yaw=0.3, pitch=0.2, z=0.3)
+    reading = occ.read_room(occ.render_room(room).camera_image, room)
+    assert reading.lamps[0].name == "L0"
+    assert not reading.is_sure
+    assert reading.reasons
+
+
+def test_a_lamp_of_another_room_is_not_named() -> None:
+    room = _room(1, 4)
+    image = occ.render_room(room).camera_image
+    others = tuple(
+        dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced({"code": 900 + n}))
+        for n, lamp in enumerate(room.lamps)
+    )
+    reading = occ.read_room(image, room.replace(lamps=others))
+    assert reading.located is None
+    assert all(lamp.name is None and "No lamp of the room" in lamp.note for lamp in reading.lamps)
+    assert reading.reasons
+
+
+def test_lamps_that_send_the_same_code_are_not_named() -> None:
+    room = _room(1, 4)
+    image = occ.render_room(room).camera_image
+    same = tuple(
+        dataclasses.replace(lamp, transmitter=room.lamps[0].transmitter) for lamp in room.lamps
+    )
+    reading = occ.read_room(image, room.replace(lamps=same))
+    assert all(lamp.name is None for lamp in reading.lamps)
+
+
+def test_a_dark_picture_has_no_place_and_a_reason() -> None:
+    room = _room(1, 4).replace(x=30.0)
+    reading = occ.read_room(occ.render_room(room).camera_image, room)
+    assert reading.located is None
+    assert reading.reasons[0].startswith("No lamp was found")
+
+
+def test_lamps_moved_in_the_file_leave_no_place_that_is_sure_and_right() -> None:
+    room = _room(2, 9)
+    image = occ.render_room(room).camera_image
+    moved = tuple(dataclasses.replace(lamp, x=lamp.x * 1.3, y=lamp.y * 0.6) for lamp in room.lamps)
+    reading = occ.read_room(image, room.replace(lamps=moved))
+    assert reading.located is None
+    assert "No place of the camera follows" in reading.reasons[0]
+
+
+def test_a_picture_of_another_size_is_refused() -> None:
+    with pytest.raises(occ.DecodeInputError, match="1024 rows and 768 columns"):
+        occ.read_room(np.zeros((10, 10), dtype=np.uint8), _room(1, 1))

@@ -64,6 +64,9 @@ _MIDDLE = 0.15
 _SEEN_SHARE = 0.003
 """Change of a pixel's light from beyond a rim that can round it otherwise."""
 
+_LARGE_STEP = 32.0
+"""Levels by which an enhancement can part neighbouring levels, so that one column matters."""
+
 _SHARP = 0.5
 """Noise in grey levels below which the enhancement's steps show between the levels."""
 
@@ -429,6 +432,8 @@ class Changes:
             # A pixel of a rim is enhanced or not.
             found.doubt[name] += self._moved_rims(name) * (_DOUBTED_RIM * jump / region.rows) ** 2
         self._doubt_sharp_steps(found)
+        self._doubt_large_steps(found)
+        self._doubt_a_cut_file(found)
         return found
 
     def _inside(self, included: frozenset[str]) -> NDArray[np.bool_] | None:
@@ -458,6 +463,47 @@ class Changes:
         square = self._mean_of_rows(np.where(sharp, reached, 0.0) ** 2)
         doubt = float((square * self.sample.weights).sum())
         for name in self.names:
+            found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+
+    def _doubt_large_steps(self, found: "Observed") -> None:
+        """Doubt columns near a large step of the enhancement that the sample does not have.
+
+        An equalization makes one where many columns share a value. A change of less than their
+        distance from it carries none of them across.
+        """
+        sample, region = self.sample, self._view.region
+        if len(sample.columns) >= region.columns:
+            return
+        enhancement = self._enhancement(self.names)
+        steps = np.diff(enhancement.curve.astype(np.float64))
+        large = np.flatnonzero(steps > _LARGE_STEP)
+        if not len(large):
+            return
+        profile = self._light(self.names).panel[region.first_column : region.last_column]
+        for limit in self._limits:
+            profile = limit.apply(self._scene, profile)
+        away = np.abs(profile - large[:, None] - 0.5)
+        sampled = away[:, sample.columns - region.first_column]
+        whole = self.values(self.names)
+        for name in self.names:
+            if name in self.variances:
+                moved = math.sqrt(self._mean_of(self._look(self.variances[name], whole)))
+            else:
+                moved = math.sqrt(self._mean_of((whole - self.values(self.names - {name})) ** 2))
+            moved = max(moved, _BETWEEN)
+            missed = (away < moved).mean(axis=1) - (sampled < moved) @ sample.weights
+            doubt = float(np.maximum(missed, 0.0) @ steps[large] ** 2) / 4.0
+            found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+
+    def _doubt_a_cut_file(self, found: "Observed") -> None:
+        """Doubt what a file makes of noise that black or white cuts off: it is not normal."""
+        if self._file is None:
+            return
+        whole, spread = self.values(self.names), self.spread(self.names)
+        cut = 1.0 - self._mean_of(self._look(share_unclipped(self.levels, spread, WHITE), whole))
+        gain = float(np.ptp(found.complete / np.sqrt(self.sample.weights))) / self._view.swing
+        for name in (self._files[0].name,):
+            doubt = max(cut, 0.0) * self._file.own_change() * min(gain, 8.0) ** 2 / 4.0
             found.doubt[name] = found.doubt.get(name, 0.0) + doubt
 
     def _mean_of(self, pixels: FloatArray) -> float:

@@ -81,6 +81,9 @@ def _rounded_noise(s: FloatArray) -> FloatArray:
 _DITHERED = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
+_SHARPEST = 0.5
+"""Noise in grey levels from which a pixel's rounding is nothing in the mean."""
+
 _ROUNDING = 1.0 / 12.0
 """Mean square error of rounding to whole grey levels."""
 
@@ -140,6 +143,8 @@ class FileChange:
         """Return the pixels' mean values as they are read back, with some noise."""
         if not len(self._blocks):
             return values
+        if spread < _SHARPEST:  # pixels are whole levels before they are in a file
+            values = values + _rounding_mean(values, np.full(1, spread))
         x = self._coefficients(values)
         own = math.sqrt(spread**2 + _ROUNDING) / self._step
         wide = np.sqrt(own * own + x.var(axis=2, keepdims=True))

@@ -7,6 +7,7 @@ import numpy as np
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.camera.picture_rows import Rows
 from occ_model.camera.row_interpolation import smooth_columns
+from occ_model.camera.sensor import saturation_value
 from occ_model.effects.effect import NoiseEffect
 from occ_model.scene.scene import Scene
 
@@ -35,12 +36,14 @@ class NoiseSpread:
         self._scene = scene
         self._table = self._exact(_TABULATED).astype(np.float32)
         self._steps = np.append(np.diff(self._table), np.float32(0.0))
+        self._full = np.float32(saturation_value(scene))
         self._known: tuple[Pixels | None, Pixels] = (None, self._table)
 
     def __call__(self, values: Pixels) -> Pixels:
         """Return the deviations of pixels with some mean values before saturation, same shape.
 
-        Those of more than one row are read from a table, in quarters of a grey level.
+        Those of more than one row are read from a table, in quarters of a grey level. A full pixel,
+        whose value need not be one of them, has none.
         """
         if len(values) == 1:
             return self._exact(values.astype(np.float64)).astype(np.float32)
@@ -51,6 +54,7 @@ class NoiseSpread:
         place -= entry
         place *= self._steps[entry]
         place += self._table[entry]
+        place[values >= self._full] = 0.0
         return place
 
     def scale(self, normal: Pixels, rows: Rows, each_row: Rows) -> None:

@@ -19,7 +19,10 @@ from occ_model.effects.normal import normal_share
 from occ_model.results import Region
 
 COLUMNS = 192
-"""Most columns of a sample."""
+"""Most columns of a sample of a large picture."""
+
+_ALL_COLUMNS = 288
+"""Most columns that are sampled one and all: of so few, each can matter."""
 
 _REACH = 3.5
 """Standard deviations from a blurred rim that its nodes cover."""
@@ -153,7 +156,8 @@ def sample_of(
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
     blurs = {name: own.blur for name, own in optics.items() if own.blur > _UNSEEN}
-    step = max(1, -(-region.columns // COLUMNS))
+    few = region.columns <= _ALL_COLUMNS
+    step = 1 if few else -(-region.columns // COLUMNS)
     main = np.arange(region.first_column + step // 2, region.last_column, step)
     if not len(main):
         main = np.array([region.first_column])
@@ -166,7 +170,7 @@ def sample_of(
     weights = np.full(len(columns), 1.0 / len(columns))
     outlines = [plain.outline, *moved.values()]
     blur = max(blurs.values(), default=0.0)
-    if outlines[1:] or blur:
+    if (outlines[1:] or blur) and not few:
         columns, weights = _with_side_rims(columns, region, outlines, blur)
     if level and not (moved or blur):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5

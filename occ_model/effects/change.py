@@ -67,6 +67,12 @@ _SEEN_SHARE = 0.003
 _LARGE_STEP = 32.0
 """Levels by which an enhancement can part neighbouring levels, so that one column matters."""
 
+_FEW = 3
+"""Sampled columns near a large step from which the sample shows what happens there."""
+
+_WIDE = 8.0
+"""Noise in grey levels that black and white cut off noticeably."""
+
 _SHARP = 0.5
 """Noise in grey levels below which the enhancement's steps show between the levels."""
 
@@ -323,11 +329,14 @@ class Changes:
     def _doubted_pixels(self, square: float) -> float:
         """Return the mean square of a few pixels of a rim, of which a sample need not show any.
 
-        A file spreads them over its blocks.
+        A file spreads them over their block. A panel that covers all of the picture has no rim.
         """
+        if self.sample.is_covered:
+            return 0.0
         doubt = _DOUBTED * square
         if self._file is not None:
-            doubt += self._file.added_at_rims(self._rim_share, doubt)
+            pixels = self._view.region.rows * self._view.region.columns
+            doubt += self._file.added_at_rims(min(64.0 / pixels, self._rim_share), doubt)
         return doubt
 
     def _mean_of_rows(self, seen: FloatArray) -> FloatArray:
@@ -484,27 +493,29 @@ class Changes:
             profile = limit.apply(self._scene, profile)
         away = np.abs(profile - large[:, None] - 0.5)
         sampled = away[:, sample.columns - region.first_column]
-        whole = self.values(self.names)
         for name in self.names:
             if name in self.variances:
-                moved = math.sqrt(self._mean_of(self._look(self.variances[name], whole)))
+                own, rest = self._noise_without(name)
+                moved, share = own, min(0.5, (own / max(rest, _BETWEEN)) ** 2 / 8.0)
             else:
-                moved = math.sqrt(self._mean_of((whole - self.values(self.names - {name})) ** 2))
-            moved = max(moved, _BETWEEN)
-            missed = (away < moved).mean(axis=1) - (sampled < moved) @ sample.weights
-            doubt = float(np.maximum(missed, 0.0) @ steps[large] ** 2) / 4.0
-            found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+                without = self.values(self.names - {name})
+                moved = math.sqrt(self._mean_of((self.values(self.names) - without) ** 2))
+                share = min(0.5, 0.4 * moved / max(self._noise_with(self.names), _BETWEEN))
+            near = max(moved, _BETWEEN)
+            unseen = np.count_nonzero(sampled < near, axis=1) < _FEW
+            doubt = (away < near).mean(axis=1)[unseen] @ (steps[large][unseen] * share) ** 2
+            found.doubt[name] = found.doubt.get(name, 0.0) + float(doubt)
 
     def _doubt_a_cut_file(self, found: "Observed") -> None:
         """Doubt what a file makes of noise that black or white cuts off: it is not normal."""
         if self._file is None:
             return
-        whole, spread = self.values(self.names), self.spread(self.names)
-        cut = 1.0 - self._mean_of(self._look(share_unclipped(self.levels, spread, WHITE), whole))
+        spread, name = self.spread(self.names), self._files[0].name
+        lost = np.where(spread > _WIDE, 1.0 - share_unclipped(self.levels, spread, WHITE), 0.0)
+        cut = self._mean_of(self._look(lost, self.values(self.names)))
         gain = float(np.ptp(found.complete / np.sqrt(self.sample.weights))) / self._view.swing
-        for name in (self._files[0].name,):
-            doubt = max(cut, 0.0) * self._file.own_change() * min(gain, 8.0) ** 2 / 4.0
-            found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+        doubt = cut * self._file.own_change() * min(gain, 8.0) ** 2 / 4.0
+        found.doubt[name] = found.doubt.get(name, 0.0) + doubt
 
     def _mean_of(self, pixels: FloatArray) -> float:
         """Return the mean over all pixels."""

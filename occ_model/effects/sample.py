@@ -38,6 +38,9 @@ _MOVED_NODES, _BLURRED_NODES = 2, 3
 _SIDE_NODES = 10
 """Columns across an upright rim."""
 
+_BESIDE = 33
+"""Columns in which a panel is to reach beyond the picture for no rim to be seen."""
+
 _UNSEEN = 0.1
 """Blur in pixels below which a pixel receives nothing of its neighbours."""
 
@@ -72,6 +75,8 @@ class Sample:
         Factors of the panel's light, and of all light, shape as ``rows``, by the effect's name.
     inner
         The nodes between the panel's rims.
+    is_covered
+        Whether the panel covers all that is observed, with any of the effects: no rim is seen.
     """
 
     columns: IndexArray
@@ -82,6 +87,7 @@ class Sample:
     emission: Mapping[str, FloatArray]
     transmission: Mapping[str, FloatArray]
     inner: slice
+    is_covered: bool
 
     @cached_property
     def blocks(self) -> IndexArray:
@@ -167,16 +173,18 @@ def sample_of(
         middles = region.first_column + (np.arange(count) + 0.5) * (region.columns / count)
         starts = np.maximum(middles.astype(np.int64) // 8 * 8, -(-region.first_column // 8) * 8)
         columns = (starts[:, None] + np.arange(8.0)).ravel()
+    covers: dict[frozenset[str], FloatArray | None]
     weights = np.full(len(columns), 1.0 / len(columns))
     outlines = [plain.outline, *moved.values()]
     blur = max(blurs.values(), default=0.0)
     if (outlines[1:] or blur) and not few:
         columns, weights = _with_side_rims(columns, region, outlines, blur)
-    if level and not (moved or blur):
+    covered = _is_covered(region, outlines, blur)
+    if covered or (level and not (moved or blur)):
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
-        covers: dict[frozenset[str], FloatArray | None] = {frozenset(): None}
+        covers = dict.fromkeys(_sets_of([*moved, *blurs]))
     else:
         spans = [_spans(outline, columns, 0) for outline in outlines]
         rows, row_weights = _row_nodes(region, spans, bool(moved or blur), blur)
@@ -198,7 +206,20 @@ def sample_of(
         emission={name: gain for name, gain in gains.items() if optics[name].emission},
         transmission={name: gain for name, gain in gains.items() if optics[name].transmission},
         inner=slice(rows.shape[1] // 2 - 2, rows.shape[1] // 2 + 2),
+        is_covered=covered,
     )
+
+
+def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool:
+    """Return whether each outline encloses a rectangle with all that a blur carries into it."""
+    reach = _REACH * blur + 1.0
+    low, high = region.first_row - reach, region.last_row + reach
+    lines = np.linspace(region.first_column - reach, region.last_column + reach, _BESIDE)
+    for outline in outlines:
+        found = _spans(outline, lines, 0)
+        if found.missed.any() or (found.first > low).any() or (found.last < high).any():
+            return False
+    return True
 
 
 def _with_side_rims(
@@ -272,11 +293,9 @@ def _covers(
     plain: Optics,
 ) -> dict[frozenset[str], FloatArray | None]:
     """Return the panel's share of each pixel, with each set of effects on the outline."""
-    names = [*moved, *blurs]
     found: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
-    for number in range(2 ** len(names)):
-        chosen = frozenset(name for place, name in enumerate(names) if number >> place & 1)
+    for chosen in _sets_of([*moved, *blurs]):
         bend = next((name for name in moved if name in chosen), "")
         blur = max((blurs[name] for name in blurs if name in chosen), default=0.0)
         if bend not in distances:
@@ -291,6 +310,12 @@ def _covers(
             inside = (top > 0.0) & (bottom > 0.0) & (left > 0.0) & (right > 0.0)
             found[chosen] = inside.astype(np.float64)
     return found
+
+
+def _sets_of(names: list[str]) -> list[frozenset[str]]:
+    """Return all sets of some names."""
+    numbers = range(2 ** len(names))
+    return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
 
 
 def _blurred(distance: FloatArray, blur: float) -> FloatArray:

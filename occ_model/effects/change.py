@@ -46,13 +46,13 @@ _LEVELS = 129
 _DOUBTED = 1.0
 """Pixels of a rim that may change and that no sample shows."""
 
-_DOUBTED_RIM = 0.5
-"""Share of the pixels of a rim that moves of which no sample shows whether they are enhanced."""
+_DOUBTED_RIM = 1.0
+"""Part of the pixels of a rim that moves of which no sample shows whether they are enhanced."""
 
 _UNSURE = 0.25
 """Share of a mean square by which a file without noise may change it further."""
 
-_FLUCTUATION = 3.0
+_FLUCTUATION = 4.0
 """Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
 
 _BETWEEN = 0.02
@@ -426,8 +426,7 @@ class Changes:
                 smoothed = self._look(mean, values)
             inside = self._inside(included)
             if inside is not None:  # beside the panel nothing is enhanced
-                plain = clipped_mean(self.levels, self.spread(included), WHITE)
-                smoothed = np.where(inside, smoothed, self._look(plain, values))
+                smoothed = np.where(inside, smoothed, self._beside(included, values))
             return self._mean_of_rows(smoothed) * weights
 
         found = Observed(self.names, seen)
@@ -444,6 +443,13 @@ class Changes:
         self._doubt_large_steps(found)
         self._doubt_a_cut_file(found)
         return found
+
+    def _beside(self, included: frozenset[str], values: FloatArray) -> FloatArray:
+        """Return the mean of pixels of some mean values that are rounded and not enhanced."""
+        spread = self.spread(included)
+        if float(spread.max()) < _SHARP:
+            return np.rint(np.clip(values, 0.0, WHITE))
+        return self._look(clipped_mean(self.levels, spread, WHITE), values)
 
     def _inside(self, included: frozenset[str]) -> NDArray[np.bool_] | None:
         """Return which pixels of the sample are the panel's, None where all are."""
@@ -542,9 +548,10 @@ class Changes:
         drawn = self._mean_of(self._look(even * total, whole)) * one
         found = {}
         for effect in self.effects:
-            name, linear, moves_few = effect.name, 0.0, False
+            name, linear, moves_few = effect.name, 0.0, True
             if effect in self.noises:
                 own = np.sqrt(self.variances[name])
+                moves_few = float(own.max()) < 0.5 * float(spread.max())
                 if file is not None:
                     read, linear = file.of_noise(*self._noise_without(name))
                     own = np.maximum(own, math.sqrt(read))
@@ -554,11 +561,10 @@ class Changes:
                 if inside is not None:
                     part = np.where(inside, part, self._look(own**2, whole))
             elif file is not None and effect in self._files:
-                linear = file.own_sampling()
+                linear, moves_few = file.own_sampling(), False
                 moved = min(math.sqrt(file.own_change()), 1.0)
                 part = self._look(even / 6.0 + uneven * 0.8 * moved, whole)
             else:
-                moves_few = True
                 without = self.values(everything - {name})
                 change = np.abs(whole - without)
                 if file is not None:

@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtGui import QColor, QPalette, QResizeEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.point_names import NamedPoint, PointNames
 from occ_gui.accuracy.ways_shown import Way, ways_shown
@@ -15,18 +15,24 @@ from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
-from occ_model.results import ACCURACY_PARTS, CLOSED_FORM, LEAST_ERROR, AccuracyPoint
+from occ_model.results import ACCURACY_PARTS, CLOSED_FORM, LEAST_ERROR, AccuracyPoint, Forecast
 
 SYMBOLS = dict(zip(ACCURACY_PARTS, ("o", "s", "t1", "t", "d"), strict=True))
 COLOURS: dict[str, QColor] = dict(
     zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, REGION, NOISE), strict=True)
 )
 
+_GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}
+"""The symbols as characters."""
+
 _FLOOR = round(math.log10(LEAST_ERROR))
 """Power of ten at which all smaller errors are drawn."""
 
 _LEAST_HEIGHT = 56
 """Pixels: in a low window all panes share the height."""
+
+_LEGEND_HEIGHT = 220
+"""Pixels of height from which there is room for the legend."""
 
 _LABEL_GAP = 14
 """Pixels between an axis, its numbers and its label."""
@@ -60,11 +66,15 @@ class AccuracyPlot(QWidget):
         super().__init__(parent)
         self._points: list[AccuracyPoint] = []
         self._drawn: Sequence[Way] = ()
+        self._front: list[AccuracyPoint] = []
         self._complete: tuple[AccuracyPoint, ...] = ()
         self._measuring = False
         self._outdated = False
         self._fits_points = True
         self.title = ElidedLabel(self.tr("Error over time"))
+        self.legend = QLabel()
+        self.legend.setAccessibleName(self.tr("Legend"))
+        self.legend.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.plot = new_plot(
             self.tr("Error over time"),
             self.tr("time (ms)"),
@@ -98,8 +108,21 @@ class AccuracyPlot(QWidget):
             for part in ACCURACY_PARTS
         }  # fmt: skip
         self.rings = pg.ScatterPlotItem(symbol="o", size=15, brush=None)
+        self.front = pg.PlotCurveItem()
+        self.front_points = pg.ScatterPlotItem(
+            symbol="+", size=7, brush=None,
+            hoverable=True, tip=lambda data, **_: data,
+        )  # fmt: skip
+        self.front_ring = pg.ScatterPlotItem(symbol="o", size=11, brush=None)
         self._floor = pg.InfiniteLine(_FLOOR, angle=0)
-        for item in (self._floor, *self.lines.values(), *self.scatters.values(), self.rings):
+        of_front = (self.front, self.front_points, self.front_ring)
+        for item in (
+            self._floor,
+            *of_front,
+            *self.lines.values(),
+            *self.scatters.values(),
+            self.rings,
+        ):
             self.plot.addItem(item, ignoreBounds=True)
 
     def _dress(self, palette: QPalette) -> None:
@@ -109,9 +132,67 @@ class AccuracyPlot(QWidget):
             scatter.setBrush(seen_on(palette, COLOURS[part]))
         for part, line in self.lines.items():
             line.setPen(self.plot.stroke(thin(seen_on(palette, COLOURS[part]))))
+        of_front = thin(seen_on(palette, COLOURS["effects"]))
+        self.front.setPen(self.plot.stroke(of_front))
+        self.front_points.setPen(of_front)
+        self.front_ring.setPen(ring)
+        self._write_legend(palette)
         self._name_points(palette)
         grey = palette.color(QPalette.ColorRole.Mid)
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
+
+    def _write_legend(self, palette: QPalette) -> None:
+        words = {
+            "integration": self.tr("exposure"),
+            "effects": self.tr("effects"),
+            "path": self.tr("path"),
+            "draft": self.tr("draft"),
+            "noise": self.tr("noise"),
+        }
+        entries = [
+            (_GLYPHS[SYMBOLS[part]], seen_on(palette, COLOURS[part]), word)
+            for part, word in words.items()
+        ]
+        entries.append(("+", seen_on(palette, COLOURS["effects"]), self.tr("plans")))
+        entries.append(("○", palette.color(QPalette.ColorRole.Text), self.tr("now")))
+        self.legend.setText(
+            "&nbsp; ".join(
+                f"<span style='color:{colour.name()}'>{glyph}</span>&nbsp;{word}"
+                for glyph, colour, word in entries
+            )
+        )
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Show the legend where there is room."""
+        super().resizeEvent(event)
+        self.legend.setVisible(self.height() >= _LEGEND_HEIGHT)
+
+    def show_ways(self, expected: Forecast) -> None:
+        """Draw what accuracy costs: error over time of all sets of effects that a plan may have.
+
+        Times are those expected from what was measured, errors the plan's estimates.
+        """
+        timed = zip(expected.ways, expected.ways_seconds, strict=True)
+        shown = [(way, s) for way, s in timed if s is not None and way.error < math.inf]
+        shown.sort(key=lambda pair: pair[1])
+        self._front = [
+            AccuracyPoint(
+                "effects",
+                ", ".join(sorted(way.effects)) or self.tr("no effects"),
+                seconds,
+                way.error,
+                current=way.effects
+                <= set(expected.plan.included)
+                <= way.effects | _forced(expected),
+            )
+            for way, seconds in shown
+        ]
+        xs, ys = _places(self._front)
+        self.front.setData(xs, ys)
+        tips = [f"{p.name}: {1e3 * p.seconds:.3g} ms, ≈ {p.error:.3g} levels" for p in self._front]
+        self.front_points.setData(xs, ys, data=tips)
+        self.front_ring.setData(*_places([point for point in self._front if point.current]))
+        self._fit()
 
     def _lay_out(self) -> None:
         self._fit_button = QPushButton()
@@ -125,6 +206,7 @@ class AccuracyPlot(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(2)
         layout.addLayout(head)
+        layout.addWidget(self.legend)
         layout.addWidget(self.plot, 1)
 
     @property
@@ -207,12 +289,17 @@ class AccuracyPlot(QWidget):
         if not self._fits_points:
             return
         before = self._complete if self._measuring else ()
-        xs, ys = _places((*(way.point for way in self._drawn), *before))
+        xs, ys = _places((*(way.point for way in self._drawn), *before, *self._front))
         box = self.plot.getViewBox()
         box.setXRange(min(xs, default=-2.0) - _MARGIN, max(xs, default=3.0) + _MARGIN, padding=0)
         top = max(ys, default=2.0)
         margin = max(_MARGIN, _RING * (top - _FLOOR) / max(box.height() - 2 * _RING, _RING))
         box.setYRange(_FLOOR - margin, top + margin, padding=0)
+
+
+def _forced(expected: Forecast) -> set[str]:
+    """Return the effects that are switched on by hand."""
+    return {d.effect for d in expected.plan.decisions if d.forced and d.included}
 
 
 def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:

@@ -20,7 +20,7 @@ from occ_gui.accuracy.effect_rows import rows_of
 from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
 from occ_gui.accuracy.row_order import slowest_of
-from occ_gui.accuracy.tolerance_slider import ToleranceSlider
+from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
@@ -159,6 +159,9 @@ class AccuracyView(QWidget):
     def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
         """Show what a picture with the present settings would take, and how exact it would be."""
         self._forecast = (request, expected)
+        if not self.tolerance.slider.isSliderDown():
+            self.tolerance.show_marks(marks_of(expected.ways))
+        self.plot.show_ways(expected)
         self._draw()
 
     def show_study_begun(self) -> None:

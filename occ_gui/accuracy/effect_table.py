@@ -219,6 +219,7 @@ class EffectTable(QTableView):
         self.effects = EffectModel(self)
         self._tolerance = TOLERANCE.default
         self._dragged = -1
+        self._widths: dict[int, int] = {}
         self.switches: dict[str, QComboBox] = {}
         self._force: Mapping[str, bool] = {}
         self.setModel(self.effects)
@@ -338,6 +339,8 @@ class EffectTable(QTableView):
         """Make every column as wide as its widest text, and the name take what remains."""
         header, metrics = self.horizontalHeader(), self.fontMetrics()
         header.setSectionResizeMode(QHeaderView.ResizeMode.Interactive)
+        for column in (PICTURE, STAGE):
+            self.setColumnHidden(column, False)
         switch = next(iter(self.switches.values()))
         for column, width in (
             (STAGE, max(metrics.horizontalAdvance("Sensor") + 8, self._title_width(STAGE))),
@@ -347,7 +350,20 @@ class EffectTable(QTableView):
             (SWITCH, max(switch.minimumSizeHint().width() + 4, self._title_width(SWITCH))),
         ):
             header.resizeSection(column, width)
+            self._widths[column] = width
         header.setSectionResizeMode(EFFECT, QHeaderView.ResizeMode.Stretch)
+        self._leave_room_for_names()
+
+    def _leave_room_for_names(self) -> None:
+        """Hide what tells least, where the table is too narrow for the effects' names."""
+        metrics = self.fontMetrics()
+        texts = (_text(row, EFFECT) for row in self.effects.rows)
+        room = self.viewport().width() - 8
+        room -= max((metrics.horizontalAdvance(text) + 8 for text in texts), default=0)
+        room -= sum(self._widths.get(column, 0) for column in (ERROR, TIME, SWITCH))
+        for column in (PICTURE, STAGE):
+            room -= self._widths.get(column, 0)
+            self.setColumnHidden(column, room < 0)
 
     def _title_width(self, column: int) -> int:
         """Return the width at which the title of a column is shown whole, with room for its arrow.
@@ -361,9 +377,10 @@ class EffectTable(QTableView):
         return width
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Use the height for higher rows."""
+        """Use the height for higher rows, and the width for the effects' names."""
         super().resizeEvent(event)
         self._size_rows()
+        self._leave_room_for_names()
 
     def _size_rows(self) -> None:
         count = max(1, len(self.effects.rows))

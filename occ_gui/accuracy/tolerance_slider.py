@@ -1,6 +1,7 @@
-"""Slider from fast to exact: the tolerance, from infinity through logarithmic steps to zero."""
+"""Slider from fast to exact: the tolerance, from infinity to zero, with a mark at each plan."""
 
 import math
+from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
@@ -8,10 +9,11 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_model.results import Way
 from occ_model.scene.simulation_settings import TOLERANCE
 
 STEPS = 200
-"""Positions of the slider between its ends, which are infinity and zero."""
+"""Positions between the slider's ends, infinity and zero, while no marks are known."""
 
 _INFINITE = ("∞", "inf", "infinity", "infinite")
 """What people write for infinity."""
@@ -46,6 +48,7 @@ class ToleranceSlider(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.marks: tuple[float, ...] = ()
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, STEPS + 1)
         self.slider.setPageStep(STEPS // 20)
@@ -83,13 +86,35 @@ class ToleranceSlider(QWidget):
         self.field.set_value(tolerance)
         self._place(tolerance)
 
+    def show_marks(self, marks: tuple[float, ...]) -> None:
+        """Let the slider stop where another plan begins, without emitting a signal.
+
+        Between two marks every tolerance has the same plan.
+
+        Parameters
+        ----------
+        marks
+            The tolerances between infinity and zero from which a plan holds, the largest first.
+        """
+        if marks == self.marks:
+            return
+        self.marks = marks
+        self.slider.blockSignals(True)
+        self.slider.setRange(0, (len(marks) or STEPS) + 1)
+        self.slider.setPageStep(1 if marks else STEPS // 20)
+        ticks = QSlider.TickPosition.TicksBelow if marks else QSlider.TickPosition.NoTicks
+        self.slider.setTickPosition(ticks)
+        self.slider.setTickInterval(1)
+        self.slider.blockSignals(False)
+        self._place(self.field.value())
+
     def _place(self, tolerance: float) -> None:
         self.slider.blockSignals(True)
-        self.slider.setValue(position_of(tolerance))
+        self.slider.setValue(position_of(tolerance, self.marks))
         self.slider.blockSignals(False)
 
     def _slide(self, position: int) -> None:
-        tolerance = tolerance_at(position)
+        tolerance = tolerance_at(position, self.marks)
         self.field.set_value(tolerance)
         self.edited.emit(tolerance)
 
@@ -98,19 +123,33 @@ class ToleranceSlider(QWidget):
         self.edited.emit(tolerance)
 
 
-def tolerance_at(position: int) -> float:
-    """Return the tolerance at a position of the slider, from 0 (infinity) to STEPS + 1 (zero)."""
+def marks_of(ways: Sequence[Way]) -> tuple[float, ...]:
+    """Return the tolerances from which plans hold that neither end of the slider has.
+
+    Parameters
+    ----------
+    ways
+        What the plan chooses among, the fastest first.
+    """
+    errors = (way.error for way in ways[1:] if 0.0 < way.error < math.inf)
+    return tuple(error for error in errors if error > TOLERANCE.at(0.0))
+
+
+def tolerance_at(position: int, marks: Sequence[float] = ()) -> float:
+    """Return the tolerance at a position of the slider, from 0 (infinity) to the last (zero)."""
     if position == 0:
         return math.inf
-    if position == STEPS + 1:
+    if position > (len(marks) or STEPS):
         return 0.0
-    return TOLERANCE.at(1.0 - (position - 1) / (STEPS - 1))
+    return marks[position - 1] if marks else TOLERANCE.at(1.0 - (position - 1) / (STEPS - 1))
 
 
-def position_of(tolerance: float) -> int:
-    """Return the position of the slider for a tolerance."""
+def position_of(tolerance: float, marks: Sequence[float] = ()) -> int:
+    """Return the position of the slider for a tolerance: of the plan that it has."""
     if tolerance == math.inf:
         return 0
     if tolerance == 0.0:
-        return STEPS + 1
+        return (len(marks) or STEPS) + 1
+    if marks:
+        return 1 + sum(mark > tolerance for mark in marks)
     return 1 + round((1.0 - TOLERANCE.fraction(tolerance)) * (STEPS - 1))

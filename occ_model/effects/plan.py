@@ -25,8 +25,8 @@ ALLOWANCE = 1.2
 _PEAK, _NOISE_PEAK = 2.0, 3.0
 """Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
 
-_TRIES = 5
-"""Sets of effects that are tried together before everything is simulated."""
+_FARTHEST = 1.5
+"""Times that changes that are added may exceed the tolerance where together they are within it."""
 
 _LEAST = 1e-9
 """Estimate in grey levels of an effect that a scene has and a sample does not show."""
@@ -120,6 +120,53 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     settings
         Checked; the seed is not used.
     """
+    sets = _sets_of(view, settings)
+    estimates = sets.estimates
+    way, error = sets.chosen(settings.tolerance)
+    left_out = sets.names - way.effects
+    decisions = tuple(_decide(effect, estimates, left_out, settings) for effect in EFFECTS)
+    return Plan(
+        tolerance=settings.tolerance,
+        observable=settings.observable,
+        decisions=decisions,
+        left_out=0.0 if settings.tolerance == math.inf else error,
+        stretch=estimates.stretch,
+        saved=sets.everything - way.seconds,
+        ways=sets.ways,
+    )
+
+
+def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
+    """Return the sets of effects that a plan chooses among, the fastest first.
+
+    The error of each is the least tolerance at which it is chosen; no two are the same.
+
+    Parameters
+    ----------
+    scene
+        The scene.
+    settings
+        Their tolerance is not used.
+
+    Raises
+    ------
+    ParameterError
+        There is no such observable or effect.
+    ProjectionError
+        Part of the panel is behind the camera.
+    """
+    check_scene(scene)
+    sets = _sets_of(paper_view_of(scene), settings.checked(NAMES))
+    found: list[Way] = []
+    for way in sets.ways:
+        error = sets.error_of(way)
+        if error < (found[-1].error if found else math.inf):
+            found.append(Way(way.effects, way.seconds, error))
+    return tuple(found)
+
+
+def _sets_of(view: PaperView, settings: SimulationSettings) -> "_Sets":
+    """Return the sets of effects that a scene can be simulated with."""
     try:
         estimates = _Estimates.of(view, settings.observable)
     except ProjectionError:  # the simulation refuses the lens
@@ -129,21 +176,9 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
         kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
         rest = _Estimates.of(view, settings.observable, kept)
         estimates = rest.with_sizes_of(estimates)
-    free = [e for e in EFFECTS if e.name in estimates.sizes and e.name not in force]
-    forced_in = [e for e in EFFECTS if force.get(e.name)]
     if view.swing <= FLAT:  # far above the tolerance, or hidden to a sample: it cannot tell
         estimates = estimates.unknown()
-    choice = _choose(estimates, free, forced_in, view, settings)
-    decisions = tuple(_decide(effect, estimates, choice.left_out, settings) for effect in EFFECTS)
-    return Plan(
-        tolerance=settings.tolerance,
-        observable=settings.observable,
-        decisions=decisions,
-        left_out=0.0 if settings.tolerance == math.inf else choice.error,
-        stretch=estimates.stretch,
-        saved=choice.saved,
-        ways=choice.ways,
-    )
+    return _Sets.of(estimates, view, settings)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -218,56 +253,73 @@ class _Choice:
     ways: tuple[Way, ...]
 
 
-def _choose(
-    estimates: _Estimates,
-    free: list[Effect],
-    forced_in: list[Effect],
-    view: PaperView,
-    settings: SimulationSettings,
-) -> _Choice:
-    """Choose the set of effects that takes the least time within the tolerance."""
-    members = _subsets(len(free))
-    pixels = view.scene.camera.rows * view.scene.camera.columns
-    fixed = np.ones((len(members), len(forced_in)))
-    inside = np.hstack([1.0 - members, fixed])
-    seconds = seconds_of([*free, *forced_in], inside, pixels, settings.noise)
-    names = [effect.name for effect in free]
-    if estimates.seen is None:
-        errors = np.where(members.any(axis=1), math.inf, 0.0)
-    elif names:
-        factors = np.array([estimates.factors[name] for name in names])
-        squares = estimates.seen.of_subsets(names, members)
-        factor = np.maximum((members * factors).max(axis=1), 1.0)
-        errors = np.sqrt(squares) * (ALLOWANCE * estimates.stretch) * factor
-    else:
-        errors = np.zeros(len(members))
-    errors[0] = 0.0
-    order = np.lexsort((errors, seconds))
-    chosen, error = frozenset[str](), 0.0
-    place = 0
-    if settings.tolerance == math.inf:
-        chosen, place = frozenset(names), len(members) - 1
-        error = float(errors[place])
-    elif settings.tolerance > 0.0:
-        scale = 1.0
-        for _ in range(_TRIES):
-            place = int(order[np.argmax(errors[order] * scale <= settings.tolerance)])
-            left_out = _named(names, members[place])
-            # Changes may add up otherwise than their sum.
-            error = estimates.error_of(left_out)
-            if error <= settings.tolerance:
-                chosen = left_out
-                break
-            scale = max(error / max(float(errors[place]), 1e-12), scale) * 1.02
+@dataclass(frozen=True, eq=False, slots=True)
+class _Sets:
+    """The sets of effects that no other is both faster and closer than, the fastest first.
+
+    Parameters
+    ----------
+    estimates
+        What leaving effects out changes.
+    names
+        The effects that may be left out.
+    everything
+        Seconds with all of them.
+    ways
+        The sets, with their errors as if changes added.
+    """
+
+    estimates: _Estimates
+    names: frozenset[str]
+    everything: float
+    ways: tuple[Way, ...]
+
+    @classmethod
+    def of(cls, estimates: _Estimates, view: PaperView, settings: SimulationSettings) -> "_Sets":
+        """Compare all sets of a scene's effects that are not switched by hand."""
+        force = settings.force
+        free = [e for e in EFFECTS if e.name in estimates.sizes and e.name not in force]
+        forced_in = [e for e in EFFECTS if force.get(e.name)]
+        members = _subsets(len(free))
+        pixels = view.scene.camera.rows * view.scene.camera.columns
+        inside = np.hstack([1.0 - members, np.ones((len(members), len(forced_in)))])
+        seconds = seconds_of([*free, *forced_in], inside, pixels, settings.noise)
+        names = [effect.name for effect in free]
+        if estimates.seen is None:
+            errors = np.where(members.any(axis=1), math.inf, 0.0)
+        elif names:
+            factors = np.array([estimates.factors[name] for name in names])
+            squares = estimates.seen.of_subsets(names, members)
+            factor = np.maximum((members * factors).max(axis=1), 1.0)
+            errors = np.sqrt(squares) * (ALLOWANCE * estimates.stretch) * factor
         else:
-            place = 0
-            error = 0.0
-    everything = float(seconds[0])
-    ways = tuple(
-        Way(frozenset(names) - _named(names, members[at]), float(seconds[at]), float(errors[at]))
-        for at in _front(errors, order)
-    )
-    return _Choice(chosen, error, everything - float(seconds[place]), ways)
+            errors = np.zeros(len(members))
+        errors[0] = 0.0
+        order = np.lexsort((errors, seconds))
+        ways = tuple(
+            Way(_named(names, 1.0 - members[at]), float(seconds[at]), float(errors[at]))
+            for at in _front(errors, order)
+        )
+        return cls(estimates, frozenset(names), float(seconds[0]), ways)
+
+    def error_of(self, way: Way) -> float:
+        """Return the least tolerance at which a set may be simulated.
+
+        Its effects' changes may add up otherwise than their sum, and are tried together.
+        """
+        return max(self.estimates.error_of(self.names - way.effects), way.error / _FARTHEST)
+
+    def chosen(self, tolerance: float) -> tuple[Way, float]:
+        """Return the fastest set within a tolerance, and its error."""
+        fastest = self.ways[0]
+        if tolerance == math.inf:
+            return Way(frozenset(), fastest.seconds, math.inf), math.inf
+        for way in self.ways if tolerance else ():
+            if way.error <= tolerance * _FARTHEST:
+                error = self.error_of(way)
+                if error <= tolerance:
+                    return way, error
+        return Way(self.names, self.everything, 0.0), 0.0
 
 
 @lru_cache(maxsize=16)

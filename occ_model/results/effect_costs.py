@@ -7,7 +7,7 @@ from typing import Self
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.frame import Frame
-from occ_model.results.plan import Plan
+from occ_model.results.plan import Plan, Way
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,9 +188,15 @@ class Forecast:
         Its expected error, root mean square in levels of the stretched profile: that of the changes
         of all effects left out, added up as if none influenced another. None where a change is not
         known yet.
+    ways
+        What the plan chooses among, the fastest first: see :func:`occ_model.effects.plan.ways_of`.
+    ways_seconds
+        What a picture of each is expected to take, None where a time is not known yet.
     """
 
     plan: Plan
     seconds: float | None
     error: float | None
     is_measured: bool
+    ways: tuple[Way, ...] = ()
+    ways_seconds: tuple[float | None, ...] = ()

@@ -1,11 +1,14 @@
 """Predict the time and the error of a simulation with other settings, from measured parts."""
 
+from functools import lru_cache
+
 import numpy as np
 
-from occ_model.effects.plan import plan_with
-from occ_model.results import Forecast, MeasuredCosts, Plan
+from occ_model.effects.plan import plan_with, ways_of
+from occ_model.effects.registry import EFFECTS
+from occ_model.results import Forecast, MeasuredCosts, Way
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.simulation_settings import NoiseSource, Observable, SimulationSettings
 from occ_model.study.effect_differences import rms
 
 
@@ -27,28 +30,41 @@ def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -
         Part of the panel is behind the camera.
     """
     chosen = plan_with(scene, settings)
-    seconds = _seconds(chosen, costs)
+    seconds = _seconds(chosen.included, costs)
+    force = tuple(sorted(settings.force.items()))
+    ways = _known_ways(scene, settings.observable, force, settings.noise)
+    forced = frozenset(name for name, on in force if on)
+    times = tuple(_seconds(tuple(way.effects | forced), costs) for way in ways)
     present = frozenset(d.effect for d in chosen.decisions if d.estimate)
     included = present & frozenset(chosen.included)
     if included == present or included in costs.errors:
-        return Forecast(chosen, seconds, costs.errors.get(included, 0.0), is_measured=True)
+        error = costs.errors.get(included, 0.0)
+        return Forecast(chosen, seconds, error, True, ways, times)
     left_out = sorted(present - included)
-    error = None
+    expected = None
     if all(name in costs.differences for name in left_out):
-        error = rms(np.sum([costs.differences[name].change for name in left_out], axis=0))
-    return Forecast(chosen, seconds, error, is_measured=False)
+        expected = rms(np.sum([costs.differences[name].change for name in left_out], axis=0))
+    return Forecast(chosen, seconds, expected, False, ways, times)
 
 
-def _seconds(chosen: Plan, costs: MeasuredCosts) -> float | None:
-    """Add up the times of the plan's effects and of everything else, as each was last measured."""
-    rows_differ = not chosen.kinds <= {"column"}
+@lru_cache(maxsize=4)
+def _known_ways(
+    scene: Scene, observable: Observable, force: tuple[tuple[str, bool], ...], noise: NoiseSource
+) -> tuple[Way, ...]:
+    """Return what a plan chooses among, which does not depend on the tolerance."""
+    return ways_of(scene, SimulationSettings(observable=observable, force=dict(force), noise=noise))
+
+
+def _seconds(included: tuple[str, ...], costs: MeasuredCosts) -> float | None:
+    """Add up the times of effects and of everything else, as each was last measured."""
+    rows_differ = any(effect.name in included and effect.kind != "column" for effect in EFFECTS)
     measured = (costs.picture, *costs.others)
     rest = [shares for shares in measured if shares.rows_differ == rows_differ]
     if not rest:
         return None
     total = rest[0].everything_else
     counted: set[str] = set()
-    for name in chosen.included:
+    for name in included:
         seconds = costs.seconds_of(name)
         if seconds is None:
             return None

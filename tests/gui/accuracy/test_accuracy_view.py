@@ -11,12 +11,14 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.accuracy import controller
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.app.application import Application
 from occ_gui.simulation.snapshot import Snapshot
+from occ_model.effects.plan import plan_with
 from occ_model.results import Forecast
 
 
@@ -99,8 +101,23 @@ def test_a_higher_tolerance_leaves_effects_out(
     tolerance = in_front.view("accuracy").tolerance
     tolerance.slider.setValue(tolerance.slider.minimum() + 1)
     user.wait_until_idle()
-    assert in_front.settings.settings.tolerance == 100.0
+    assert in_front.settings.settings.tolerance == tolerance.marks[0]
     assert not row(in_front, "sensor-noise").included
+
+
+def test_each_mark_of_the_slider_has_a_plan_of_its_own(
+    qtbot: QtBot, in_front: Application, user: User
+) -> None:
+    scene = occ.load_preset("phone-136us-real").replace(rows=300, columns=400)
+    in_front.store.put(scene, "scene")
+    user.wait_until_idle()
+    slider = in_front.accuracy.tolerance.slider
+    qtbot.waitUntil(lambda: slider.maximum() in range(6, 190))
+    plans = []
+    for position in range(slider.minimum(), slider.maximum() + 1):
+        slider.setValue(position)
+        plans.append(plan_with(scene, in_front.settings.settings).included)
+    assert len(set(plans)) == len(plans)
 
 
 def test_a_switch_forces_its_effect_and_the_picture_changes(

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.plan import called_for_by_signal
+from occ_model.effects.plan import called_for_by_signal, ways_of
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.simulation_settings import Observable, SimulationSettings
 
 LIGHTS_WAY = [
     "led-edges",
@@ -185,3 +185,16 @@ def test_what_only_the_signal_calls_for_is_named() -> None:
     off = dict.fromkeys(["sensor-noise", "fixed-pattern"], False)
     assert called_for_by_signal(occ.plan(scene, observable="profile", force=off), scene) == ()
     assert called_for_by_signal(occ.plan(scene, math.inf), scene) == ()
+
+
+@pytest.mark.parametrize("observable", ["image", "profile", "signal"])
+def test_a_plan_changes_at_the_error_of_each_way_and_nowhere_else(
+    scene: Scene, observable: Observable
+) -> None:
+    ways = ways_of(scene, SimulationSettings(observable=observable))
+    assert len(ways) > 4
+    for faster, way in pairwise(ways):
+        assert way.error < faster.error
+        for tolerance in (way.error, math.nextafter(faster.error, 0.0)):
+            if tolerance:
+                assert set(occ.plan(scene, tolerance, observable).included) == way.effects

@@ -46,8 +46,9 @@ _LEVELS = 129
 _DOUBTED = 1.0
 """Pixels of a rim that may change and that no sample shows."""
 
-_DOUBTED_RIM = 1.0
-"""Part of the pixels of a rim that moves of which no sample shows whether they are enhanced."""
+_DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
+"""Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
+many columns, and in few."""
 
 _UNSURE = 0.25
 """Share of a mean square by which a file without noise may change it further."""
@@ -434,11 +435,13 @@ class Changes:
         region, contrast = self._view.region, float(np.ptp(found.complete / weights))
         method = self._scene.model.enhancement
         jump = contrast if method == "none" else WHITE
+        few = len(sample.columns) >= region.columns
+        part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
         for name in self._outline & self.names:
             share = contrast**2 / (region.rows**2 * region.columns)
             found.doubt[name] = self._doubted_pixels(share)
             # A pixel of a rim is enhanced or not.
-            found.doubt[name] += self._moved_rims(name) * (_DOUBTED_RIM * jump / region.rows) ** 2
+            found.doubt[name] += self._moved_rims(name) * (part * jump / region.rows) ** 2
         self._doubt_sharp_steps(found)
         self._doubt_large_steps(found)
         self._doubt_a_cut_file(found)

@@ -103,7 +103,8 @@ class PhotoVerdictBar(StateBar):
             sentence = self.tr("Open one, say what was sent as far as you know, and match it.")
             return State.NEUTRAL, (self.tr("No photo is open"), sentence)
         if self._why_not:
-            return State.BAD, (self.tr("Photo: not matched"), self._first_of(self._why_not))
+            reasons = (" ".join(self._why_not), self._first_of(self._why_not))
+            return State.BAD, (self.tr("Photo: not matched"), *reasons)
         if self._match is None and self._row is not None:
             return self._listed(self._row)
         if self._match is None:

@@ -8,7 +8,7 @@ from PySide6.QtCore import Signal
 
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.map_controller import UNSEEN
-from occ_gui.detection_map.measured_at_rest import MeasuredAtRest, RateRequest
+from occ_gui.detection_map.resting_controller import RateRequest, RestingController
 from occ_gui.detection_map.worker import rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -33,7 +33,7 @@ class OwnRate:
     images: int
 
 
-class OwnRateController(MeasuredAtRest):
+class OwnRateController(RestingController):
     """Measures the rate of the present scene once it rests, while it is seen."""
 
     changed = Signal(object)

@@ -5,8 +5,8 @@ from functools import partial
 from typing import Protocol
 
 from occ_gui.background.signals import JobChannel
-from occ_gui.detection_map.measured_at_rest import MeasuredAtRest, RateRequest
 from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.resting_controller import RateRequest, RestingController
 from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -75,7 +75,7 @@ def _job(request: RateRequest, name: str, places: list[int]) -> Job:
     return Job(measure_along, (request.scene, settings, name, points))
 
 
-class SliderStripController(MeasuredAtRest):
+class SliderStripController(RestingController):
     """Connects the stores, the job channel and the strips.
 
     The strip under a slider does not change while that slider is moved. The others are measured

@@ -13,10 +13,10 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.detection_map.map_controller import UNSEEN
 from occ_gui.detection_map.map_schedule import map_request
-from occ_gui.detection_map.measured_at_rest import RateRequest as Request
 from occ_gui.detection_map.own_rate_controller import IMAGES as OWN_IMAGES
 from occ_gui.detection_map.own_rate_controller import own_rate, own_rate_stages
 from occ_gui.detection_map.rate_map import lattice
+from occ_gui.detection_map.resting_controller import RateRequest as Request
 from occ_gui.detection_map.slider_strip_controller import IMAGES, POSITIONS
 from occ_gui.detection_map.worker import SEED, measure_along, rate_settings
 from occ_model.cli import main
@@ -171,7 +171,7 @@ def test_five_doors_give_the_same_number(number: int, tmp_path: Path) -> None:
     there = ((0, own_place | {"distance": scene.pose.distance}),)
     of_map = measure_points(asked.scene, asked.settings, there, lambda: None).points[0]
     counts = RateSettings(images, (decoder,), SEED)
-    limits = _Search(scene, "switching_frequency", 99.0, counts, lambda: None, lambda _: None)
+    limits = _Search(scene, "switching_frequency", 99.0, counts, lambda: None)
     own = limits._whole(frequency, counts)
     scene_file, table = tmp_path / "scene.toml", tmp_path / "rates.csv"
     scene_file.write_text(elsewhere.to_toml(), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""What the strips and the rate beside the verdict share: they measure once the scene rests."""
+"""Base of the controllers that measure once the scene rests."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -30,7 +30,7 @@ class RateRequest:
         return replace(self, scene=self.scene.replace(**given))
 
 
-class MeasuredAtRest(QObject):
+class RestingController(QObject):
     """Measures, while it is seen, what the present scene, settings and decoder ask for.
 
     A subclass says in :meth:`_move_on` what the present request changes, in :meth:`_measure` what

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.bands.depth_plot import DepthPlot
-from occ_gui.bands.shown_bands import ShownBands
+from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth
 from occ_model.scene.units import HERTZ, SECOND

@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from occ_gui.bands.shown_bands import EXPOSURES, FREQUENCIES, ShownBands
+from occ_gui.bands.jobs import EXPOSURES, FREQUENCIES, ShownBands
 from occ_gui.widgets.pens import thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.scene.parameters import quantity

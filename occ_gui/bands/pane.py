@@ -4,7 +4,7 @@ from PySide6.QtCore import QSize
 
 from occ_gui.background.task import Reporter, Task
 from occ_gui.bands.bands_view import BandsView
-from occ_gui.bands.shown_bands import ShownBands, shown_bands
+from occ_gui.bands.jobs import ShownBands, shown_bands
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.scroll_pane import ScrollPane

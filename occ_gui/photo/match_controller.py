@@ -15,6 +15,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Lamp, Match, Region
+from occ_model.results.bands import Cure
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
 from occ_model.study.bands.cure import cure_of
@@ -34,6 +35,9 @@ class MatchPane(Protocol):
 
     def show_match(self, match: Match | None) -> None:
         """Show this match in place of the previous one, or that there is none."""
+
+    def show_cure(self, cure: Cure) -> None:
+        """Show what takes the bars out of the match's picture."""
 
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         """Show the reasons why no match was found, or none; the previous match stays."""
@@ -271,6 +275,7 @@ class MatchController(QObject):
         self.match, self._known = found, self._asked_known
         self._matched_region = self._region
         self._pane.show_match(found)
+        self._pane.show_cure(cure_of(found.scene))
         self._show_age()
         self.matched.emit(found)
 

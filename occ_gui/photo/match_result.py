@@ -13,10 +13,10 @@ from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.photo.many.other_programs import lines_of_match
 from occ_model.results import Match
+from occ_model.results.bands import Cure
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
-from occ_model.study.bands.cure import cure_of
 
 
 class MatchResult(QWidget):
@@ -34,6 +34,7 @@ class MatchResult(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._match: Match | None = None
+        self._cure: Cure | None = None
         self._noted: float | None = None
         self._scene: Scene | None = None
         self.given = math.nan
@@ -110,6 +111,7 @@ class MatchResult(QWidget):
             Whether the photo's columns are the file's lines.
         """
         self._match, self._noted, self._turned = match, noted, turned
+        self._cure = None
         if self._scene is not None:
             self.given = float(self._scene.value(known_of(match)))
         self._show_stale()
@@ -117,8 +119,13 @@ class MatchResult(QWidget):
         self._show_figures(match)
         self.show_outdated("", usable=True)
 
-    def _show_cure(self, match: Match) -> None:
-        found = cure_of(match.scene)
+    def show_cure(self, cure: Cure) -> None:
+        """Show what takes the bars out of the match's picture."""
+        self._cure = cure
+        if self._match is not None:
+            self._show_cure(cure, self._match)
+
+    def _show_cure(self, found: Cure, match: Match) -> None:
         text = self.tr("This lamp's light repeats at {frequency}: bars vanish at whole multiples "
                        "of "
                        "{period}.").format(
@@ -147,7 +154,9 @@ class MatchResult(QWidget):
             self._show_figures(self._match)
 
     def _show_figures(self, match: Match) -> None:
-        self._show_cure(match)
+        self.cure.hide()
+        if self._cure is not None:
+            self._show_cure(self._cure, match)
         self.figures.show_match(match, self._certain, self._noted)
         lines = lines_of_match(match, turned=self._turned)
         self.paste.show_lines_if(condition_of(match, self._certain), lines)

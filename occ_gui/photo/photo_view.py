@@ -25,6 +25,7 @@ from occ_gui.picture.placement import Placement
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
+from occ_model.results.bands import Cure
 from occ_model.scene.scene import Scene
 
 _SCROLL_BAR = 20
@@ -209,6 +210,10 @@ class PhotoView(QWidget):
         if match is not None:
             self.result.show_match(match, self._noted, turned=self._turned)
             self._bring_into_view(self.result)
+
+    def show_cure(self, cure: Cure) -> None:
+        """Show what takes the bars out of the match's picture."""
+        self.result.show_cure(cure)
 
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         """Show the reasons why no match was found, or none; the previous match stays."""

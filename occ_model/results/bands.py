@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
+from occ_model.scene.scene import Scene
 
 BARELY = 0.01
 """Depth, peak to peak over the mean, below which a picture counts as without bars."""
@@ -157,3 +158,41 @@ class EyeFlicker:
     modulations: FloatArray
     risk: str
     parts_risk: str
+
+
+@dataclass(frozen=True, slots=True)
+class ShutterSpeed:
+    """A shutter speed.
+
+    Parameters
+    ----------
+    name
+        As it is written on the camera.
+    nominal, real
+        The time that is written, and the one that is kept where speeds are powers of two, in s.
+    """
+
+    name: str
+    nominal: float
+    real: float
+
+
+@dataclass(frozen=True, slots=True)
+class Cure:
+    """What takes the bars out of a picture.
+
+    Parameters
+    ----------
+    repeats
+        How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it.
+    speeds, kept
+        The shortest usual shutter speeds that show no bars, at most two: as they are written, and
+        also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
+    scene
+        With the shortest of them, or the shortest exposure without bars of the lamp.
+    """
+
+    repeats: float
+    speeds: tuple[ShutterSpeed, ...]
+    kept: tuple[ShutterSpeed, ...]
+    scene: Scene

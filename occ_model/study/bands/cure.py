@@ -1,37 +1,14 @@
 """The shutter speed that takes the bars out of a scene's picture, at the same brightness."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
-from occ_model.results.bands import BARELY
+from occ_model.results.bands import BARELY, Cure
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.least_depth import DepthOver
-from occ_model.study.bands.shutter_speeds import ShutterSpeed, shutter_speeds
+from occ_model.study.bands.shutter_speeds import shutter_speeds
 
 _NAMED = 2
-
-
-@dataclass(frozen=True, slots=True)
-class Cure:
-    """What takes the bars out of a picture.
-
-    Parameters
-    ----------
-    repeats
-        How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it.
-    speeds, kept
-        The shortest usual shutter speeds that show no bars, at most two: as they are written, and
-        also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
-    scene
-        With the shortest of them, or the shortest exposure without bars of the lamp.
-    """
-
-    repeats: float
-    speeds: tuple[ShutterSpeed, ...]
-    kept: tuple[ShutterSpeed, ...]
-    scene: Scene
 
 
 def cure_of(scene: Scene) -> Cure:

@@ -1,25 +1,8 @@
 """The shutter speeds of usual cameras: as written on them, and as they are kept."""
 
-from dataclasses import dataclass
 from fractions import Fraction
 
-
-@dataclass(frozen=True, slots=True)
-class ShutterSpeed:
-    """A shutter speed.
-
-    Parameters
-    ----------
-    name
-        As it is written on the camera.
-    nominal, real
-        The time that is written, and the one that is kept where speeds are powers of two, in s.
-    """
-
-    name: str
-    nominal: float
-    real: float
-
+from occ_model.results.bands import ShutterSpeed
 
 _THIRDS = (
     "1", "0.8", "0.6", "0.5", "0.4", "0.3", "1/4", "1/5", "1/6", "1/8", "1/10", "1/13", "1/15",

@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.bands.bands_view import BandsView
-from occ_gui.bands.shown_bands import EXPOSURES, shown_bands
+from occ_gui.bands.jobs import EXPOSURES, shown_bands
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.cure import as_bright, cure_of
 

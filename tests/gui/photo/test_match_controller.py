@@ -19,6 +19,7 @@ from occ_model.errors import MatchError
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results import Match, Region, Stripes
+from occ_model.results.bands import Cure
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_WAVE
@@ -81,6 +82,9 @@ class Bench:
 
     def show_match(self, match: Match | None) -> None:
         self.events.append(match)
+
+    def show_cure(self, cure: Cure) -> None:
+        self.cure = cure
 
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         self.events.append(reasons)

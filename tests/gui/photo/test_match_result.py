@@ -13,6 +13,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results import Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.study.bands.cure import cure_of
 
 READOUT = PARAMETERS["readout_time"]
 
@@ -73,6 +74,7 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(
     scene = match.scene.replace(pattern="10", switching_frequency=3840.0)
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_match(replace(match, scene=scene))
+    view.show_cure(cure_of(scene))
     assert view.result.cure.text() == (
         "This lamp's light repeats at 1.92 kHz: bars vanish at whole multiples of 520.8 µs. "
         "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."

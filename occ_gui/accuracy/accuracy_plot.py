@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.point_names import NamedPoint, PointNames
 from occ_gui.accuracy.ways_shown import Way, ways_shown
@@ -74,7 +74,7 @@ class AccuracyPlot(QWidget):
         self.title = ElidedLabel(self.tr("Error over time"))
         self.legend = QLabel()
         self.legend.setAccessibleName(self.tr("Legend"))
-        self.legend.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.legend.setWordWrap(True)
         self.plot = new_plot(
             self.tr("Error over time"),
             self.tr("time (ms)"),

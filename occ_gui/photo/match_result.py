@@ -52,19 +52,19 @@ class MatchResult(QWidget):
         self.cure = QLabel()
         self.cure.setWordWrap(True)
         self.cure.setTextFormat(Qt.TextFormat.PlainText)
-        self.cure.hide()
         self._make_buttons()
         buttons = QHBoxLayout()
         buttons.addWidget(self.apply)
         buttons.addWidget(self.save)
-        buttons.addWidget(self.without_bars)
         buttons.addStretch()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        for part in (self.verdict, self.stale, self.cure, self.figures, self.paste):
+        for part in (self.verdict, self.stale, self.figures, self.paste):
             layout.addWidget(part)
         layout.addLayout(buttons)
+        layout.addWidget(self.cure)
+        layout.addWidget(self.without_bars, alignment=Qt.AlignmentFlag.AlignLeft)
         layout.addStretch()
 
     def _make_buttons(self) -> None:
@@ -123,7 +123,7 @@ class MatchResult(QWidget):
         """Show what takes the bars out of the match's picture."""
         self._cure = cure
         if self._match is not None:
-            self._show_cure(cure, self._match)
+            self._show_figures(self._match)
 
     def _show_cure(self, found: Cure, match: Match) -> None:
         text = self.tr("This lamp's light repeats at {frequency}: bars vanish at whole multiples "
@@ -144,7 +144,6 @@ class MatchResult(QWidget):
             text += self.tr(", else {kept}.").format(kept=kept) if kept else "."
         assumed = condition_of(match, self._certain).rstrip(": ")
         self.cure.setText(f"{text} ({assumed})" if assumed else text)
-        self.cure.show()
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""
@@ -154,7 +153,8 @@ class MatchResult(QWidget):
             self._show_figures(self._match)
 
     def _show_figures(self, match: Match) -> None:
-        self.cure.hide()
+        for part in (self.cure, self.without_bars):
+            part.setVisible(self._cure is not None)
         if self._cure is not None:
             self._show_cure(self._cure, match)
         self.figures.show_match(match, self._certain, self._noted)

@@ -105,7 +105,8 @@ def test_the_tables_of_codes_are_those_of_the_declarations() -> None:
 
 
 def test_the_table_of_effects_is_that_of_the_registry() -> None:
-    named = re.findall(r"^\| ([^|]+) \|", page_named("effects"), re.MULTILINE)
+    (table,) = re.findall(r"^\| effect \|.*?\n\n", page_named("effects"), re.MULTILINE | re.DOTALL)
+    named = re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE)
     assert named[1:] == [effect.label for effect in EFFECTS]
 
 

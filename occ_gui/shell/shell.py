@@ -61,8 +61,9 @@ class Shell(QObject):
         return self._places[name].made()
 
     def made_pane(self, name: str) -> Any:
-        """Give a pane, None if it has never been seen."""
-        return self._places[name].pane
+        """Return a pane, None if it has never been seen, or is not added yet."""
+        place = self._places.get(name)
+        return place and place.pane
 
     @property
     def help_pages(self) -> dict[str, str]:

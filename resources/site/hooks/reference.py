@@ -18,6 +18,7 @@ GROUPS = {
     "effects": "The plan",
     "simulation": "Simulation",
     "receiver": "Decoding",
+    "room": "Rooms",
     "photo": "Photos",
     "video": "Films",
     "study": "Studies",

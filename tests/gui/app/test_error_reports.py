@@ -133,7 +133,7 @@ def test_an_exception_while_a_widget_is_painted_is_a_sentence(
     with monkeypatch.context() as patched:
         patched.setattr(BitStrip, "_draw_bit", broken)
         application.window.bring_to_front("decode")
-        application.window.grab()
+        application.view("decode").grab()
         assert STILL_THERE in user.message
     application.window.grab()
 

@@ -22,7 +22,7 @@ def archive(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with zipfile.ZipFile(path, "w") as packed:
         for file in sorted((ROOT / "occ_model").rglob("*.py")):
             packed.write(file, file.relative_to(ROOT))
-        for folder in ("docs", "lessons", "photos", "pictures", "presets"):
+        for folder in ("docs", "lessons", "photos", "pictures", "presets", "rooms"):
             for file in sorted((ROOT / "resources" / folder).rglob("*.*")):
                 packed.write(file, Path("occ_model", file.relative_to(ROOT)))
     return path
@@ -62,7 +62,7 @@ def test_lessons_are_loaded_out_of_an_archive(archive: Path) -> None:
         "for each in lessons().lessons: print(each.name, len(each.steps))\n"
     )
     here = [f"{each.name} {len(each.steps)}" for each in lessons().lessons]
-    assert len(here) == 10
+    assert len(here) == 11
     assert run(archive, program) == here
 
 

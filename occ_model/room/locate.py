@@ -33,6 +33,8 @@ _MOST = 4.0
 _LEFT_OUT = 3
 """Edges that may be left out, one after the other, where no place explains all."""
 
+_ONE_LAMP = "Only one lamp tells the place: it can be farther off than the stated errors."
+
 _SAME = 1e-3
 """Metres and radians within which two places are the same."""
 
@@ -75,7 +77,7 @@ class RoomReading:
     alternatives
         Other places that explain it as well.
     reasons
-        Why there is no place, or more than one; sentences.
+        Why there is no place, more than one, or one that is not sure; sentences.
     """
 
     lamps: tuple[ReadLamp, ...]
@@ -85,8 +87,8 @@ class RoomReading:
 
     @property
     def is_sure(self) -> bool:
-        """Whether there is one place and no other."""
-        return self.located is not None and not self.alternatives
+        """Whether there is one place, and nothing speaks against it."""
+        return self.located is not None and not self.reasons
 
 
 def read_room(image: NDArray[Any], room: Room) -> RoomReading:
@@ -169,7 +171,7 @@ def _located(
         if one.deviations <= limit and not any(_is_same(one, other) for other in kept):
             kept.append(one)
     if len(kept) == 1:
-        return kept, ()
+        return kept, (_ONE_LAMP,) if len(measured) == 1 else ()
     return kept, (
         f"{len(kept)} places explain the picture alike: a panel looks the same when it is turned, "
         "and a small one when it is tilted the other way. More lamps would tell.",

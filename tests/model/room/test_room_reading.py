@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.room import locate
+from occ_model.room.edges import Edge
 from occ_model.room.room import Place, Room, RoomLamp
 
 
@@ -116,3 +118,15 @@ def test_lamps_moved_in_the_file_leave_no_place_that_is_sure_and_right() -> None
 def test_a_picture_of_another_size_is_refused() -> None:
     with pytest.raises(occ.DecodeInputError, match="1024 rows and 768 columns"):
         occ.read_room(np.zeros((10, 10), dtype=np.uint8), _room(1, 1))
+
+
+def test_a_place_that_one_lamp_tells_is_not_sure(monkeypatch: pytest.MonkeyPatch) -> None:
+    room = _room(5, 1)
+    there = locate.Located(room.camera, np.eye(6), 1.0, 2)
+    corners = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]])
+    edge = Edge(0, corners[:2], np.array([0.0, 1.0]), (1.0, 1.0))
+    measured = [locate._Measured(room.lamps[0], corners, [edge] * 4, is_cut=False)]
+    monkeypatch.setattr(locate, "_explanations", lambda *_: [there])
+    places, reasons = locate._located(measured, room, 1, ())
+    assert places == [there]
+    assert not locate.RoomReading((), there, (), reasons).is_sure

@@ -18,8 +18,8 @@ TOLERANCES = (0.5, 2.0, 8.0)
 OBSERVABLES: tuple[Observable, ...] = ("image", "profile", "signal")
 
 TOO_LARGE = {
-    ("wide", "profile"): "1.6 times the truth in the median of these, 1.4 of 623 others",
-    ("wide", "signal"): "1.6 times the truth in the median of 623 others",
+    ("wide", "profile"): "1.4 times the truth in the median of 623 scenes",
+    ("wide", "signal"): "1.6 times the truth in the median of 623 scenes",
     ("phone-136us-real", "image"): "defocus is estimated 2.1 times too large",
     ("tablet-61us-real", "image"): "defocus is estimated 3.2 times too large",
     ("tablet-61us-real", "signal"): "defocus is estimated 2.1 times too large",

@@ -71,14 +71,14 @@ class AccuracyPlot(QWidget):
         self._measuring = False
         self._outdated = False
         self._fits_points = True
-        self.title = ElidedLabel(self.tr("Error over time"))
+        self.title = ElidedLabel("Error over time")
         self.legend = QLabel()
-        self.legend.setAccessibleName(self.tr("Legend"))
+        self.legend.setAccessibleName("Legend")
         self.legend.setWordWrap(True)
         self.plot = new_plot(
-            self.tr("Error over time"),
-            self.tr("time (ms)"),
-            self.tr("error (levels)"),
+            "Error over time",
+            "time (ms)",
+            "error (levels)",
             self.palette(),
             left=LogAxis("left", _FLOOR),
             bottom=LogAxis("bottom"),
@@ -143,18 +143,18 @@ class AccuracyPlot(QWidget):
 
     def _write_legend(self, palette: QPalette) -> None:
         words = {
-            "integration": self.tr("exposure"),
-            "effects": self.tr("effects"),
-            "path": self.tr("path"),
-            "draft": self.tr("draft"),
-            "noise": self.tr("noise"),
+            "integration": "exposure",
+            "effects": "effects",
+            "path": "path",
+            "draft": "draft",
+            "noise": "noise",
         }
         entries = [
             (_GLYPHS[SYMBOLS[part]], seen_on(palette, COLOURS[part]), word)
             for part, word in words.items()
         ]
-        entries.append(("+", seen_on(palette, COLOURS["effects"]), self.tr("plans")))
-        entries.append(("○", palette.color(QPalette.ColorRole.Text), self.tr("now")))
+        entries.append(("+", seen_on(palette, COLOURS["effects"]), "plans"))
+        entries.append(("○", palette.color(QPalette.ColorRole.Text), "now"))
         self.legend.setText(
             "&nbsp; ".join(
                 f"<span style='color:{colour.name()}'>{glyph}</span>&nbsp;{word}"
@@ -178,7 +178,7 @@ class AccuracyPlot(QWidget):
         self._front = [
             AccuracyPoint(
                 "effects",
-                ", ".join(sorted(way.effects)) or self.tr("no effects"),
+                ", ".join(sorted(way.effects)) or "no effects",
                 seconds,
                 way.error,
                 current=way.effects
@@ -196,8 +196,8 @@ class AccuracyPlot(QWidget):
 
     def _lay_out(self) -> None:
         self._fit_button = QPushButton()
-        self._fit_button.setText(self.tr("Fit"))
-        self._fit_button.setToolTip(self.tr("Show all points."))
+        self._fit_button.setText("Fit")
+        self._fit_button.setToolTip("Show all points.")
         self._fit_button.clicked.connect(self._fit_again)
         head = QHBoxLayout()
         head.addWidget(self.title, 1)
@@ -217,21 +217,19 @@ class AccuracyPlot(QWidget):
     def show_study_begun(self) -> None:
         """Show that a study of the current scene has begun."""
         self._measuring, self._outdated, self._points = True, False, []
-        self._show_state(self.tr("measuring…"))
+        self._show_state("measuring…")
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
         """Add a point, the given number of a total."""
         self._points.append(point)
         self._draw(self._points, 1.0)
-        self._show_state(
-            self.tr("measuring… {number} of {total}").format(number=number, total=total)
-        )
+        self._show_state(f"measuring… {number} of {total}")
 
     def show_study_finished(self) -> None:
         """Show that the study is complete."""
         self._measuring, self._complete = False, tuple(self._points)
         self._draw(self._points, 1.0)
-        self._show_state(self.tr("measured"))
+        self._show_state("measured")
 
     def show_study_outdated(self) -> None:
         """Fade the points: they belong to an earlier scene, and no more will be measured."""
@@ -240,9 +238,9 @@ class AccuracyPlot(QWidget):
         was_measuring, self._measuring, self._outdated = self._measuring, False, True
         self._draw(self._complete or self._points, _OUTDATED_OPACITY)
         if was_measuring:
-            self._show_state(self.tr("stopped"))
+            self._show_state("stopped")
         elif self._complete:
-            self._show_state(self.tr("of the previous scene"))
+            self._show_state("of the previous scene")
 
     def show_study_failed(self, sentence: str) -> None:
         """Show why the study failed."""
@@ -250,7 +248,7 @@ class AccuracyPlot(QWidget):
         self._show_state(sentence)
 
     def _show_state(self, state: str) -> None:
-        self.title.set_full_text(self.tr("Error over time: {state}").format(state=state))
+        self.title.set_full_text(f"Error over time: {state}")
 
     def _draw(self, points: Sequence[AccuracyPoint], opacity: float) -> None:
         self._drawn = ways_shown(points)

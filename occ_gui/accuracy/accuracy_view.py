@@ -64,23 +64,23 @@ class AccuracyView(QWidget):
         self.tolerance.edited.connect(self.tolerance_edited)
         self.tolerance.refused.connect(self.refused)
         self.observable = _choice(
-            self.tr("What the tolerance limits"),
-            self.tr(
+            "What the tolerance limits",
+            (
                 "What the tolerance limits: errors of the panel's pixels, of its column means, of "
                 "the signal that a decoder reads, the column means after the enhancement, or of "
                 "the decision, as a share of the chips' margin."
             ),
             {
-                "image": self.tr("picture"),
-                "profile": self.tr("profile"),
-                "signal": self.tr("signal"),
-                "decision": self.tr("decision"),
+                "image": "picture",
+                "profile": "profile",
+                "signal": "signal",
+                "decision": "decision",
             },
         )
         self.noise = _choice(
-            self.tr("Noise"),
-            self.tr("Noise drawn for every pixel, or taken from a stored plane: much faster."),
-            {"reused": self.tr("reused"), "exact": self.tr("exact")},
+            "Noise",
+            "Noise drawn for every pixel, or taken from a stored plane: much faster.",
+            {"reused": "reused", "exact": "exact"},
         )
         self.observable.activated.connect(
             lambda: self.observable_chosen.emit(self.observable.currentData())
@@ -95,9 +95,9 @@ class AccuracyView(QWidget):
         self.table.tolerance_dragged.connect(self.tolerance.show_value)
         self.table.tolerance_dragged.connect(self.tolerance_edited)
         self.panels = Panels(
-            Panel(self.tr("Effects"), self.table, _TABLE_WIDTH, 1),
-            Panel(self.tr("Ways to compute"), self.plot, _PLOT_WIDTH, 3),
-            Panel(self.tr("Selected effect"), self.detail, _DETAIL_WIDTH, 2),
+            Panel("Effects", self.table, _TABLE_WIDTH, 1),
+            Panel("Ways to compute", self.plot, _PLOT_WIDTH, 3),
+            Panel("Selected effect", self.detail, _DETAIL_WIDTH, 2),
         )
         self._lay_out()
 
@@ -105,7 +105,7 @@ class AccuracyView(QWidget):
         controls = QHBoxLayout()
         controls.setSpacing(8)
         controls.addWidget(self.tolerance, 1)
-        for text, control in ((self.tr("of the"), self.observable), (self.tr("Noise"), self.noise)):
+        for text, control in (("of the", self.observable), ("Noise", self.noise)):
             controls.addWidget(QLabel(text))
             controls.addWidget(control)
         second = QHBoxLayout()

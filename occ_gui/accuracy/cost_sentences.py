@@ -3,8 +3,6 @@
 import math
 from collections.abc import Sequence
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.accuracy.effect_rows import levels, milliseconds
 from occ_model.results import Decision, Forecast, Frame, MeasuredCosts, TimeShares
 
@@ -22,9 +20,9 @@ def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | Non
         The forecast for the same effects, None where there is none yet.
     """
     now, then = milliseconds(costs.picture.seconds), milliseconds(made)
-    time = _tr("This picture: {time} ms").format(time=now)
+    time = f"This picture: {now} ms"
     if costs.is_comparable and now != then:
-        time = _tr("{time}, measured again ({made} at first)").format(time=time, made=then)
+        time = f"{time}, measured again ({then} at first)"
     return f"{time}; {_error(expected)}." if expected is not None else f"{time}."
 
 
@@ -45,13 +43,11 @@ def ends_sentence(costs: MeasuredCosts) -> str:
     error = costs.errors.get(frozenset())
     if bare is None or error is None or most is bare:
         return ""
-    sentence = _tr("Fastest: {time} ms, error {error} levels.").format(
-        time=milliseconds(bare.seconds), error=levels(error)
-    )
+    sentence = f"Fastest: {milliseconds(bare.seconds)} ms, error {levels(error)} levels."
     if bare is costs.picture:
         sentence = ""
     if most is not costs.picture:
-        sentence += " " + _tr("Exact: {time} ms.").format(time=milliseconds(most.seconds))
+        sentence += f" Exact: {milliseconds(most.seconds)} ms."
     return sentence.strip()
 
 
@@ -68,16 +64,14 @@ def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> st
     before, after = set(frame.plan.included), set(expected.plan.included)
     now = milliseconds(times.seconds)
     if expected.seconds is None:
-        time = _tr("Next: now {now} ms").format(now=now)
+        time = f"Next: now {now} ms"
     else:
-        time = _tr("Next: about {time} ms, now {now}").format(
-            time=milliseconds(expected.seconds), now=now
-        )
+        time = f"Next: about {milliseconds(expected.seconds)} ms, now {now}"
     labels = {decision.effect: decision.label for decision in frame.plan.decisions}
     parts = [f"{time}; {_error(expected)}."]
     for names, words in (
-        (after - before, _tr("Switches in: {effects}.")),
-        (before - after, _tr("Switches out: {effects}.")),
+        (after - before, "Switches in: {effects}."),
+        (before - after, "Switches out: {effects}."),
     ):
         if names:
             listed = ", ".join(label for name, label in labels.items() if name in names)
@@ -90,10 +84,10 @@ def _error(expected: Forecast) -> str:
         return _promise(expected)
     if expected.error == 0.0:
         is_exact = expected.plan.tolerance == 0.0
-        return _tr("exact: nothing is left out") if is_exact else _tr("nothing is left out")
+        return "exact: nothing is left out" if is_exact else "nothing is left out"
     if expected.is_measured:
-        return _tr("error {error} levels (measured)").format(error=levels(expected.error))
-    return _tr("error about {error} levels (predicted)").format(error=levels(expected.error))
+        return f"error {levels(expected.error)} levels (measured)"
+    return f"error about {levels(expected.error)} levels (predicted)"
 
 
 def _promise(expected: Forecast) -> str:
@@ -101,22 +95,18 @@ def _promise(expected: Forecast) -> str:
     plan = expected.plan
     off_by_hand = any(d.forced and d.estimate and not d.included for d in plan.decisions)
     if off_by_hand or plan.tolerance == math.inf:
-        return _tr("error not measured yet")
-    return _tr("error about {error} levels (estimated)").format(error=levels(plan.left_out))
+        return "error not measured yet"
+    return f"error about {levels(plan.left_out)} levels (estimated)"
 
 
 def switch_sentence(switched: Sequence[Decision]) -> str:
     """Name the effects that were switched; what each takes stands in the table, and only there."""
     parts = []
     for included, words in (
-        (True, _tr("Switched in: {effects}")),
-        (False, _tr("Switched out: {effects}")),
+        (True, "Switched in: {effects}"),
+        (False, "Switched out: {effects}"),
     ):
         labels = [decision.label for decision in switched if decision.included is included]
         if labels:
             parts.append(words.format(effects=", ".join(labels)))
     return ". ".join(parts)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("CostSentences", text)

@@ -34,9 +34,9 @@ class CropPictures(QWidget):
                 image_of(pixels) for pixels in (crop.with_effect, crop.without, crop.difference)
             )
             self._captions = (
-                self.tr("with it"),
-                self.tr("without it"),
-                self.tr("difference × {factor}").format(factor=crop.amplification),  # noqa: RUF001
+                "with it",
+                "without it",
+                f"difference × {crop.amplification}",  # noqa: RUF001
             )
         self.setAccessibleName(", ".join(self._captions) if self._images else "")
         self.update()
@@ -115,7 +115,7 @@ class EffectDetail(QWidget):
         """Show an effect, or ask for one to be selected."""
         self.pictures.show_crop(crop)
         if row is None:
-            self.title.setText(self.tr("Select an effect to see what it does."))
+            self.title.setText("Select an effect to see what it does.")
             texts = ("", "", "")
         else:
             self.title.setText(row.label)
@@ -127,10 +127,6 @@ class EffectDetail(QWidget):
 
     def _place_of(self, row: EffectRow, crop: EffectCrop | None) -> str:
         if crop is None:
-            return "" if row.absent or row.effect == ELSE else self.tr("Its pictures are made…")
-        where = (
-            self.tr("Whole panel, averaged")
-            if crop.is_averaged
-            else self.tr("Real pixels where it changes most")
-        )
-        return self.tr("This effect alone. {where}; contrast stretched.").format(where=where)
+            return "" if row.absent or row.effect == ELSE else "Its pictures are made…"
+        where = "Whole panel, averaged" if crop.is_averaged else "Real pixels where it changes most"
+        return f"This effect alone. {where}; contrast stretched."

@@ -3,8 +3,6 @@
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_model.results import Decision, EffectCrop, EffectDifference, Forecast, Frame, MeasuredCosts
 
 ELSE = "everything else"
@@ -94,10 +92,10 @@ def rows_of(
         EffectRow(
             ELSE,
             "",
-            _tr("Everything else"),
+            "Everything else",
             seconds=rest,
             time=milliseconds(rest),
-            reason=_tr("What belongs to no effect, in ms:\n{stages}").format(stages=stages),
+            reason=f"What belongs to no effect, in ms:\n{stages}",
         )
     )
     return tuple(rows)
@@ -111,10 +109,10 @@ def longest_of(rows: Sequence[EffectRow]) -> float:
 def stage_words() -> Mapping[str, str]:
     """Return the stages of the light's way in words that fit a narrow column."""
     return {
-        "light": _tr("Light"),
-        "optics": _tr("Optics"),
-        "sensor": _tr("Sensor"),
-        "processing": _tr("File"),
+        "light": "Light",
+        "optics": "Optics",
+        "sensor": "Sensor",
+        "processing": "File",
     }
 
 
@@ -126,7 +124,7 @@ def _row(
     seconds = costs.seconds_of(decision.effect)
     time = "" if seconds is None or not decision.estimate else milliseconds(seconds)
     if time and costs.shares_step_with(decision.effect) is not None:
-        seconds, time = None, _tr("with noise")
+        seconds, time = None, "with noise"
     if time and not decision.included:
         time = f"({time})"
     found = decision.estimate if difference is None else difference.error
@@ -153,13 +151,13 @@ def _row(
 def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str, str]:
     """Return what leaving an effect out changes, and how that is known."""
     if not decision.estimate:
-        return _tr("none"), _tr("The scene does not have this effect.")
+        return "none", "The scene does not have this effect."
     estimate = levels(decision.estimate)
     if difference is None:
-        meaning = _tr("Leaving it out changes about {estimate} levels (estimated).")
-        return _tr("≈ {estimate}").format(estimate=estimate), meaning.format(estimate=estimate)
+        meaning = "Leaving it out changes about {estimate} levels (estimated)."
+        return f"≈ {estimate}", meaning.format(estimate=estimate)
     error = levels(difference.error)
-    meaning = _tr(
+    meaning = (
         "Leaving it out of the complete picture changes {error} levels (measured), {estimate} were "
         "estimated."
     )
@@ -175,7 +173,3 @@ def milliseconds(seconds: float) -> str:
     """Write a time in milliseconds."""
     time = 1e3 * seconds
     return f"{time:.0f}" if time >= 100.0 else f"{time:.1f}" if time >= 1.0 else f"{time:.2g}"
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("EffectRows", text)

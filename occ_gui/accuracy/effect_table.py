@@ -63,15 +63,15 @@ class EffectModel(QAbstractTableModel):
         self._given: tuple[EffectRow, ...] = ()
         self._order: Order = AS_LIGHT_TRAVELS
         self._titles = {
-            STAGE: (self.tr("Where"), self.tr("Where on the light's way it happens.")),
+            STAGE: ("Where", "Where on the light's way it happens."),
             PICTURE: (
-                self.tr("with | without"),
-                self.tr("The effect alone: a part of the panel with it, and without it."),
+                "with | without",
+                "The effect alone: a part of the panel with it, and without it.",
             ),
-            EFFECT: (self.tr("Effect"), self.tr("● in the picture, ○ left out.")),
+            EFFECT: ("Effect", "● in the picture, ○ left out."),
             ERROR: (
-                self.tr("Error without"),
-                self.tr(
+                "Error without",
+                (
                     "How much the picture would change without it, in levels: 255 of them lie "
                     "between its darkest and its brightest column.\nThe dot is measured, the "
                     "whisker ends at the plan's estimate (≈). The line through all rows is the "
@@ -79,14 +79,14 @@ class EffectModel(QAbstractTableModel):
                 ),
             ),
             TIME: (
-                self.tr("Time (ms)"),
-                self.tr(
+                "Time (ms)",
+                (
                     "Its computing time in the picture shown, the shortest of some runs; in "
                     "brackets, if it were in it.\nSorted by it, effects whose times differ by "
                     "less than these scatter keep their order."
                 ),
             ),
-            SWITCH: (self.tr("Switch"), self.tr("Whether the plan decides, or you.")),
+            SWITCH: ("Switch", "Whether the plan decides, or you."),
         }
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
@@ -223,7 +223,7 @@ class EffectTable(QTableView):
         self.switches: dict[str, QComboBox] = {}
         self._force: Mapping[str, bool] = {}
         self.setModel(self.effects)
-        self.setAccessibleName(self.tr("Effects"))
+        self.setAccessibleName("Effects")
         font = self.font()
         font.setPointSizeF(0.9 * font.pointSizeF())
         self.setFont(font)
@@ -326,11 +326,9 @@ class EffectTable(QTableView):
     def _switch(self, row: EffectRow) -> QComboBox:
         switch = _FlatSwitch()
         switch.setFont(self.font())
-        switch.addItems([self.tr("plan"), self.tr("on"), self.tr("off")])
-        switch.setAccessibleName(self.tr("Switch: {label}").format(label=row.label))
-        switch.setToolTip(
-            self.tr("{label}\nplan: the plan decides; on, off: you do.").format(label=row.label)
-        )
+        switch.addItems(["plan", "on", "off"])
+        switch.setAccessibleName(f"Switch: {row.label}")
+        switch.setToolTip(f"{row.label}\nplan: the plan decides; on, off: you do.")
         keep_wheel_for_scrolling(switch)
         switch.activated.connect(lambda index: self.switched.emit(row.effect, _STATES[index]))
         return switch

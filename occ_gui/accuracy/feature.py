@@ -2,8 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
@@ -27,7 +25,7 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> "Feature[A
 
     return Feature(
         name="accuracy",
-        title=QCoreApplication.translate("Accuracy", "Accuracy and time"),
+        title="Accuracy and time",
         help="effects.md#accuracy-against-time",
         make=make,
         part=part,

@@ -53,8 +53,9 @@ class ToleranceSlider(QWidget):
         self.slider.setRange(0, STEPS + 1)
         self.slider.setPageStep(STEPS // 20)
         self.field = ToleranceEdit(TOLERANCE)
-        meaning = explain(TOLERANCE) + self.tr(
-            "\nFast: infinity, the paper's model without any effect. Exact: 0, all effects."
+        meaning = (
+            explain(TOLERANCE)
+            + "\nFast: infinity, the paper's model without any effect. Exact: 0, all effects."
         )
         for control in (self.slider, self.field):
             control.setAccessibleName(TOLERANCE.label)
@@ -66,9 +67,9 @@ class ToleranceSlider(QWidget):
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(8)
-        layout.addWidget(QLabel(self.tr("fast")))
+        layout.addWidget(QLabel("fast"))
         layout.addWidget(self.slider, 1)
-        layout.addWidget(QLabel(self.tr("exact")))
+        layout.addWidget(QLabel("exact"))
         layout.addWidget(self.field)
         self.show_value(TOLERANCE.default)
 

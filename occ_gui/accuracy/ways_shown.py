@@ -3,8 +3,6 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_model.results import CLOSED_FORM, AccuracyPoint
 
 _EVERY = 4
@@ -50,13 +48,13 @@ def _pictures(points: Sequence[AccuracyPoint]) -> list[Way]:
     if not ladder:
         return []
     ends = {"": ladder[0], "+": ladder[-1]} if len(ladder) > 1 else {"": ladder[0]}
-    words = {"": _tr("picture, no effects"), "+": _tr("picture, all effects")}
+    words = {"": "picture, no effects", "+": "picture, all effects"}
     if current is None:  # the ladder is not complete yet
         return [Way(end, words[key] if key == "" else end.name) for key, end in ends.items()]
     same = next(
         (key for key, end in ends.items() if set(end.effects) == set(current.effects)), None
     )
-    now = _tr("now: picture") if same is None else _tr("now: {what}").format(what=words[same])
+    now = "now: picture" if same is None else f"now: {words[same]}"
     return [
         Way(current, now),
         *(Way(end, words[key]) for key, end in ends.items() if key != same),
@@ -71,17 +69,13 @@ def _samplings(points: Sequence[AccuracyPoint]) -> list[Way]:
         if place % _EVERY == 0
     ]
     ways.reverse()  # the most exact first
-    return [*(Way(p, _tr("closed form")) for p in points if p.name == CLOSED_FORM), *ways]
+    return [*(Way(p, "closed form") for p in points if p.name == CLOSED_FORM), *ways]
 
 
 def _named(points: Iterable[AccuracyPoint]) -> list[Way]:
     words = {
-        "profile path": _tr("profile only"),
-        "reused plane": _tr("noise reused"),
-        "drawn for each pixel": _tr("noise drawn"),
+        "profile path": "profile only",
+        "reused plane": "noise reused",
+        "drawn for each pixel": "noise drawn",
     }
     return [Way(point, words[point.name]) for point in points if point.name in words]
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("WaysShown", text)

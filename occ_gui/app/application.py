@@ -424,7 +424,7 @@ class Application(QObject):
         # What follows waits for work, and somebody may lose patience first.
         self.desktop.autosave.write()
         for who in all_at_work():
-            self.window.say(self.tr("{who} is waited for.").format(who=who))
+            self.window.say(f"{who} is waited for.")
             self.window.repaint()
         self.simulation.stop()  # of the scene that is restored no picture is needed
         self.lessons.end()

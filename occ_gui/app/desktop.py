@@ -297,7 +297,7 @@ class Desktop(QObject):
 
     def _on_text_size(self, percent: int) -> None:
         self._parts.preferences.keep(_TEXT, str(percent))
-        self._parts.window.say(self.tr("Text at {percent} %").format(percent=percent))
+        self._parts.window.say(f"Text at {percent} %")
 
     def _on_hold(self, on: bool) -> None:
         self._parts.preferences.keep(_HOLD, _YES if on else "")
@@ -305,7 +305,7 @@ class Desktop(QObject):
 
     def _reset_scene(self) -> None:
         scene = load_preset(DEFAULT_PRESET)
-        self._parts.store.put(scene, self.tr("reset of the scene"), force={})
+        self._parts.store.put(scene, "reset of the scene", force={})
 
     def show_shortcuts(self) -> None:
         """Show the table of keyboard shortcuts."""

@@ -93,11 +93,7 @@ class ErrorReports(QObject):
         _log.error("unhandled", exc_info=(kind, error, trace))
         text = _ON_THE_WAY.sub("", str(error))
         reason = one_line(f"{kind.__name__}: {text}".rstrip(": ."))
-        self.reported.emit(
-            self.tr("Something went wrong: {reason}. Your work is still there.").format(
-                reason=reason
-            )
-        )
+        self.reported.emit(f"Something went wrong: {reason}. Your work is still there.")
 
     def _report_thread(self, args: threading.ExceptHookArgs) -> None:
         error = args.exc_value

@@ -123,11 +123,7 @@ class OutdatedPanes(QObject):
         self._update()
 
     def _update(self) -> None:
-        text = (
-            self.tr("of an earlier scene: this one has no picture")
-            if self._is_refused
-            else self.tr("computing…")
-        )
+        text = "of an earlier scene: this one has no picture" if self._is_refused else "computing…"
         runs = bool(self._run) and not self._is_refused
         runs = bool(self._run) and not self._is_refused
         for request, marks in (

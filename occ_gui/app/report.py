@@ -73,17 +73,17 @@ def show_report(window: QWidget, text: str) -> None:
     """Show a report over a window, to be copied."""
     dialog = QDialog(window)
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-    dialog.setWindowTitle(window.tr("Report"))
+    dialog.setWindowTitle("Report")
     shown = QPlainTextEdit(text)
     shown.setReadOnly(True)
     shown.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
-    shown.setAccessibleName(window.tr("Text of the report"))
+    shown.setAccessibleName("Text of the report")
     buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-    copy = buttons.addButton(window.tr("&Copy"), QDialogButtonBox.ButtonRole.ActionRole)
+    copy = buttons.addButton("&Copy", QDialogButtonBox.ButtonRole.ActionRole)
     buttons.rejected.connect(dialog.reject)
     layout = QVBoxLayout(dialog)
     advice = QLabel(
-        window.tr("Copy this into a report of a mistake. Read it first: a message may name a file.")
+        "Copy this into a report of a mistake. Read it first: a message may name a file."
     )
     advice.setWordWrap(True)
     # The status line is behind the dialog.

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Protocol
 
-from PySide6.QtCore import QCoreApplication, QObject, Qt
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMenu
 
 from occ_gui.app.lessons_in_window import LessonsInWindow
@@ -85,7 +85,7 @@ def story_menu(parts: Parts) -> QMenu:
     actions, menu = parts.window.actions_by_name, QMenu(parts.story.rows)
     text = parts.story.readout.toolTip()
     menu.addAction(
-        QCoreApplication.translate("StoryMenu", "Copy the &values at the crosshair"),
+        "Copy the &values at the crosshair",
         lambda: parts.window.say(copy_text(text)),
     )
     for name in ("copy_figure", "export_profile", "export_picture", "measure", "fit"):

@@ -63,7 +63,7 @@ class FileWriter(QObject, Generic[Request]):
     def _finish(self, path: Path) -> None:
         self._bar.end()
         self.written.emit(path)
-        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+        self.status_message.emit(f"Saved {one_line(path.name)}")
 
     def _fail(self, sentence: str) -> None:
         self._bar.end()

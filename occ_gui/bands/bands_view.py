@@ -59,15 +59,11 @@ class BandsView(QWidget):
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 4)
-        self.table.setHorizontalHeaderLabels(
-            [self.tr("Shutter"), self.tr("as written"), self.tr("power of two"), self.tr("Bars")]
-        )
-        self.table.setAccessibleName(self.tr("Depth of the bars at usual shutter speeds"))
+        self.table.setHorizontalHeaderLabels(["Shutter", "as written", "power of two", "Bars"])
+        self.table.setAccessibleName("Depth of the bars at usual shutter speeds")
         self.table.setToolTip(
-            self.tr(
-                "Many cameras keep a power of two for what is written: 1/64 s for 1/60 s. "
-                "A double click, or Enter, sets a speed; ISO speed and aperture follow."
-            )
+            "Many cameras keep a power of two for what is written: 1/64 s for 1/60 s. "
+            "A double click, or Enter, sets a speed; ISO speed and aperture follow."
         )
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -96,7 +92,7 @@ class BandsView(QWidget):
         for row, speed in enumerate(self._speeds):
             cells = (
                 speed.name, _percent(speed.at_nominal), _percent(speed.at_real),
-                self.tr("none") if speed.is_free else self._kept(speed),
+                "none" if speed.is_free else self._kept(speed),
             )  # fmt: skip
             for column, text in enumerate(cells):
                 item = QTableWidgetItem(text)
@@ -109,46 +105,41 @@ class BandsView(QWidget):
 
     def _kept(self, speed: SpeedDepth) -> str:
         if not speed.is_doubtful:
-            return self.tr("yes")
+            return "yes"
         if speed.at_nominal < speed.at_real:
-            return self.tr("none as written")
-        return self.tr("none as power of two")
+            return "none as written"
+        return "none as power of two"
 
     def _headline(self, found: ShownBands) -> str:
         depth, exposure = found.depth, SECOND.format(found.scene.camera.exposure_time, _DIGITS)
         if depth.peak_to_peak < found.advice.limit:
-            return self.tr("No bars at {exposure}: {depth}").format(
-                exposure=exposure, depth=_percent(depth.peak_to_peak)
-            )
-        text = self.tr("Bars of {depth} of the mean light at {exposure}")
+            return f"No bars at {exposure}: {_percent(depth.peak_to_peak)}"
+        text = "Bars of {depth} of the mean light at {exposure}"
         return text.format(depth=_percent(depth.peak_to_peak), exposure=exposure)
 
     def _sentences(self, found: ShownBands) -> list[str]:
         depth, advice, eye = found.depth, found.advice, found.eye
-        seen = self.tr("they are seen") if depth.is_visible else self.tr("they are not seen")
+        seen = "they are seen" if depth.is_visible else "they are not seen"
         lines = [
-            self.tr("RMS {rms}; in pixel values {pixel} peak to peak: {seen}.").format(
-                rms=_percent(depth.rms), pixel=_percent(depth.pixel.peak_to_peak), seen=seen
+            (
+                f"RMS {_percent(depth.rms)}; in pixel values "
+                f"{_percent(depth.pixel.peak_to_peak)} peak to peak: {seen}."
             ),
-            self.tr("The lamp's bars vanish at whole multiples of {valley}.").format(
-                valley=SECOND.format(advice.valley, _DIGITS)
+            (
+                "The lamp's bars vanish at whole multiples of "
+                f"{SECOND.format(advice.valley, _DIGITS)}."
             ),
         ]
         if advice.all_exposures is not None:
-            lines[-1] += " " + self.tr("From {time} on no exposure shows 1 %.").format(
-                time=SECOND.format(advice.all_exposures, 3)
-            )
+            lines[-1] += f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows 1 %."
         if found.scene.transmitter.edge_time:
-            lines.append(self.tr("The map is of sharp edges: the LED's own make weaker bars."))
+            lines.append("The map is of sharp edges: the LED's own make weaker bars.")
         lines.append(
-            self.tr(
-                "For the eye: percent flicker {percent:.3g} %, flicker index {index:.2g}, "
-                "SVM {svm:.2g}; by IEEE 1789-2015 {risk} as a whole ({frequency}), "
-                "{parts} by each of its sines."
-            ).format(
-                percent=eye.percent_flicker, index=eye.flicker_index, svm=eye.visibility,
-                risk=eye.risk, frequency=HERTZ.format(eye.frequency, 3), parts=eye.parts_risk,
-            )
+            f"For the eye: percent flicker {eye.percent_flicker:.3g} %, flicker index "
+f"{eye.flicker_index:.2g}, "
+                f"SVM {eye.visibility:.2g}; by IEEE 1789-2015 {eye.risk} as a whole "
+f"({HERTZ.format(eye.frequency, 3)}), "
+                f"{eye.parts_risk} by each of its sines."
         )  # fmt: skip
         return lines
 

@@ -30,7 +30,7 @@ class DepthPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plot = new_plot(
-            self.tr("Least depth of the bars"), quantity("switching_frequency").label,
+            "Least depth of the bars", quantity("switching_frequency").label,
             quantity("exposure_time").label, self.palette(),
         )  # fmt: skip
         self.image = pg.ImageItem()
@@ -55,11 +55,9 @@ class DepthPlot(QWidget):
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"
         )
         self.legend = QLabel(
-            self.tr(
-                "Dark: a small change within the cell shows no bars (0.1 % or less); yellow: 100 % "
-                "or more. White lines: whole numbers of the "
-                "lamp's periods. A click takes an exposure."
-            )
+            "Dark: a small change within the cell shows no bars (0.1 % or less); yellow: 100 % "
+            "or more. White lines: whole numbers of the "
+            "lamp's periods. A click takes an exposure."
         )
         self.legend.setWordWrap(True)
         layout = QVBoxLayout(self)
@@ -85,9 +83,7 @@ class DepthPlot(QWidget):
             [np.log10(scene.camera.exposure_time)],
         )
         self.plot.setAccessibleDescription(
-            self.tr("Bars vanish at whole multiples of {valley}").format(
-                valley=SECOND.format(found.advice.valley, 4)
-            )
+            f"Bars vanish at whole multiples of {SECOND.format(found.advice.valley, 4)}"
         )
 
     def _on_click(self, event: object) -> None:

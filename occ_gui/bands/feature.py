@@ -1,7 +1,5 @@
 """The pane of the bars, declared."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
 from occ_model.scene.scene import Scene
@@ -17,7 +15,7 @@ def bands(scenes: SceneStore) -> Feature[Scene]:
 
     return Feature(
         name="bands",
-        title=QCoreApplication.translate("Bands", "Bars"),
+        title="Bars",
         help="bands.md",
         make=make,
         part=lambda workspace, _: workspace.scene,

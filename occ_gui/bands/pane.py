@@ -35,7 +35,7 @@ class BandsPane(Pane[Scene]):
 
     def _take(self, exposure: float) -> None:
         scene = as_bright(self._scenes.scene, exposure)
-        self._scenes.put(scene, self.tr("shutter speed without bars"))
+        self._scenes.put(scene, "shutter speed without bars")
 
     @property
     def is_idle(self) -> bool:

@@ -102,7 +102,7 @@ class BenchController(QObject):
             self._pane.show_ended(str(refusal))
             return
         if not request.decoders:
-            self._pane.show_ended(self.tr("No decoder is chosen."))
+            self._pane.show_ended("No decoder is chosen.")
             return
         self._request, self._points = request, []
         self._pane.show_begun(request)
@@ -120,7 +120,7 @@ class BenchController(QObject):
         """Stop measuring; the points that are known stay."""
         if not self._channel.is_idle:
             self._channel.cancel()
-            self._pane.show_ended(self.tr("Cancelled: some points are missing."))
+            self._pane.show_ended("Cancelled: some points are missing.")
 
     def _take(
         self, request: BenchRequest, results: list[BenchBounds | tuple[BenchPoint, ...]]

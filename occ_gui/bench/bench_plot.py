@@ -94,10 +94,10 @@ class BenchPlots(QWidget):
         self._what = what
         self._decoders: tuple[str, ...] = ()
         rates = what == RATES
-        left = self.tr("bit error rate") if rates else self.tr("bits a second")
+        left = "bit error rate" if rates else "bits a second"
         names = {
-            "exposure": (self.tr("over the exposure"), self.tr("exposure (symbols)")),
-            "noise": (self.tr("over the noise"), self.tr("signal-to-noise ratio (dB)")),
+            "exposure": ("over the exposure", "exposure (symbols)"),
+            "noise": ("over the noise", "signal-to-noise ratio (dB)"),
         }
         self.plots: dict[str, Plot] = {}
         self._curves: dict[str, list[_Curve]] = {axis: [] for axis in AXES}

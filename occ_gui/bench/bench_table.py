@@ -22,7 +22,7 @@ class BenchTable(QTableWidget):
         super().__init__(parent)
         self._places: dict[tuple[str, float, float], int] = {}
         self._decoders: tuple[str, ...] = ()
-        self.setAccessibleName(self.tr("Table of the bench"))
+        self.setAccessibleName("Table of the bench")
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setAlternatingRowColors(True)
         self.verticalHeader().hide()
@@ -34,9 +34,7 @@ class BenchTable(QTableWidget):
         self._places = {point[1:]: row for row, point in enumerate(request.points)}
         self.setRowCount(len(request.points))
         self.setColumnCount(2 + len(request.decoders))
-        self.setHorizontalHeaderLabels(
-            [self.tr("exposure (symbols)"), self.tr("SNR (dB)"), *request.decoders]
-        )
+        self.setHorizontalHeaderLabels(["exposure (symbols)", "SNR (dB)", *request.decoders])
         for row, (_, _, exposure, decibels) in enumerate(request.points):
             for column, value in enumerate((exposure, decibels)):
                 self._put(row, column, f"{value:g}")

@@ -73,8 +73,8 @@ class BenchView(QWidget):
         self.table = BenchTable()
         self.legend = LineLegend()
         self.state = ElidedLabel()
-        self.state.setAccessibleName(self.tr("State of the bench"))
-        self.work = WorkBar(self.tr("Places that are measured"))
+        self.state.setAccessibleName("State of the bench")
+        self.work = WorkBar("Places that are measured")
         self.work.cancelled.connect(self.cancelled)
         self._lay_out()
         self._show_what()
@@ -82,7 +82,7 @@ class BenchView(QWidget):
 
     def _make_invitation(self) -> QLabel:
         """Say what will stand here, in place of empty plots."""
-        text = self.tr(
+        text = (
             "How often does each decoder misread a bit? Choose the code and the decoders above, "
             "and press Measure: the error rates appear here, over the exposure and over the noise."
         )
@@ -94,40 +94,40 @@ class BenchView(QWidget):
 
     def _make_choices(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
         words = {
-            PUBLISHED: self.tr("the published benchmark's code"),
-            OF_SCENE: self.tr("the scene's code and timing"),
+            PUBLISHED: "the published benchmark's code",
+            OF_SCENE: "the scene's code and timing",
         }
         self.whose = KeyedComboBox(
-            self.tr("Code that is measured"),
-            self.tr(
+            "Code that is measured",
+            (
                 "Manchester, 256 bits, 5 rows a symbol; or the scheme, the number of bits, the "
                 "frequency and the readout time of the scene. Only exposure and noise are as below."
             ),
             words,
         )
         self.effort = KeyedComboBox(
-            self.tr("Bits at each point"),
-            self.tr("More bits take longer and make the intervals narrower."),
-            {str(bits): self.tr("{bits:,} bits a point").format(bits=bits) for bits in EFFORTS},
+            "Bits at each point",
+            "More bits take longer and make the intervals narrower.",
+            {str(bits): f"{bits:,} bits a point" for bits in EFFORTS},
         )
         self.effort.show_key(str(BenchChoice().bits))
         self.what = KeyedComboBox(
-            self.tr("What is shown"),
-            self.tr("Bit error rates, or what comes through in a second of video."),
-            {RATES: self.tr("bit error rate"), BITS: self.tr("bits a second")},
+            "What is shown",
+            "Bit error rates, or what comes through in a second of video.",
+            {RATES: "bit error rate", BITS: "bits a second"},
         )
         self.decoders = {name: QCheckBox(name) for name in decoders}
         for name, box in self.decoders.items():
             box.setChecked(name in chosen)
-            box.setToolTip(self.tr("Measure this decoder."))
+            box.setToolTip("Measure this decoder.")
             box.toggled.connect(self._emit_choice)
         self.frame_rate = QuantityEdit(FRAME_RATE)
         self.frame_rate.setAccessibleName(FRAME_RATE.label)
         self.frame_rate.setToolTip(FRAME_RATE.meaning)
         self.frame_rate.edited.connect(self.frame_rate_edited)
         self.frame_rate.refused.connect(self.refused)
-        self.measure = QPushButton(self.tr("Measure"))
-        self.measure.setToolTip(self.tr("Measure the chosen decoders in the background."))
+        self.measure = QPushButton("Measure")
+        self.measure.setToolTip("Measure the chosen decoders in the background.")
         self.measure.clicked.connect(self.asked)
         for choice in (self.whose, self.effort):
             choice.chosen.connect(self._emit_choice)
@@ -188,12 +188,10 @@ class BenchView(QWidget):
     def show_begun(self, request: BenchRequest) -> None:
         """Show that a measurement has begun, and forget the one before."""
         self._points, self._bounds, self._ended = [], None, ""
-        self._setting = self.tr(
-            "{scheme}, {bits} bits, {rows:.3g} rows a symbol (the row rate needs 1 or more)"
-        ).format(
-            scheme=", ".join(request.schemes), bits=request.payload_bits,
-            rows=request.rows_a_symbol,
-        )  # fmt: skip
+        self._setting = (
+            f"{', '.join(request.schemes)}, {request.payload_bits} bits, "
+            f"{request.rows_a_symbol:.3g} rows a symbol (the row rate needs 1 or more)"
+        )
         self._show_page()
         for plots in self.plots.values():
             plots.show_begun(request.decoders)
@@ -211,15 +209,15 @@ class BenchView(QWidget):
             sample = marker(symbol, 8, COLOURS[number % len(COLOURS)])
             self.legend.add_sample(name, sample, _SAMPLE, name)
         self.legend.add_sample(
-            "unseen", marker("t", 8, None), _SAMPLE, self.tr("no error: less than"),
-            self.tr("No bit was wrong: the upper end of the rate's 95 % interval."),
+            "unseen", marker("t", 8, None), _SAMPLE, "no error: less than",
+            "No bit was wrong: the upper end of the rate's 95 % interval.",
         )  # fmt: skip
         ink = self.palette().color(QPalette.ColorRole.Text)
         self.legend.add_line(
-            "nulls", thin(ink, Qt.PenStyle.DotLine), self.tr("alternating chips leave no stripes")
+            "nulls", thin(ink, Qt.PenStyle.DotLine), "alternating chips leave no stripes"
         )
         self.legend.add_line(
-            "most", thin(ink, Qt.PenStyle.DashLine), self.tr("most that Gaussian light carries")
+            "most", thin(ink, Qt.PenStyle.DashLine), "most that Gaussian light carries"
         )
         self._show_bound_entry()
 
@@ -249,7 +247,7 @@ class BenchView(QWidget):
     def show_progress(self, done: int, of: int) -> None:
         """Show how many places are measured."""
         self.work.show_progress(done / of)
-        self._progress = self.tr("{done} of {of} places measured").format(done=done, of=of)
+        self._progress = f"{done} of {of} places measured"
         self._show_state()
 
     def show_ended(self, sentence: str) -> None:
@@ -269,7 +267,7 @@ class BenchView(QWidget):
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the points are of another code or timing than would be measured now."""
         self._is_outdated = outdated
-        text = self.tr("of another code or timing: measure again")
+        text = "of another code or timing: measure again"
         self.outdated.show_age(DELAY if outdated else 0.0, text)
         self._show_state()
 
@@ -285,5 +283,5 @@ class BenchView(QWidget):
             )
             text = "; ".join(part.removesuffix(".") for part in parts if part) + "."
             if self._is_outdated:
-                text = self.tr("Earlier setting: {text}").format(text=text)
+                text = f"Earlier setting: {text}"
         self.state.set_full_text(text)

@@ -2,8 +2,6 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.background.signals import JobChannel
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
@@ -24,7 +22,7 @@ def bench(
 
     return Feature(
         name="bench",
-        title=QCoreApplication.translate("Bench", "Bench"),
+        title="Bench",
         help="sweeps.md#the-bench",
         make=make,
     )

@@ -47,7 +47,7 @@ class BitStrip(QWidget):
         self._sent: tuple[int, ...] = ()
         self._received: tuple[int, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(self.tr("Sent and received bits"))
+        self.setAccessibleName("Sent and received bits")
 
     def show_bits(self, sent: Sequence[int], received: Sequence[int]) -> None:
         """Show bits in the order of sending; bits that were not received are missing at the end."""
@@ -66,16 +66,16 @@ class BitStrip(QWidget):
     def _describe(self) -> None:
         wrong = self.wrong_places()
         if len(self._sent) > _MOST_DIGITS:
-            text = self.tr("sent {sent} bits, received {received}, {wrong} wrong").format(
-                sent=len(self._sent), received=len(self._received), wrong=len(wrong)
+            text = (
+                f"sent {len(self._sent)} bits, received {len(self._received)}, {len(wrong)} wrong"
             )
         else:
             sent_text, received_text = ("".join(map(str, b)) for b in (self._sent, self._received))
-            text = self.tr("sent {sent}, received {received}, {wrong} wrong").format(
-                sent=sent_text, received=received_text or self.tr("nothing"), wrong=len(wrong)
+            text = "sent {sent}, received {received}, {wrong} wrong".format(
+                sent=sent_text, received=received_text or "nothing", wrong=len(wrong)
             )
         if not self.isEnabled():
-            text = self.tr("earlier scene: {text}").format(text=text)
+            text = f"earlier scene: {text}"
         self.setAccessibleDescription(text)
         self.setToolTip(text)
 
@@ -96,7 +96,7 @@ class BitStrip(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if not self.isEnabled():  # the bits are those of an earlier scene
             painter.setOpacity(_FADED_OPACITY)
-        rows = ((self.tr("sent"), self._sent), (self.tr("received"), self._received))
+        rows = (("sent", self._sent), ("received", self._received))
         count = max(1, len(self._sent))
         width = min(float(_CELL), (self.width() - _LABEL) / count - _GAP)
         wrong = set(self.wrong_places())

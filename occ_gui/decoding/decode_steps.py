@@ -46,18 +46,18 @@ class SignalPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plot = new_plot(
-            self.tr("Signal and chips"),
-            self.tr("column of the region"),
-            self.tr("level"),
+            "Signal and chips",
+            "column of the region",
+            "level",
             self.palette(),
             _LevelAxis("left"),
         )
         self.legend = LineLegend()
         dash = Qt.PenStyle.DashLine
-        self.legend.add_line("signal", thin(SIMULATION), self.tr("signal"))
-        self.legend.add_line("threshold", thin(THRESHOLD, dash), self.tr("threshold"))
-        self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), self.tr("chips: lit"))
-        self.legend.add_line("model", thin(BAND, dash), self.tr("model of the code"))
+        self.legend.add_line("signal", thin(SIMULATION), "signal")
+        self.legend.add_line("threshold", thin(THRESHOLD, dash), "threshold")
+        self.legend.add_line("chips", pg.mkPen(SIMULATION, width=8), "chips: lit")
+        self.legend.add_line("model", thin(BAND, dash), "model of the code")
         self.signal = self.plot.add_curve(thin(SIMULATION), is_crowded=True)
         self.model = self.plot.add_curve(thin(BAND, dash))
         self.threshold = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, dash))
@@ -79,13 +79,13 @@ class SignalPlot(QWidget):
         if result.folded is not None and result.model is not None:
             self._show_folded(result.folded, result.model)
         elif result.light is not None and result.light_model is not None:
-            self._show_columns(result, result.light, self.tr("share of full light"), packet_columns)
+            self._show_columns(result, result.light, "share of full light", packet_columns)
             _draw(self.model, result.light_model)
         elif result.equalized is not None:
-            self._show_columns(result, result.equalized, self.tr("light"), packet_columns)
+            self._show_columns(result, result.equalized, "light", packet_columns)
         else:
             signal = result.signal if result.signal is not None else np.zeros(1)
-            self._show_columns(result, signal, self.tr("level"), packet_columns)
+            self._show_columns(result, signal, "level", packet_columns)
         self.threshold.setVisible(result.threshold is not None)
         self.chips.setVisible(not folded and bool(result.chips.size))
         self.legend.show_line("threshold", result.threshold is not None)
@@ -94,8 +94,8 @@ class SignalPlot(QWidget):
         self.setVisible(result.signal is not None)
 
     def _show_folded(self, folded: FloatArray, model: FloatArray) -> None:
-        self.plot.setLabel("bottom", self.tr("bin of a packet"))
-        self.plot.setLabel("left", self.tr("lit share"))
+        self.plot.setLabel("bottom", "bin of a packet")
+        self.plot.setLabel("left", "lit share")
         _draw(self.signal, folded)
         _draw(self.model, model)
         self.plot.setXRange(0, len(folded) - 1, padding=0.02)
@@ -104,7 +104,7 @@ class SignalPlot(QWidget):
     def _show_columns(
         self, result: DecodeResult, signal: FloatArray, label: str, packet_columns: float
     ) -> None:
-        self.plot.setLabel("bottom", self.tr("column of the region"))
+        self.plot.setLabel("bottom", "column of the region")
         self.plot.setLabel("left", label)
         _draw(self.signal, signal)
         self.model.setData([], [])
@@ -145,13 +145,13 @@ class RunLengthPlot(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plot = new_plot(
-            self.tr("Run lengths"),
-            self.tr("run length (columns)"),
-            self.tr("runs"),
+            "Run lengths",
+            "run length (columns)",
+            "runs",
             self.palette(),
             _CountAxis("left"),
         )
-        title = QLabel(self.tr("Run lengths: ones up, zeros down, splits dashed"))
+        title = QLabel("Run lengths: ones up, zeros down, splits dashed")
         self.bars, self.splits = [], []
         for colour in _COLOURS:
             bars = pg.BarGraphItem(x=[], height=[], width=0.8)

@@ -36,8 +36,8 @@ class DecodeView(QWidget):
         self._run = ""
         self.decoders = QTabBar()
         self.decoders.setDrawBase(False)
-        self.decoders.setAccessibleName(self.tr("Decoder"))
-        self.decoders.setToolTip(self.tr("Whose result and steps are shown."))
+        self.decoders.setAccessibleName("Decoder")
+        self.decoders.setToolTip("Whose result and steps are shown.")
         self.decoders.currentChanged.connect(self._choose)
         self.verdict = QLabel()
         self.verdict.setWordWrap(True)
@@ -48,7 +48,7 @@ class DecodeView(QWidget):
         self.origin = QLabel()
         self.origin.setWordWrap(True)
         self.origin.setTextFormat(Qt.TextFormat.PlainText)
-        self.origin.setAccessibleName(self.tr("What the code was read from"))
+        self.origin.setAccessibleName("What the code was read from")
         self.payload = PayloadText()
         self.strip = BitStrip()
         self.reason = QLabel()
@@ -58,7 +58,7 @@ class DecodeView(QWidget):
         self.left_out = QLabel()
         self.left_out.setWordWrap(True)
         self.left_out.setTextFormat(Qt.TextFormat.PlainText)
-        self.left_out.setAccessibleName(self.tr("What the picture leaves out"))
+        self.left_out.setAccessibleName("What the picture leaves out")
         self._steps = {name: QLabel() for name in _STEPS}
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
         layout = QVBoxLayout(self)
@@ -84,13 +84,13 @@ class DecodeView(QWidget):
         self._form = form = QFormLayout()
         form.setVerticalSpacing(2)
         titles = {
-            "bright": self.tr("Bright from"),
-            "region": self.tr("Region"),
-            "threshold": self.tr("Threshold"),
-            "chip": self.tr("Chip length"),
-            "chips": self.tr("Chips read"),
-            "correlation": self.tr("Correlation"),
-            "confidence": self.tr("Confidence"),
+            "bright": "Bright from",
+            "region": "Region",
+            "threshold": "Threshold",
+            "chip": "Chip length",
+            "chips": "Chips read",
+            "correlation": "Correlation",
+            "confidence": "Confidence",
         }
         for name, title in titles.items():
             self._steps[name].setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -116,7 +116,7 @@ class DecodeView(QWidget):
         self.strip.setVisible(bool(reading.sent))
         self.left_out.setVisible(bool(reading.called_for))
         self.left_out.setText(
-            self.tr("This picture leaves out what map and strips take in: {effects}.").format(
+            "This picture leaves out what map and strips take in: {effects}.".format(
                 effects=", ".join(reading.called_for)
             )
         )
@@ -217,19 +217,17 @@ class DecodeView(QWidget):
         """Say what was read, and what it had seemed to be before where that differs."""
         early = self._early
         if reading.source == "profile":
-            return self.tr("By the column profile; the picture follows.")
+            return "By the column profile; the picture follows."
         if reading.source == "draft":
-            return self.tr("By a draft of the picture; the exact one follows.")
+            return "By a draft of the picture; the exact one follows."
         if early is not None:
             before, now = (self._in_words(self._chosen(each)) for each in (early, reading))
             if before != now:
-                return self.tr("Read from the picture. {source} had said: {verdict}.").format(
-                    source=self.tr("The column profile alone")
-                    if early.source == "profile"
-                    else self.tr("Its draft"),
+                return "Read from the picture. {source} had said: {verdict}.".format(
+                    source="The column profile alone" if early.source == "profile" else "Its draft",
                     verdict=before,
                 )
-        return self.tr("Read from the picture.")
+        return "Read from the picture."
 
     def _in_words(self, decoded: DecodeResult) -> str:
         verdict = verdict_on(decoded, self._sent)
@@ -239,7 +237,7 @@ class DecodeView(QWidget):
     def _verdict(self, decoded: DecodeResult) -> str:
         text = self._in_words(decoded)
         if self._is_outdated:
-            return self.tr("Earlier scene: {verdict}").format(verdict=text)
+            return f"Earlier scene: {text}"
         return f"{self._run}: {text}" if self._run else text
 
     @property
@@ -249,9 +247,9 @@ class DecodeView(QWidget):
     def _bright(self, location: Location | None) -> str | None:
         if location is None:  # a row that comes and goes would move those below it
             is_early = self._reading is not None and self._reading.source == "profile"
-            return self.tr("known with the picture") if is_early else None
-        return self.tr("{level}; contours: {contours}, grown by {growth} px").format(
-            level=location.bright_level, contours=location.contours, growth=location.growth
+            return "known with the picture" if is_early else None
+        return (
+            f"{location.bright_level}; contours: {location.contours}, grown by {location.growth} px"
         )
 
     def _measured(self, decoded: DecodeResult) -> dict[str, str]:
@@ -259,11 +257,9 @@ class DecodeView(QWidget):
         region, level, chip = decoded.region, decoded.threshold, decoded.chip_length
         found: dict[str, str | None] = {
             "bright": self._bright(decoded.location),
-            "region": None
-            if region is None
-            else self.tr("{columns} x {rows} px").format(columns=region.columns, rows=region.rows),
-            "threshold": _number(self.tr("{:.1f} grey levels"), level),
-            "chip": _number(self.tr("{:.2f} columns"), chip),
+            "region": None if region is None else f"{region.columns} x {region.rows} px",
+            "threshold": _number("{:.1f} grey levels", level),
+            "chip": _number("{:.2f} columns", chip),
             "chips": str(decoded.chips.size) if decoded.chips.size else None,
             "correlation": _number("{:.4f}", decoded.correlation),
             "confidence": _number("{:.3f}", decoded.confidence),

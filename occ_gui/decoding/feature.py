@@ -1,7 +1,5 @@
 """The pane of decoding, declared."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.core.store import Store
 from occ_gui.shell.feature import Feature, Pane
 from occ_gui.simulation.snapshot import Reading
@@ -17,7 +15,7 @@ def decoding(store: Store) -> Feature[tuple[Reading | None, str]]:
 
     return Feature(
         name="decode",
-        title=QCoreApplication.translate("Decoding", "Decoding"),
+        title="Decoding",
         help="decoders.md",
         make=make,
         part=lambda workspace, results: (results.reading, workspace.decoder),

@@ -24,7 +24,7 @@ class PayloadText(QLabel):
         self.setWordWrap(True)
         self.setTextFormat(Qt.TextFormat.RichText)
         self.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.setAccessibleName(self.tr("Sent and received payload"))
+        self.setAccessibleName("Sent and received payload")
 
     def show_payload(self, payload: str, received: Sequence[int]) -> None:
         """Show a payload and the bits received of it; nothing where it is written as bits."""
@@ -34,13 +34,9 @@ class PayloadText(QLabel):
             return
         sent = _shortened("".join(piece.sent for piece in pieces))
         wrong = sum(not piece.is_right for piece in pieces)
-        self.setText(
-            self.tr("sent <b>{sent}</b><br>received <b>{received}</b>").format(
-                sent=escape(sent), received=_marked(pieces)
-            )
-        )
+        self.setText(f"sent <b>{escape(sent)}</b><br>received <b>{_marked(pieces)}</b>")
         self.setAccessibleDescription(
-            self.tr("sent {sent}, received {received}, {wrong} wrong").format(
+            "sent {sent}, received {received}, {wrong} wrong".format(
                 sent=sent,
                 received=_shortened("".join(piece.received or _MISSING for piece in pieces)),
                 wrong=wrong,

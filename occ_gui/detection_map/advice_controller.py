@@ -167,7 +167,7 @@ class AdvisorController(QObject):
         """Stop the search."""
         if not self._channel.is_idle:
             self._channel.cancel()
-            self._end(self.tr("Cancelled."))
+            self._end("Cancelled.")
 
     def take_there(self, name: str, value: float, decoder: str) -> None:
         """Set the scene to a limit, in one step, and show what the decoder of the limit reads."""
@@ -191,7 +191,7 @@ class AdvisorController(QObject):
             return
         if not self._channel.is_idle and request != self._advised:
             self._channel.cancel()
-            self._end(self.tr("The scene has changed; ask again."))
+            self._end("The scene has changed; ask again.")
         reachable = frozenset(
             name for name in SEARCHED if self._advised.along(name) == request.along(name)
         )

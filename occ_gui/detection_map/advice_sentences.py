@@ -46,14 +46,10 @@ class AdviceSentences(QObject):
     def lines(self, advice: Advice) -> list[AdviceLine]:
         """Write a title and a few lines on what was found."""
         ends = {
-            ("switching_frequency", "lowest"): self.tr(
-                "The lowest frequency that it reads is {value}"
-            ),
-            ("switching_frequency", "highest"): self.tr(
-                "The highest frequency that it reads is {value}"
-            ),
-            ("exposure_time", "lowest"): self.tr("The shortest exposure that it reads is {value}"),
-            ("exposure_time", "highest"): self.tr("The longest exposure that it reads is {value}"),
+            ("switching_frequency", "lowest"): "The lowest frequency that it reads is {value}",
+            ("switching_frequency", "highest"): "The highest frequency that it reads is {value}",
+            ("exposure_time", "lowest"): "The shortest exposure that it reads is {value}",
+            ("exposure_time", "highest"): "The longest exposure that it reads is {value}",
         }
         lines = [AdviceLine(self._title(advice.limits), is_title=True)]
         for facts, theory in (
@@ -81,71 +77,71 @@ class AdviceSentences(QObject):
     def gaps(self, found: WorkingRange) -> str:
         """Write between which values it does not read."""
         gaps = [
-            self.tr("{low} and {high}").format(
-                low=_formatted(found.parameter, end.value),
-                high=_formatted(found.parameter, after.value),
+            (
+                f"{_formatted(found.parameter, end.value)} and "
+                f"{_formatted(found.parameter, after.value)}"
             )
             for end, after in found.gaps
         ]
-        return self.tr("It does not read everywhere between: gaps lie between {gaps}.").format(
+        return "It does not read everywhere between: gaps lie between {gaps}.".format(
             gaps="; ".join(gaps)
         )
 
     def searched_to(self, found: WorkingRange) -> str:
         """Write where the search ended, as the decoder takes too long beyond."""
-        return self.tr(
-            "Searched to {value} alone, where an exposure covers {chips:.3g} chips: more take this "
+        return (
+            f"Searched to {_formatted(found.parameter, found.searched[1])} alone, where "
+            f"an exposure covers {found.most_chips:.3g} chips: more take this "
             "decoder much longer."
-        ).format(value=_formatted(found.parameter, found.searched[1]), chips=found.most_chips)
+        )
 
     def _two_packets(self, frequency: float) -> str:
-        return self.tr("Below {packets} no two packets fit the picture, which it needs.").format(
-            packets=HERTZ.format(frequency, _DIGITS)
+        return (
+            f"Below {HERTZ.format(frequency, _DIGITS)} no two packets fit the picture, which "
+            "it needs."
         )
 
     def bits_a_second(self, found: Limits) -> str:
         """Write how many bits a second arrive at the scene's own values."""
         own = found.frequency.own
-        return self.tr(
-            "At {frequency} it reads {whole} of {images} pictures: {bits:.4g} bits a second, each "
-            "picture with another payload."
-        ).format(
-            frequency=HERTZ.format(own.value, _DIGITS), whole=own.whole, images=own.images,
-            bits=found.bits_a_second(self.frames_a_second),
-        )  # fmt: skip
+        return (
+            f"At {HERTZ.format(own.value, _DIGITS)} it reads {own.whole} of {own.images} pictures: "
+            f"{found.bits_a_second(self.frames_a_second):.4g} bits a second, each picture with "
+            "another payload."
+        )
 
     def on_highest_frequency(self, advice: Advice) -> AdviceLine:
         """Write the line on the highest frequency that is read, or that there is none."""
         end = highest_frequency(advice)
         if end is None:
             return AdviceLine(self._nowhere(advice.limits, advice.frequency.found))
-        return self._line(self.tr("The highest frequency that it reads is {value}"), end)
+        return self._line("The highest frequency that it reads is {value}", end)
 
     def common_title(self) -> str:
         """Write the title of the lines that are the same for every decoder."""
-        return self.tr("For every decoder")
+        return "For every decoder"
 
     def still_holds(self, parameters: frozenset[str]) -> str:
         """Say that the advice is of an earlier scene, and which of its limits hold all the same."""
-        text = self.tr("This advice is on the scene before the change.")
+        text = "This advice is on the scene before the change."
         if not parameters:
             return text
-        names = self.tr(" and ").join(sorted(quantity(name).label.lower() for name in parameters))
-        return f"{text} " + self.tr("Its limits of the {names} still hold.").format(names=names)
+        names = " and ".join(sorted(quantity(name).label.lower() for name in parameters))
+        return f"{text} Its limits of the {names} still hold."
 
     def left_out(self, effects: tuple[str, ...]) -> str:
         """Say which of the scene's effects the advice leaves out."""
-        return self.tr("This advice leaves out: {effects}.").format(effects=", ".join(effects))
+        return "This advice leaves out: {effects}.".format(effects=", ".join(effects))
 
     def _nowhere(self, limits: Limits, found: WorkingRange) -> str:
         if found.best is None:
             return found.failure or ""
         texts = {
-            "switching_frequency": self.tr(
+            "switching_frequency": (
                 "It reads {rate:g} % of the bits at no switching frequency from {low} to {high}; "
                 "the most it reads is {right} of {sent} bits, at {value}."
             ),
-            "exposure_time": self.tr(
+            "exposure_time": (
                 "It reads {rate:g} % of the bits at no exposure time from {low} to {high}; "
                 "the most it reads is {right} of {sent} bits, at {value}."
             ),
@@ -158,7 +154,7 @@ class AdviceSentences(QObject):
 
     def _title(self, found: Limits) -> str:
         scene = found.scene
-        return self.tr(
+        return (
             "The {decoder} decoder, {rate:g} % of the bits, at {frequency}, {exposure}, {distance}"
         ).format(
             decoder=found.decoder,
@@ -170,58 +166,55 @@ class AdviceSentences(QObject):
 
     def _line(self, text: str, end: EndFacts) -> AdviceLine:
         value = _formatted(end.parameter, end.value)
-        inside = self.tr("there it read {counted}").format(counted=self._counted(end.works))
+        inside = f"there it read {self._counted(end.works)}"
         if end.fails is None:
-            beyond = self.tr("beyond it was not tried")
+            beyond = "beyond it was not tried"
         else:
-            beyond = self.tr("at {value} {counted}").format(
-                value=_formatted(end.parameter, end.fails.value), counted=self._counted(end.fails)
-            )
+            beyond = f"at {_formatted(end.parameter, end.fails.value)} {self._counted(end.fails)}"
         sentence = f"{text.format(value=value)}: {inside}, {beyond}."
         if end.inside is None:
-            return AdviceLine(f"{sentence} {self.tr('No value inside is surely read.')}")
+            return AdviceLine(f"{sentence} No value inside is surely read.")
         place = _formatted(end.parameter, end.inside.value)
         if end.interval is not None:
             low, high = (_formatted(end.parameter, value) for value in end.interval)
-            sentence += " " + self.tr(
-                "At {value} it read every bit of {images} images: the end lies between {low} and "
-                "{high} (95 %)."
-            ).format(value=place, images=end.inside.images, low=low, high=high)
+            sentence += (
+                f" At {place} it read every bit of {end.inside.images} images: the end lies "
+                f"between {low} and {high} (95 %)."
+            )
         return AdviceLine(sentence, (end.parameter, end.inside.value, place))
 
     def _counted(self, trial: Trial) -> str:
-        return self.tr("{rate:.3g} % in {images} images ({low:.1f} to {high:.1f} %)").format(
-            rate=trial.rate, images=trial.images, low=trial.low, high=trial.high
+        return (
+            f"{trial.rate:.3g} % in {trial.images} images ({trial.low:.1f} to {trial.high:.1f} %)"
         )
 
     def _theory_of_frequency(self, theory: TheoryLimits) -> str:
-        text = self.tr(
-            "By theory the band model ends at {band} and an alternating pattern at {null}"
-        ).format(
-            band=HERTZ.format(theory.band_model, _DIGITS),
-            null=HERTZ.format(theory.null, _DIGITS),
+        text = (
+            f"By theory the band model ends at {HERTZ.format(theory.band_model, _DIGITS)} and "
+            f"an alternating pattern at {HERTZ.format(theory.null, _DIGITS)}"
         )
         return f"{text}."
 
     def _theory_of_exposure(self, theory: TheoryLimits) -> str:
-        text = self.tr(
-            "By theory the band model ends at {band} and an alternating pattern at {null}"
-        ).format(
-            band=SECOND.format(theory.band_model, _DIGITS),
-            null=SECOND.format(theory.null, _DIGITS),
+        text = (
+            f"By theory the band model ends at {SECOND.format(theory.band_model, _DIGITS)} "
+            f"and an alternating pattern at {SECOND.format(theory.null, _DIGITS)}"
         )
         if theory.saturation is not None and math.isfinite(theory.saturation):
-            text += self.tr("; from {white} what is lit throughout is white").format(
-                white=SECOND.format(theory.saturation, _DIGITS)
+            text += (
+                f"; from {SECOND.format(theory.saturation, _DIGITS)} what is lit throughout "
+                "is white"
             )
         return f"{text}."
 
     def _confidence(self, found: Limits) -> str:
-        return self.tr(
-            "Each end was tried with {images} images that had not chosen it; the 95 % intervals "
-            "count images. Values between were tried in steps of {step:.0f} %: a narrower gap can "
+        return (
+            f"Each end was tried with {found.images} images that had not chosen it; the "
+            "95 % intervals "
+            "count images. Values between were tried in steps of "
+            f"{100.0 * (found.frequency.step - 1.0):.0f} %: a narrower gap can "
             "be missed."
-        ).format(images=found.images, step=100.0 * (found.frequency.step - 1.0))
+        )
 
 
 def highest_frequency(advice: Advice) -> EndFacts | None:

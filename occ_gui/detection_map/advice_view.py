@@ -57,19 +57,17 @@ class AdviceView(QWidget):
         self._beside: dict[QPushButton, QLabel] = {}
         self._common: list[str] = []
         self._ended = ""
-        self.back = self._button(self.tr("Back to the map"), self.tr("Show the map again."))
+        self.back = self._button("Back to the map", "Show the map again.")
         self.back.clicked.connect(self.back_asked)
-        self.again = self._button(
-            self.tr("Ask again"), self.tr("Search for the limits of the current scene.")
-        )
+        self.again = self._button("Ask again", "Search for the limits of the current scene.")
         self.again.clicked.connect(self.asked)
-        self.cancel = self._button(self.tr("Cancel"), self.tr("Stop the search."))
+        self.cancel = self._button("Cancel", "Stop the search.")
         self.cancel.clicked.connect(self.cancelled)
         self.progress = QProgressBar()
-        self.progress.setAccessibleName(self.tr("Progress of the search"))
-        self.progress.setToolTip(self.tr("Progress of the search."))
+        self.progress.setAccessibleName("Progress of the search")
+        self.progress.setToolTip("Progress of the search.")
         self.state = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.state.setAccessibleName(self.tr("State of the search"))
+        self.state.setAccessibleName("State of the search")
         self._lay_out()
         self._show_running(False)
 
@@ -200,8 +198,8 @@ class AdviceView(QWidget):
         assert line.destination is not None  # noqa: S101 - the caller has checked it
         name, value, text = line.destination
         button = self._button(
-            self.tr("Take me to {value}").format(value=text),
-            self.tr("Change the scene to {value}, where it read every bit.").format(value=text),
+            f"Take me to {text}",
+            f"Change the scene to {text}, where it read every bit.",
         )
         button.clicked.connect(lambda: self.destination_chosen.emit(name, value, decoder))
         self.destinations.append(button)

@@ -93,9 +93,7 @@ class MapPlots(QWidget):
 
     def _new_plot(self) -> MapPlot:
         plot = MapPlot()
-        plot.setToolTip(
-            self.tr("Click a point to set the scene to it, or use the arrow keys and Enter.")
-        )
+        plot.setToolTip("Click a point to set the scene to it, or use the arrow keys and Enter.")
         plot.picked.connect(lambda x, y: self.picked.emit((x, y)))
         plot.pointed.connect(self.pointed)
         return plot
@@ -110,7 +108,7 @@ class MapPlots(QWidget):
         names = self._names()
         for plot, name in zip(self.plots, names, strict=False):
             plot.title = self._title(name)
-            plot.setAccessibleName(self.tr("Detection map: {name}").format(name=plot.title))
+            plot.setAccessibleName(f"Detection map: {plot.title}")
         for place, plot in enumerate(self.plots):
             plot.setVisible(place < len(names))
         self._place_plots()
@@ -118,9 +116,7 @@ class MapPlots(QWidget):
 
     def _title(self, name: str) -> str:
         if name == "difference":
-            return self.tr("{one} minus {other}").format(
-                one=self._decoders[1], other=self._decoders[0]
-            )
+            return f"{self._decoders[1]} minus {self._decoders[0]}"
         return name
 
     def show_what(self, what: str) -> None:
@@ -220,11 +216,11 @@ class MapPlots(QWidget):
             (share, self._number(low + share * (high - low), bool(low)))
             for share in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
-        name = self.tr("Share of the bits that are read correctly, in percent")
+        name = "Share of the bits that are read correctly, in percent"
         if scheme == DIFFERENCES:
-            name = self.tr("Difference of the shares of bits that are read correctly, in percent")
+            name = "Difference of the shares of bits that are read correctly, in percent"
         if self._shown == "bits":
-            name = self.tr("Net bits a second, of pictures of which every bit is read correctly")
+            name = "Net bits a second, of pictures of which every bit is read correctly"
         self.bar.show_colours(image, numbers, name)
         self._bar_drawn = f"{scheme} {high}"
 

@@ -2,8 +2,6 @@
 
 from collections.abc import Callable
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.detection_map.wiring import Measuring
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
@@ -27,7 +25,7 @@ def detection_map(
 
     return Feature(
         name="map",
-        title=QCoreApplication.translate("DetectionMap", "Detection map"),
+        title="Detection map",
         help="sweeps.md#the-detection-map",
         make=make,
     )

@@ -143,13 +143,11 @@ class LimitCard(QFrame):
         self.name = ElidedLabel(decoder)
         self.value = QLabel()
         self.range = ElidedLabel()
-        self.range.setAccessibleName(self.tr("Frequencies read, {name}").format(name=decoder))
+        self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
-        self.value.setAccessibleName(self.tr("Highest frequency, {name}").format(name=decoder))
-        self.go = QPushButton(self.tr("Go"))
-        self.go.setAccessibleName(
-            self.tr("Go to the highest frequency, {name}").format(name=decoder)
-        )
+        self.value.setAccessibleName(f"Highest frequency, {decoder}")
+        self.go = QPushButton("Go")
+        self.go.setAccessibleName(f"Go to the highest frequency, {decoder}")
         self.go.clicked.connect(self._choose)
         grid = QGridLayout(self)
         grid.setContentsMargins(12, 6, 8, 6)
@@ -179,9 +177,7 @@ class LimitCard(QFrame):
         self.value.setToolTip(tip)
         # Not the limit itself, but a frequency inside of it: the button says which.
         self.go.setText(
-            self.tr("Go")
-            if destination is None
-            else self.tr("Go to {value}").format(value=formatted_frequency(destination))
+            "Go" if destination is None else f"Go to {formatted_frequency(destination)}"
         )
         self._show_way()
 
@@ -189,20 +185,20 @@ class LimitCard(QFrame):
         """Enable the button where it leads to a limit of this scene, and say so or why not."""
         self.go.setEnabled(self._destination is not None and not self._is_outdated)
         self.go.setToolTip(
-            self.tr("Of an earlier scene: the limit is searched for again while this is seen.")
+            "Of an earlier scene: the limit is searched for again while this is seen."
             if self._is_outdated
             else self.value.toolTip()
         )
 
     def show_unknown(self, why: str = "") -> None:
         """Show that the limit is not known, and why if it was searched."""
-        self._show("?" if why else "", why or self.tr("Not searched yet."), None)
+        self._show("?" if why else "", why or "Not searched yet.", None)
         if why:
             self.name.set_full_text(why)
 
     def show_searching(self) -> None:
         """Show that the limit is searched."""
-        self._show("…", self.tr("Searching for the highest frequency that is read."), None)
+        self._show("…", "Searching for the highest frequency that is read.", None)
         self.set_outdated(False)
 
     def show_limit(self, end: EndFacts | None, text: str, rate: float) -> None:
@@ -218,28 +214,25 @@ class LimitCard(QFrame):
             The success rate, in percent, from which on a decoder counts as reading.
         """
         if end is None:
-            self._show(self.tr("none"), text, None)
+            self._show("none", text, None)
             return
         inside = end.inside
         value = formatted_frequency(end.value)
-        limit = (
-            self.tr("{value}, searched to").format(value=value)
-            if end.fails is None
-            else self.tr("{value} ({rate:g} %)").format(value=value, rate=rate)
-        )
+        limit = f"{value}, searched to" if end.fails is None else f"{value} ({rate:g} %)"
         self._show(limit, text, None if inside is None else inside.value)
 
     def show_range(self, found: WorkingRange) -> None:
         """Show the lowest frequency, and the gap next to it."""
         if found.lowest is None:
             return
-        text = self.tr("from {low}").format(low=formatted_frequency(found.lowest.value))
+        text = f"from {formatted_frequency(found.lowest.value)}"
         if found.gaps:
             end, after = found.gaps[0]
             more = len(found.gaps) - 1
-            text += self.tr("; gap {end} to {after}").format(
-                end=formatted_frequency(end.value), after=formatted_frequency(after.value)
-            ) + (self.tr(" and {more} gaps more").format(more=more) if more else "")
+            text += (
+                f"; gap {formatted_frequency(end.value)} to {formatted_frequency(after.value)}"
+                + (f" and {more} gaps more" if more else "")
+            )
         self.range.set_full_text(text)
 
     def set_outdated(self, outdated: bool) -> None:
@@ -248,8 +241,8 @@ class LimitCard(QFrame):
         self.range.setEnabled(not outdated)
         self.value.setEnabled(not outdated)
         self.name.set_full_text(
-            self.tr("Decoder {name}, an earlier scene").format(name=self._decoder)
+            f"Decoder {self._decoder}, an earlier scene"
             if outdated
-            else self.tr("{name} reads up to").format(name=self._decoder.capitalize())
+            else f"{self._decoder.capitalize()} reads up to"
         )
         self._show_way()

@@ -23,18 +23,18 @@ class MapLegend(QWidget):
         super().__init__(parent)
         words = {
             "band": (
-                self.tr("t = 1 chip"),
-                self.tr("The exposure lasts as long as a chip: the band model ends."),
+                "t = 1 chip",
+                "The exposure lasts as long as a chip: the band model ends.",
             ),
             "null": (
-                self.tr("null, f = 2/t"),
-                self.tr("The exposure lasts two chips: alternating chips leave no stripes."),
+                "null, f = 2/t",
+                "The exposure lasts two chips: alternating chips leave no stripes.",
             ),
             "packets": (
-                self.tr("two packets"),
-                self.tr("Below this frequency no two packets fit the panel's image."),
+                "two packets",
+                "Below this frequency no two packets fit the panel's image.",
             ),
-            "saturation": (self.tr("white"), self.tr("The lit panel reaches the largest value.")),
+            "saturation": ("white", "The lit panel reaches the largest value."),
         }
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)

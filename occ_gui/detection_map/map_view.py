@@ -71,31 +71,29 @@ class MapView(QWidget):
     ) -> None:
         super().__init__(parent)
         self._failure = self._refusal = ""
-        self._progress = self.tr("measuring the first points…")
+        self._progress = "measuring the first points…"
         self._facts: PointFacts | None = None
         self._is_outdated = False
         self._axes = (MAP_PARAMETERS[0], MAP_PARAMETERS[1])
         self._make_choices(decoders)
         self.plots, self.legend = MapPlots(decoders), MapLegend()
         self.outdated = OutdatedMark(self.plots)
-        self.image_effects = QCheckBox(self.tr("image effects"))
+        self.image_effects = QCheckBox("image effects")
         self.image_effects.setChecked(True)
         self.image_effects.setToolTip(
-            self.tr(
-                "Simulate lens, tilt and JPEG where the scene has them: some 20 times slower. "
-                "Otherwise the map and the advice leave them out, and say so."
-            )
+            "Simulate lens, tilt and JPEG where the scene has them: some 20 times slower. "
+            "Otherwise the map and the advice leave them out, and say so."
         )
-        self.image_effects.setAccessibleName(self.tr("Image effects"))
-        self.advise = QPushButton(self.tr("How fast can I go?"))
+        self.image_effects.setAccessibleName("Image effects")
+        self.advise = QPushButton("How fast can I go?")
         self.advise.setToolTip(
-            self.tr("Search for the highest frequency and the exposures at which codes are read.")
+            "Search for the highest frequency and the exposures at which codes are read."
         )
-        self.advise.setAccessibleName(self.tr("How fast can I go?"))
+        self.advise.setAccessibleName("How fast can I go?")
         self.status = ElidedLabel()
-        self.status.setAccessibleName(self.tr("State of the map"))
+        self.status.setAccessibleName("State of the map")
         self.left_out = ElidedLabel()
-        self.left_out.setAccessibleName(self.tr("Effects that the map leaves out"))
+        self.left_out.setAccessibleName("Effects that the map leaves out")
         self.left_out.hide()
         self.advice = AdviceView(decoders if advised is None else advised)
         self.cards = self.advice.cards
@@ -108,31 +106,27 @@ class MapView(QWidget):
     def _make_choices(self, decoders: Sequence[str]) -> None:
         names = {name: quantity(name).label for name in MAP_PARAMETERS}
         self.across = KeyedComboBox(
-            self.tr("Horizontal axis"), self.tr("The parameter of the horizontal axis."), names
+            "Horizontal axis", "The parameter of the horizontal axis.", names
         )
-        self.up = KeyedComboBox(
-            self.tr("Vertical axis"), self.tr("The parameter of the vertical axis."), names
-        )
-        every = self.tr("both decoders") if len(decoders) == 2 else self.tr("all decoders")
+        self.up = KeyedComboBox("Vertical axis", "The parameter of the vertical axis.", names)
+        every = "both decoders" if len(decoders) == 2 else "all decoders"
         words = {"both": every, **{name: name for name in decoders}}
         if len(decoders) > 1:
-            words["difference"] = self.tr("difference")
-        self.what = KeyedComboBox(
-            self.tr("Decoders"), self.tr("The decoder whose success rates are shown."), words
-        )
+            words["difference"] = "difference"
+        self.what = KeyedComboBox("Decoders", "The decoder whose success rates are shown.", words)
 
         self.shown = KeyedComboBox(
-            self.tr("What is shown"),
-            self.tr(
+            "What is shown",
+            (
                 "Success rates, which are the shares of bits read; or the net bits a second of a "
                 "video, one payload a picture."
             ),
-            {"rate": self.tr("success rate"), "bits": self.tr("bits a second")},
+            {"rate": "success rate", "bits": "bits a second"},
         )
         self.frame_rate = QuantityEdit(FRAME_RATE)
         self.frame_rate.setAccessibleName(FRAME_RATE.label)
         self.frame_rate.setToolTip(
-            self.tr("Pictures a second, or as many as can be read out; each is of another payload.")
+            "Pictures a second, or as many as can be read out; each is of another payload."
         )
         self.frame_rate.hide()
 
@@ -224,9 +218,9 @@ class MapView(QWidget):
     def show_progress(self, known: int, total: int, images: int) -> None:
         """Show how many points are known, and how many images each has at least."""
         if known < total:
-            text = self.tr("{known} of {total} points measured").format(known=known, total=total)
+            text = f"{known} of {total} points measured"
         else:
-            text = self.tr(
+            text = (
                 "{total} points, each in the middle of its cell; images a point: {images} or more; "
                 "colour: {what}"
             ).format(total=total, images=images, what="{what}")
@@ -241,14 +235,14 @@ class MapView(QWidget):
     def show_age(self, age: float) -> None:
         """Show for how many seconds the map has been of an earlier scene; zero if it is not."""
         self._is_outdated = age > 0.0
-        self.outdated.show_age(age, self.tr("computing…"))
+        self.outdated.show_age(age, "computing…")
         self._show_status()
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
         """Show which of the scene's image effects the map leaves out."""
         self.left_out.setVisible(bool(effects))
         self.left_out.set_full_text(
-            self.tr("The map leaves out: {effects}.").format(effects=", ".join(effects))
+            "The map leaves out: {effects}.".format(effects=", ".join(effects))
         )
 
     def show_bits(self, shown: Shown, frames_a_second: float) -> None:
@@ -272,7 +266,7 @@ class MapView(QWidget):
         else:
             text = f"{self._position(facts)}: {facts.note or self._counts(facts)}"
         if self._is_outdated and not self._failure:
-            text = self.tr("Earlier scene: {text}").format(text=text)
+            text = f"Earlier scene: {text}"
         self.status.set_full_text(text)
 
     def _position(self, facts: PointFacts) -> str:
@@ -282,20 +276,16 @@ class MapView(QWidget):
     def _counts(self, facts: PointFacts) -> str:
         if self.shown.key() == "bits":
             texts = (
-                self.tr("{decoder} {bits:,.0f} bits a second, {whole} of {images} pictures whole")
-                .format(
-                    decoder=decoder, bits=facts.most_bits * whole / facts.images, whole=whole,
-                    images=facts.images,
-                )
+                (f"{decoder} {facts.most_bits * whole / facts.images:,.0f} bits a second, "
+f"{whole} of {facts.images} pictures whole")
+
                 for (decoder, *_), whole in zip(facts.counts, facts.whole, strict=True)
             )  # fmt: skip
             return "; ".join(texts)
         counts = (
-            self.tr("{decoder} {rate:.0f} %, {right} of {sent} bits ({low:.0f} to {high:.0f} %)")
-            .format(
-                decoder=decoder, rate=100 * right / facts.sent, right=right, sent=facts.sent,
-                low=low, high=high,
-            )
+            (f"{decoder} {100 * right / facts.sent:.0f} %, {right} of {facts.sent} bits "
+f"({low:.0f} to {high:.0f} %)")
+
             for decoder, right, low, high in facts.counts
         )  # fmt: skip
         return "; ".join(counts)

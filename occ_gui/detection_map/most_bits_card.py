@@ -36,19 +36,17 @@ class MostBitsCard(QFrame):
         self._is_running = self._is_outdated = False
         self._state = ""
         self.text = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.text.setAccessibleName(self.tr("What carries most bits a second"))
+        self.text.setAccessibleName("What carries most bits a second")
         self.search = self._button(
-            self.tr("Search"),
-            self.tr(
+            "Search",
+            (
                 "Try line codes, frequencies and numbers of bits at the scene's exposure and "
                 "distance, with each decoder: some seconds, a minute for the last decoder."
             ),
         )
-        self.cancel = self._button(self.tr("Cancel"), self.tr("Stop the search."))
-        self.go = self._button(
-            self.tr("Go"), self.tr("Send this code, frequency and number of bits, and read it.")
-        )
-        self.go.setAccessibleName(self.tr("Go to what carries most"))
+        self.cancel = self._button("Cancel", "Stop the search.")
+        self.go = self._button("Go", "Send this code, frequency and number of bits, and read it.")
+        self.go.setAccessibleName("Go to what carries most")
         self.search.clicked.connect(self.asked)
         self.cancel.clicked.connect(self.cancelled)
         self.go.clicked.connect(lambda: self.chosen.emit(self._best))
@@ -74,9 +72,7 @@ class MostBitsCard(QFrame):
 
     def show_tried(self, decoder: str, pictures: int) -> None:
         """Show with which decoder the search is busy, and how many pictures it has tried."""
-        self._state = self.tr("searching with {decoder}, {count} pictures tried").format(
-            decoder=decoder, count=pictures
-        )
+        self._state = f"searching with {decoder}, {pictures} pictures tried"
         self._show()
 
     def show_found(self, found: MostBits) -> None:
@@ -113,17 +109,11 @@ class MostBitsCard(QFrame):
 
     def _sentence(self, best: MostBits | None) -> str:
         if best is None or best.scene is None:
-            return self.tr("Which code, frequency and bits carry most?")
+            return "Which code, frequency and bits carry most?"
         sent = best.scene.transmitter
-        text = self.tr(
-            "{rate:,.0f} bits a second, {bits} a picture in {code} at {frequency}, "
-            "read by {decoder}"
-        ).format(
-            rate=best.bits_a_second, bits=sent.payload_length, code=sent.line_code,
-            frequency=HERTZ.format(sent.switching_frequency, _DIGITS), decoder=best.decoder,
-        )  # fmt: skip
+        text = (f"{best.bits_a_second:,.0f} bits a second, {sent.payload_length} a picture in "
+f"{sent.line_code} at {HERTZ.format(sent.switching_frequency, _DIGITS)}, "
+            f"read by {best.decoder}")  # fmt: skip
         if self._is_outdated:
-            return self.tr("Earlier scene: {text}").format(text=text)
-        return (self.tr("So far: {text}") if self._state else self.tr("Most: {text}")).format(
-            text=text
-        )
+            return f"Earlier scene: {text}"
+        return ("So far: {text}" if self._state else "Most: {text}").format(text=text)

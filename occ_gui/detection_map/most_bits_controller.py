@@ -126,7 +126,7 @@ class MostBitsController(QObject):
         """Stop the search; what was found so far stays."""
         if not self._channel.is_idle:
             self._channel.cancel()
-            self._end(self.tr("cancelled"))
+            self._end("cancelled")
 
     def go(self, found: MostBits) -> None:
         """Let the scene be what was found, in one step."""
@@ -151,7 +151,7 @@ class MostBitsController(QObject):
         outdated = self._request() != self._asked
         if outdated and not self._channel.is_idle:
             self._channel.cancel()
-            self._end(self.tr("the scene has changed"))
+            self._end("the scene has changed")
         self._pane.show_outdated(outdated)
 
     def _end(self, sentence: str) -> None:

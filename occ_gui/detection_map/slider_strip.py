@@ -49,28 +49,29 @@ class SliderStrip(QWidget):
         self._fading.setInterval(round(1e3 * DELAY))
         self._fading.timeout.connect(self._fade)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(self.tr("Reading along {label}").format(label=label.lower()))
+        self.setAccessibleName(f"Reading along {label.lower()}")
         self._explain()
 
     def _explain(self) -> None:
         known = [share for share in self.shares if share is not None]
-        text = self.tr(
+        text = (
             "Share of the bits that the decoder shown reads correctly along this slider, all "
-            "else being equal: violet none, yellow all, grey not known. A mean over {images} "
+            f"else being equal: violet none, yellow all, grey not known. A mean over {IMAGES} "
             "pictures that begin at any time."
-        ).format(images=IMAGES)
+        )
         if self.present is not None:
-            text += "\n" + self.tr(
-                "At the handle {share:.3g} % of {images} pictures ({low:.1f} to {high:.1f} %)."
-            ).format(
-                share=100.0 * self.present.share, images=self.present.images,
-                low=100.0 * self.present.low, high=100.0 * self.present.high,
-            )  # fmt: skip
+            share, low, high = (
+                100.0 * value for value in (self.present.share, self.present.low, self.present.high)
+            )
+            text += (
+                f"\nAt the handle {share:.3g} % of {self.present.images} pictures "
+                f"({low:.1f} to {high:.1f} %)."
+            )
         good = sum(share > 0.99 for share in known)
-        read = self.tr("read at {good} of {all} positions").format(good=good, all=len(known))
+        read = f"read at {good} of {len(known)} positions"
         if self._is_outdated:
-            text += "\n" + self.tr("Computing; what is shown is of an earlier scene.")
-            read = self.tr("earlier scene: {read}").format(read=read)
+            text += "\nComputing; what is shown is of an earlier scene."
+            read = f"earlier scene: {read}"
         self.setToolTip(text)
         self.setAccessibleDescription(read)
 

@@ -18,8 +18,8 @@ class StripLegend(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
-        self.setAccessibleName(self.tr("Colours of the sliders"))
-        meaning = self.tr(
+        self.setAccessibleName("Colours of the sliders")
+        meaning = (
             "What the decoder shown would read if this slider alone were moved: the colours go "
             "from no bit read correctly to all bits read correctly."
         )
@@ -43,7 +43,7 @@ class StripLegend(QWidget):
         painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))
         left = 0.0
         middle = self.height() / 2
-        parts = (self.tr("misread"), None, self.tr("read"))
+        parts = ("misread", None, "read")
         for text in parts:
             if text is None:
                 shares = np.linspace(0.0, 1.0, _BAR.width())[:, None]

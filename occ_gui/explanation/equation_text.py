@@ -28,11 +28,9 @@ class EquationText(QTextBrowser):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._equations: tuple[Equation, ...] = ()
-        self.setAccessibleName(self.tr("Equations with their current numbers"))
+        self.setAccessibleName("Equations with their current numbers")
         self.setToolTip(
-            self.tr(
-                "Terms that depend on the latest change are marked and underlined for a moment."
-            )
+            "Terms that depend on the latest change are marked and underlined for a moment."
         )
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setMinimumHeight(_LEAST_HEIGHT)
@@ -61,7 +59,7 @@ class EquationText(QTextBrowser):
         numbers = _joined(((_base_in_italics(t.text), t) for t in equation.numbers), changed)
         source = equation.source
         if source.startswith("("):
-            source = self.tr("equation {number}").format(number=source)
+            source = f"equation {source}"
         # The sentence that says why a result is undefined is not a value.
         sign = "" if equation.result.startswith("undefined") else "= "
         meaning = _base_in_italics(equation.meaning)

@@ -44,11 +44,11 @@ class ExposurePlot(QWidget):
         self.sentence.setWordWrap(True)
         self.sentence.setTextFormat(Qt.TextFormat.PlainText)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.sentence.setAccessibleName(self.tr("Exposure of the column"))
+        self.sentence.setAccessibleName("Exposure of the column")
         self._make_plot()
         self._make_controls()
         row = QHBoxLayout()
-        row.addWidget(QLabel(self.tr("Column")))
+        row.addWidget(QLabel("Column"))
         row.addWidget(self.column)
         row.addWidget(self.hold)
         row.addStretch(1)
@@ -71,12 +71,12 @@ class ExposurePlot(QWidget):
 
     def _make_plot(self) -> None:
         self.plot = new_plot(
-            self.tr("Exposure of a column on the LED's waveform"),
-            self.tr("time (µs)"), self.tr("LED"), self.palette(),
+            "Exposure of a column on the LED's waveform",
+            "time (µs)", "LED", self.palette(),
         )  # fmt: skip
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         self.plot.setMouseEnabled(x=True, y=False)
-        self.plot.getAxis("left").setTicks([[(0.0, self.tr("off")), (1.0, self.tr("on"))]])
+        self.plot.getAxis("left").setTicks([[(0.0, "off"), (1.0, "on")]])
         colour = QColor(REGION)
         colour.setAlpha(_SHADE)
         self.shade = pg.LinearRegionItem(brush=colour, pen=thin(REGION), movable=False)
@@ -94,18 +94,16 @@ class ExposurePlot(QWidget):
     def _make_controls(self) -> None:
         self.column = QSpinBox()
         self.column.setKeyboardTracking(False)
-        self.column.setAccessibleName(self.tr("Column whose exposure is shown"))
+        self.column.setAccessibleName("Column whose exposure is shown")
         self.column.setToolTip(
-            self.tr(
-                "The column of the picture whose exposure is shown. Moving the mouse over the "
-                "profile chooses one too, and so do the arrow keys there."
-            )
+            "The column of the picture whose exposure is shown. Moving the mouse over the "
+            "profile chooses one too, and so do the arrow keys there."
         )
         keep_wheel_for_scrolling(self.column)
         self.column.valueChanged.connect(self.column_chosen)
-        self.hold = QCheckBox(self.tr("Hold"))
+        self.hold = QCheckBox("Hold")
         self.hold.setToolTip(
-            self.tr("Keep this column wherever the mouse is, as a click on the profile does.")
+            "Keep this column wherever the mouse is, as a click on the profile does."
         )
         self.hold.clicked.connect(self.hold_chosen)
 
@@ -132,20 +130,13 @@ class ExposurePlot(QWidget):
         self.plot.limit("bottom", 2.0 * last, _LEAST_SPAN * last)
         self.plot.setXRange(0.0, last, padding=0.01)
         share = window.on_time / window.exposure_time
-        text = self.tr(
-            "Column {column}: {exposure} exposure, LED on for {on} ({share:.0f} %) "
-            "→ {level:.1f} grey levels"
-        ).format(
-            column=window.column,
-            exposure=SECOND.format(window.exposure_time, 4),
-            on=SECOND.format(window.on_time, 4),
-            share=100.0 * share,
-            level=level,
+        text = (
+            f"Column {window.column}: {SECOND.format(window.exposure_time, 4)} exposure, "
+            f"LED on for {SECOND.format(window.on_time, 4)} ({100.0 * share:.0f} %) "
+            f"→ {level:.1f} grey levels"
         )
         if window.shortened:
-            text += self.tr("; only the first {chips} chips are drawn").format(
-                chips=len(window.lit)
-            )
+            text += f"; only the first {len(window.lit)} chips are drawn"
         self.sentence.setText(text)
         self._fit_height()
         self.plot.setAccessibleDescription(text)

@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
 from occ_gui.simulation.snapshot import Snapshot
@@ -23,7 +21,7 @@ def equations(scenes: SceneStore, profile: "Callable[[], Plot]") -> Feature[Snap
 
     return Feature(
         name="equations",
-        title=QCoreApplication.translate("Explanation", "Equations"),
+        title="Equations",
         help="model.md",
         make=make,
         part=lambda _, results: results.snapshot,

@@ -45,20 +45,20 @@ class AnimationExport(QObject):
         self._window, self._scenes, self._settings = window, scenes, settings
         self._preferences = preferences
         self.writer: FileWriter[_Film] = FileWriter(
-            _write, "animation", bar, self.tr("The animation was given up.")
+            _write, "animation", bar, "The animation was given up."
         )
         self.writer.written.connect(preferences.visit_export)
 
     def ask(self, name: str) -> None:
         """Let the user choose a file, and write the run of a parameter's slider into it."""
         kinds = (
-            self.tr("GIF animation (*.gif)"),
-            self.tr("MP4 film (*.mp4)"),
-            self.tr("Animated PNG (*.png)"),
+            "GIF animation (*.gif)",
+            "MP4 film (*.mp4)",
+            "Animated PNG (*.png)",
         )
         start = Path(self._preferences.export_folder, f"{name}.gif")
         chosen, kind = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save as animation"), str(start), ";;".join(kinds)
+            self._window, "Save as animation", str(start), ";;".join(kinds)
         )
         if chosen:
             path = Path(chosen)

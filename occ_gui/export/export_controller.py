@@ -75,12 +75,12 @@ class ExportController(QObject):
         if shown is not None and self._request(name, shown) is None:
             return
         kinds = {
-            ".png": self.tr("PNG picture (*.png)"),
-            ".svg": self.tr("SVG drawing (*.svg)"),
-            ".pdf": self.tr("PDF document (*.pdf)"),
-            ".csv": self.tr("CSV table of the numbers (*.csv)"),
+            ".png": "PNG picture (*.png)",
+            ".svg": "SVG drawing (*.svg)",
+            ".pdf": "PDF document (*.pdf)",
+            ".csv": "CSV table of the numbers (*.csv)",
         }
-        title = self.tr("Export: {figure}").format(figure=self._figures.titles[name])
+        title = f"Export: {self._figures.titles[name]}"
         kept = self._preferences.recall(_ENDING)
         first = kept if kept in kinds else ENDINGS[0]
         chosen, kind = QFileDialog.getSaveFileName(
@@ -104,7 +104,7 @@ class ExportController(QObject):
         """Let the user choose the folder that all figures are written to."""
         folder = QFileDialog.getExistingDirectory(
             self._window,
-            self.tr("Export all figures into a folder"),
+            "Export all figures into a folder",
             self._preferences.export_folder,
         )
         if folder:
@@ -154,7 +154,7 @@ class ExportController(QObject):
 
     def _put(self, job: ExportJob) -> None:
         self._waiting.append(job)
-        self.status_message.emit(self.tr("Drawing…"))
+        self.status_message.emit("Drawing…")
         self._go_on()
 
     def _go_on(self) -> None:
@@ -165,17 +165,14 @@ class ExportController(QObject):
         job = done.job
         if job.folder is not None:
             self._preferences.visit_export(job.folder / "figure")
-            message = self.tr("Exported {count} files into {folder}.").format(
-                count=len(done.files), folder=one_line(job.folder.name)
-            )
-            left_out = self.tr("Left out: {what}").format(what=self._left_out)
+            message = f"Exported {len(done.files)} files into {one_line(job.folder.name)}."
+            left_out = f"Left out: {self._left_out}"
             self.status_message.emit(f"{message} {left_out}" if self._left_out else message)
         elif job.path is not None:
             self._preferences.visit_export(job.path)
             self.status_message.emit(
-                self.tr("Exported {name} into {folder}").format(
-                    name=one_line(job.path.name), folder=one_line(str(job.path.absolute().parent))
-                )
+                f"Exported {one_line(job.path.name)} into "
+                f"{one_line(str(job.path.absolute().parent))}"
             )
         else:
             self._to_clipboard(done.png)
@@ -184,7 +181,7 @@ class ExportController(QObject):
         # As a QImage, which keeps the texts of the file, among them the scene: a QMimeData object
         # made in Python that is still on the clipboard at the end would crash the program.
         QGuiApplication.clipboard().setImage(QImage.fromData(png))
-        self.status_message.emit(self.tr("Copied the figure."))
+        self.status_message.emit("Copied the figure.")
 
     def stop(self) -> None:
         """Drop the waiting jobs and stop after the one being written."""

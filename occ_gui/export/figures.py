@@ -130,21 +130,21 @@ class Figures(QObject):
             "profile": self._of_profile,
         }
         self.titles = {
-            "picture": self.tr("Picture"),
-            OVERLAY: self.tr("Overlay of photo and picture"),
-            "profile": self.tr("Column profile"),
+            "picture": "Picture",
+            OVERLAY: "Overlay of photo and picture",
+            "profile": "Column profile",
         }
         for decoder in decoders:
             name = f"decoding-{decoder}"
-            title = self.tr("Decoding, {decoder}").format(decoder=decoder)
+            title = f"Decoding, {decoder}"
             self.add(name, title, partial(self._of_decoding, decoder))
-        self.add("accuracy", self.tr("Accuracy and time"), self._of_accuracy)
+        self.add("accuracy", "Accuracy and time", self._of_accuracy)
 
     def add_map(
         self, full: Callable[[], tuple[RateMap, MapRequest] | None], frame_rate: FrameRate
     ) -> None:
         """Add the figure of the detection map, which is available once all its points are known."""
-        self.add("map", self.tr("Detection map"), partial(self._of_map, full, frame_rate))
+        self.add("map", "Detection map", partial(self._of_map, full, frame_rate))
 
     def _of_map(
         self,
@@ -155,7 +155,7 @@ class Figures(QObject):
         there = full()
         if there is None:
             raise NothingToDraw(
-                self.tr("The detection map is not complete yet: open its pane and wait a moment.")
+                "The detection map is not complete yet: open its pane and wait a moment."
             )
         table, what = table_of(*there, frame_rate.value), frame_rate.shown
 
@@ -168,7 +168,7 @@ class Figures(QObject):
 
     def add_bench(self, full: Callable[[], FullBench | None], frame_rate: FrameRate) -> None:
         """Add the figure of the bench, which is available once all its points are known."""
-        self.add("bench", self.tr("Bench"), partial(self._of_bench, full, frame_rate))
+        self.add("bench", "Bench", partial(self._of_bench, full, frame_rate))
 
     def _of_bench(
         self, full: Callable[[], FullBench | None], frame_rate: FrameRate, shown: Snapshot
@@ -176,7 +176,7 @@ class Figures(QObject):
         there = full()
         if there is None:
             raise NothingToDraw(
-                self.tr("The bench is not complete: open its pane, measure and wait a moment.")
+                "The bench is not complete: open its pane, measure and wait a moment."
             )
         (measured, points), rate = there, frame_rate.value
 
@@ -229,7 +229,7 @@ class Figures(QObject):
     def _of_overlay(self, shown: Snapshot) -> FigureRequest:
         """Request the photo over the picture, blended unless it is shown over it another way."""
         if self._photo is None:
-            raise NothingToDraw(self.tr("No photo is open: open one to lay it over the picture."))
+            raise NothingToDraw("No photo is open: open one to lay it over the picture.")
         mode = self._overlay().mode
         request = self._picture_request(shown, _BLENDED if mode == _BESIDE else mode)
         draw = request.draw
@@ -264,7 +264,7 @@ class Figures(QObject):
                 found = difference_cells(*layers, MOST_CELLS)
                 if found is None:
                     raise NothingToDraw(
-                        self.tr("Photo and simulation do not overlap: there is no difference.")
+                        "Photo and simulation do not overlap: there is no difference."
                     )
                 levels, grid = found
                 edges = (grid.left(), grid.right(), grid.bottom(), grid.top())
@@ -295,9 +295,7 @@ class Figures(QObject):
     def _of_decoding(self, decoder: str, shown: Snapshot) -> FigureRequest:
         result = _read_by(decoder, shown)
         if result is None:
-            raise NothingToDraw(
-                self.tr("The {decoder} decoder has not read the picture.").format(decoder=decoder)
-            )
+            raise NothingToDraw(f"The {decoder} decoder has not read the picture.")
 
         def draw() -> "Drawing":
             from occ_model.figures.decoding import decode_drawing
@@ -311,7 +309,7 @@ class Figures(QObject):
         points: tuple[AccuracyPoint, ...] = () if pane is None else pane.view.plot.measured
         if not points:
             raise NothingToDraw(
-                self.tr("What accuracy costs is not measured yet: open its pane and wait a moment.")
+                "What accuracy costs is not measured yet: open its pane and wait a moment."
             )
 
         def draw() -> "Drawing":

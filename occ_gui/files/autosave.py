@@ -80,16 +80,14 @@ class Autosave(QObject):
         if crashed is None:
             return
         left_force = force if left.settings is None else left.settings.force
-        self._store.put(crashed, self.tr("restoring of the last session"), force=left_force)
+        self._store.put(crashed, "restoring of the last session", force=left_force)
         if left.history is not None and (scene_wins or crashed == asked):
             self._store.store.resume(left.history)
         if scene_wins and crashed != asked:
-            self._store.put(asked, self.tr("opening of what was asked for"), force=force)
-            message = self.tr(
-                "The last session did not come to its end; Undo brings its scene back."
-            )
+            self._store.put(asked, "opening of what was asked for", force=force)
+            message = "The last session did not come to its end; Undo brings its scene back."
         else:
-            message = self.tr("The last session did not come to its end: its scene is restored.")
+            message = "The last session did not come to its end: its scene is restored."
         self.status_message.emit(message)
 
     @property
@@ -116,7 +114,7 @@ class Autosave(QObject):
             if not self._has_failed:
                 self._has_failed = True
                 self.status_message.emit(
-                    self.tr("The scene is not kept over a crash: {reason}").format(
+                    "The scene is not kept over a crash: {reason}".format(
                         reason=str(error).rstrip(".") + "."
                     )
                 )

@@ -55,7 +55,7 @@ class Document(QObject):
         self._show_title()
 
     def _show_title(self) -> None:
-        title = self.tr("Optical Camera Communication")
+        title = "Optical Camera Communication"
         # A scene without a file is stored by the autosave: no mark asks for saving it.
         scene = "" if self.path is None else f"{in_title(self.path.name)}[*]"
         names = [name for name in (in_title(self._photo or ""), scene) if name]

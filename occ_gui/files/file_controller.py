@@ -120,9 +120,9 @@ class FileController(QObject):
 
     def ask_for_photo(self) -> None:
         """Let the user choose a photo and open it, or several as a table."""
-        kinds = self.tr("Photos ({patterns});;All files (*)").format(patterns=_PHOTOS)
+        kinds = f"Photos ({_PHOTOS});;All files (*)"
         names, _ = QFileDialog.getOpenFileNames(
-            self._window, self.tr("Open photos"), self._preferences.folder, kinds
+            self._window, "Open photos", self._preferences.folder, kinds
         )
         if len(names) > 1:
             self.open_dropped([Path(name) for name in names])
@@ -131,9 +131,9 @@ class FileController(QObject):
 
     def ask_for_film(self) -> None:
         """Let the user choose a film and open it."""
-        kinds = self.tr("Films ({patterns});;All files (*)").format(patterns=_FILMS)
+        kinds = f"Films ({_FILMS});;All files (*)"
         name, _ = QFileDialog.getOpenFileName(
-            self._window, self.tr("Open film"), self._preferences.folder, kinds
+            self._window, "Open film", self._preferences.folder, kinds
         )
         if name:
             self.open_film(Path(name))
@@ -145,8 +145,8 @@ class FileController(QObject):
     def ask_to_save_film(self) -> None:
         """Let the user choose where to save the simulated film."""
         name, _ = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save the simulated film"), self._in_folder("film.mkv"),
-            self.tr("Films (*.mkv *.mp4 *.gif *.png)"),
+            self._window, "Save the simulated film", self._in_folder("film.mkv"),
+            "Films (*.mkv *.mp4 *.gif *.png)",
         )  # fmt: skip
         if name:
             path = Path(name) if Path(name).suffix else Path(name).with_suffix(".mkv")
@@ -155,11 +155,11 @@ class FileController(QObject):
 
     def ask_for_scene(self) -> None:
         """Let the user choose a scene file and open it."""
-        kinds = self.tr("Scenes and figures ({patterns});;All files (*)").format(
+        kinds = "Scenes and figures ({patterns});;All files (*)".format(
             patterns=" ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
         )
         name, _ = QFileDialog.getOpenFileName(
-            self._window, self.tr("Open scene"), self._preferences.folder, kinds
+            self._window, "Open scene", self._preferences.folder, kinds
         )
         if name:
             self.open_scene(Path(name))
@@ -179,9 +179,7 @@ class FileController(QObject):
             self.open_file(path)
             return
         self._preferences.drop(path)
-        self.status_message.emit(
-            self.tr("{path} is no longer there.").format(path=one_line(str(path)))
-        )
+        self.status_message.emit(f"{one_line(str(path))} is no longer there.")
 
     def open_sample(self, path: Path) -> None:
         """Open a sample photo with its scene."""
@@ -197,13 +195,9 @@ class FileController(QObject):
         films = [path for path in files if path not in scenes and _is_film(path)]
         photos = [path for path in files if path not in (*scenes, *films)]
         if not files:
-            what = (
-                self.tr("{path} is no file").format(path=one_line(str(paths[0]))) if paths else ""
-            )
-            what = what or self.tr("What was dropped is no file of this computer")
-            self.status_message.emit(
-                self.tr("{what}; drop a photo, a film or a scene (.toml).").format(what=what)
-            )
+            what = f"{one_line(str(paths[0]))} is no file" if paths else ""
+            what = what or "What was dropped is no file of this computer"
+            self.status_message.emit(f"{what}; drop a photo, a film or a scene (.toml).")
             return
         for path in scenes[:1]:
             self.open_scene(path)
@@ -217,8 +211,8 @@ class FileController(QObject):
         opened = [one_line(path.name) for path in shown]
         if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):
             self.status_message.emit(
-                self.tr("Of {count} things that were dropped, only {names} can be shown.").format(
-                    count=len(paths), names=self.tr(" and ").join(opened)
+                "Of {count} things that were dropped, only {names} can be shown.".format(
+                    count=len(paths), names=" and ".join(opened)
                 )
             )
 
@@ -228,9 +222,9 @@ class FileController(QObject):
             self._preferences.add(path)
             if path.suffix.lower() != SCENE_ENDING:
                 # The scene is not saved to a figure or table.
-                message = self.tr("Opened the scene inside {name}")
+                message = "Opened the scene inside {name}"
             else:
-                message = self.tr("Opened {name}")
+                message = "Opened {name}"
                 self.scene_opened.emit(path)
             self.status_message.emit(message.format(name=one_line(path.name)))
 
@@ -240,15 +234,15 @@ class FileController(QObject):
         except OccError as error:
             self.status_message.emit(str(error))
             return False
-        title = self.tr("opening of {name}").format(name=one_line(path.name))
+        title = f"opening of {one_line(path.name)}"
         self._store.put(scene, title, force={})
         return True
 
     def ask_to_save_scene(self) -> None:
         """Let the user choose where to save the scene."""
         name, _ = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save scene"), self._in_folder("scene.occ.toml"),
-            self.tr("Scenes (*.toml)"),
+            self._window, "Save scene", self._in_folder("scene.occ.toml"),
+            "Scenes (*.toml)",
         )  # fmt: skip
         if name:
             path = Path(name)
@@ -263,12 +257,12 @@ class FileController(QObject):
     def ask_to_save_picture(self) -> None:
         """Let the user choose where to save the simulated picture."""
         titles = {
-            "camera": self.tr("Save the camera's picture"),
-            "receiver": self.tr("Save the receiver's picture"),
+            "camera": "Save the camera's picture",
+            "receiver": "Save the receiver's picture",
         }
         name, _ = QFileDialog.getSaveFileName(
             self._window, titles[self._whose], self._in_folder(f"simulation-{self._whose}.png"),
-            self.tr("Pictures ({patterns})").format(patterns=_PICTURES),
+            f"Pictures ({_PICTURES})",
         )  # fmt: skip
         if name:
             self.save_picture(Path(name))
@@ -276,8 +270,8 @@ class FileController(QObject):
     def ask_to_save_table(self, text: str) -> None:
         """Let the user choose where to save the table of several photos, written as CSV."""
         name, _ = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save the table of the photos"), self._in_folder("readout.csv"),
-            self.tr("Tables (*.csv)"),
+            self._window, "Save the table of the photos", self._in_folder("readout.csv"),
+            "Tables (*.csv)",
         )  # fmt: skip
         if name:
             path = Path(name) if Path(name).suffix else Path(name).with_suffix(".csv")
@@ -304,7 +298,7 @@ class FileController(QObject):
             return False
         self._preferences.visit(path)
         name = one_line(path.name)
-        saved = self.tr("Saved {name}: the {what}") if what else self.tr("Saved {name}")
+        saved = "Saved {name}: the {what}" if what else "Saved {name}"
         self.status_message.emit(saved.format(name=name, what=what))
         return True
 

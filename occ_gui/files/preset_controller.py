@@ -127,34 +127,34 @@ class PresetController(QObject):
             self.status_message.emit(one_line(str(error), LONGEST))
             self._update()
             return
-        title = self.tr("preset {name}").format(name=name)
+        title = f"preset {name}"
         self._store.put(scene, title, new_gesture(), force={})
 
     def ask_to_save_match(self, matching: "MatchController") -> None:
         """Let the user name a preset, and save the result of a match as it."""
         photo = matching.photo
         if photo is None or matching.match is None:
-            self.status_message.emit(self.tr("There is no match yet that could be saved."))
+            self.status_message.emit("There is no match yet that could be saved.")
             return
         name, wanted = QInputDialog.getText(
             self._window,
-            self.tr("Save as preset"),
-            self.tr("Name of the preset: letters, digits, spaces, - and _"),
+            "Save as preset",
+            "Name of the preset: letters, digits, spaces, - and _",
             QLineEdit.EchoMode.Normal,
             re.sub(r"[^A-Za-z0-9 _-]+", "-", photo.camera or photo.path.stem).strip(" -_")[:60],
         )
         if wanted and self._may_replace(name):
-            title = self.tr("Measured from {photo}").format(photo=one_line(photo.path.name))
+            title = f"Measured from {one_line(photo.path.name)}"
             matching.save(name, title)
 
     def ask_to_delete(self) -> None:
         """Let the user choose one of the saved presets, and delete it."""
         own = [*user_presets(), *self._unreadable]
         if not own:
-            self.status_message.emit(self.tr("There is no preset of your own."))
+            self.status_message.emit("There is no preset of your own.")
             return
         name, wanted = QInputDialog.getItem(
-            self._window, self.tr("Delete preset"), self.tr("Preset to delete"), own, 0, False
+            self._window, "Delete preset", "Preset to delete", own, 0, False
         )
         if not wanted:
             return
@@ -164,22 +164,22 @@ class PresetController(QObject):
             self.status_message.emit(str(error))
             return
         self._update()
-        self.status_message.emit(self.tr("Deleted the preset {name}").format(name=name))
+        self.status_message.emit(f"Deleted the preset {name}")
 
     def _may_replace(self, name: str) -> bool:
         if name not in user_presets() and name not in self._unreadable:
             return True
         answer = QMessageBox.question(
             self._window,
-            self.tr("Save as preset"),
-            self.tr("There is a preset {name} already. Replace it?").format(name=name),
+            "Save as preset",
+            f"There is a preset {name} already. Replace it?",
         )
         return answer == QMessageBox.StandardButton.Yes
 
     def report_saved(self, name: str) -> None:
         """List a preset that was saved from a match."""
         self._update()
-        self.status_message.emit(self.tr("Saved the preset {name}").format(name=name))
+        self.status_message.emit(f"Saved the preset {name}")
 
     def _update(self) -> None:
         self._read()

@@ -30,9 +30,9 @@ class HelpMenu(QObject):
         self._window, self._current_pane = window, current_pane
         self.pages = pages
         self._help: HelpWindow | None = None
-        self.guide = QAction(self.tr("&User's guide"), menu)
-        self.pane = QAction(self.tr("About this &pane"), menu)
-        self.pane.setShortcut(QKeySequence(self.tr("Shift+F1")))
+        self.guide = QAction("&User's guide", menu)
+        self.pane = QAction("About this &pane", menu)
+        self.pane.setShortcut(QKeySequence("Shift+F1"))
         self.guide.triggered.connect(lambda: self.show_page(GUIDE))
         self.pane.triggered.connect(self._show_pane)
         menu.insertActions(menu.actions()[0], [self.guide, self.pane])
@@ -45,9 +45,7 @@ class HelpMenu(QObject):
         try:
             shown = self._window_of_manual()
         except OSError as error:
-            self.status_message.emit(
-                self.tr("The manual cannot be read: {}.").format(error.strerror)
-            )
+            self.status_message.emit(f"The manual cannot be read: {error.strerror}.")
             return
         shown.show()
         shown.show_page(page)

@@ -37,13 +37,13 @@ class HelpWindow(QMainWindow):
         super().__init__(parent)
         self._folder = folder
         self.page_list = QListWidget()
-        self.page_list.setAccessibleName(self.tr("Pages"))
-        self.page_list.setToolTip(self.tr("The pages of the manual."))
+        self.page_list.setAccessibleName("Pages")
+        self.page_list.setToolTip("The pages of the manual.")
         for title, name in pages(folder):
             item = QListWidgetItem(title, self.page_list)
             item.setData(_FILE, name)
         self.browser = HelpBrowser()
-        self.browser.setAccessibleName(self.tr("Page"))
+        self.browser.setAccessibleName("Page")
         self.search = QLineEdit()
         self._lay_out()
         self.page_list.itemActivated.connect(self._show_item)
@@ -54,13 +54,13 @@ class HelpWindow(QMainWindow):
         self.resize(_SIZE)
 
     def _lay_out(self) -> None:
-        bar = QToolBar(self.tr("Navigation"))
+        bar = QToolBar("Navigation")
         bar.setMovable(False)
         self._add_history(bar)
         bar.addSeparator()
-        self.search.setPlaceholderText(self.tr("Find in this page"))
-        self.search.setAccessibleName(self.tr("Find in this page"))
-        self.search.setToolTip(self.tr("Enter finds the next place."))
+        self.search.setPlaceholderText("Find in this page")
+        self.search.setAccessibleName("Find in this page")
+        self.search.setToolTip("Enter finds the next place.")
         self.search.setClearButtonEnabled(True)
         self.search.setMaximumWidth(_SEARCH_WIDTH)
         bar.addWidget(self.search)
@@ -78,8 +78,8 @@ class HelpWindow(QMainWindow):
     def _add_history(self, bar: QToolBar) -> None:
         keys, browser = QKeySequence.StandardKey, self.browser
         for text, key, go, can_go in (
-            (self.tr("Back"), keys.Back, browser.backward, browser.backwardAvailable),
-            (self.tr("Forward"), keys.Forward, browser.forward, browser.forwardAvailable),
+            ("Back", keys.Back, browser.backward, browser.backwardAvailable),
+            ("Forward", keys.Forward, browser.forward, browser.forwardAvailable),
         ):
             action = bar.addAction(text)
             action.setShortcut(QKeySequence(key))
@@ -124,4 +124,4 @@ class HelpWindow(QMainWindow):
             item = self.page_list.item(place)
             if item.data(_FILE) == url.fileName():
                 self.page_list.setCurrentItem(item)
-                self.setWindowTitle(self.tr("Manual: {title}").format(title=item.text()))
+                self.setWindowTitle(f"Manual: {item.text()}")

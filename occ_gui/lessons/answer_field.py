@@ -25,16 +25,16 @@ class AnswerField(QWidget):
         super().__init__(parent)
         self.field = QLineEdit()
         self.field.setMaxLength(_LONGEST)
-        self.field.setAccessibleName(self.tr("Your answer"))
-        self.field.setToolTip(self.tr("Type your answer here before you look at the explanation."))
+        self.field.setAccessibleName("Your answer")
+        self.field.setToolTip("Type your answer here before you look at the explanation.")
         leave_undo_to_window(self.field)
         self.unit = QLabel()
-        self.check = button(self.tr("Check"), self.tr("Compare it with the model (Enter)."))
+        self.check = button("Check", "Compare it with the model (Enter).")
         self.check.clicked.connect(self._ask)
         self.field.returnPressed.connect(self._ask)
         self.field.textEdited.connect(self._forget)
         self.sentence = paragraph()
-        self.sentence.setAccessibleName(self.tr("What the check says"))
+        self.sentence.setAccessibleName("What the check says")
         self._said, self._is_outdated = "", False
         row = QHBoxLayout()
         row.setSpacing(8)
@@ -52,10 +52,8 @@ class AnswerField(QWidget):
         """Show an empty field, or the answer given before."""
         self.unit.setText(unit)
         self.unit.setVisible(bool(unit))
-        self.field.setPlaceholderText(
-            self.tr("a number") if is_number else self.tr("in your own words")
-        )
-        self.check.setText(self.tr("Check") if is_number else self.tr("Keep"))
+        self.field.setPlaceholderText("a number" if is_number else "in your own words")
+        self.check.setText("Check" if is_number else "Keep")
         self.field.setText("" if before is None else before.text)
         if before is None:
             self._forget()
@@ -77,7 +75,7 @@ class AnswerField(QWidget):
     def _write(self) -> None:
         if not self._said:
             return
-        after = self.tr("The scene has changed since: check again.")
+        after = "The scene has changed since: check again."
         self.sentence.setText(f"{self._said} {after}" if self._is_outdated else self._said)
         self.sentence.show()
 
@@ -86,7 +84,7 @@ class AnswerField(QWidget):
         self.check.setEnabled(False)
         self._said = ""
         self.sentence.setForegroundRole(QPalette.ColorRole.WindowText)
-        self.sentence.setText(self.tr("The model computes…"))
+        self.sentence.setText("The model computes…")
         self.sentence.show()
 
     def _ask(self) -> None:

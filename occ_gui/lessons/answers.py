@@ -61,7 +61,7 @@ class LessonAnswers(QObject):
         if not lesson.steps[place].own_photo:
             photo = MatchedPhoto()
         scene = lesson.steps[place].judged_at(scene)
-        pending = CheckedAnswer(text, None, self.tr("The model computes…"))
+        pending = CheckedAnswer(text, None, "The model computes…")
         self._given[lesson.name, place] = (pending, scene, photo)  # the one before is outdated
         self._waiting.append(_Asked(lesson, place, text, scene, photo))
         if self.runner.is_idle:

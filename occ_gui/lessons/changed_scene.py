@@ -1,7 +1,5 @@
 """Says that the student has changed a step's scene, so that the text's numbers are not its."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.scene.wording import distinguished
 from occ_model.results.lessons import Step
 from occ_model.scene.parameters import PARAMETERS
@@ -32,20 +30,12 @@ def changed_sentence(step: Step, scene: Scene) -> str:
     for name in (name for names in GROUPS.values() for name in names):
         now, own = scene.value(name), step.scene.value(name)
         if now != own:
-            texts = (text or _tr("empty") for text in distinguished(PARAMETERS[name], now, own))
-            changes.append(
-                _tr("{label} is {now} instead of {own}").format(
-                    label=PARAMETERS[name].label, now=next(texts), own=next(texts)
-                )
-            )
+            texts = (text or "empty" for text in distinguished(PARAMETERS[name], now, own))
+            changes.append(f"{PARAMETERS[name].label} is {next(texts)} instead of {next(texts)}")
     named = changes[:_MOST_NAMED]
     if len(changes) > _MOST_NAMED:
-        named.append(_tr("{more} more").format(more=len(changes) - _MOST_NAMED))
-    return _tr(
+        named.append(f"{len(changes) - _MOST_NAMED} more")
+    return (
         "You have changed the scene: {changes}. Picture, formula, check and report are of your "
         "scene; the numbers in the text are of the lesson's own."
-    ).format(changes=_tr(" and ").join(named))
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("ChangedScene", text)
+    ).format(changes=" and ".join(named))

@@ -24,22 +24,16 @@ class EndPage(QWidget):
         super().__init__(parent)
         self.title, self.answers = heading(), paragraph()
         self.report = button(
-            self.tr("Save the report…"),
-            self.tr("Save one page with your answers and figures, as PDF."),
+            "Save the report…",
+            "Save one page with your answers and figures, as PDF.",
         )
         self.author = QLineEdit()
-        self.author.setPlaceholderText(self.tr("Your name, for the report"))
-        self.author.setAccessibleName(self.tr("Your name, as it shall stand on the report"))
-        self.author.setToolTip(
-            self.tr("The name that stands on the report; it is kept for the next one.")
-        )
+        self.author.setPlaceholderText("Your name, for the report")
+        self.author.setAccessibleName("Your name, as it shall stand on the report")
+        self.author.setToolTip("The name that stands on the report; it is kept for the next one.")
         self.author.setMaxLength(_LONGEST_NAME)
-        self.all = button(
-            self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")
-        )
-        self.next = button(
-            self.tr("Next lesson"), self.tr("Begin the lesson that follows in the list.")
-        )
+        self.all = button("All lessons", "Go back to the list, and to your own scene.")
+        self.next = button("Next lesson", "Begin the lesson that follows in the list.")
         self.next.clicked.connect(self.next_asked)
         self.report.clicked.connect(self.report_asked)
         self.all.clicked.connect(self.list_asked)
@@ -83,12 +77,12 @@ class EndPage(QWidget):
         following
             The title of the lesson that follows in the list; empty after the last one.
         """
-        self.next.setText(self.tr("Next lesson: {title}").format(title=following))
+        self.next.setText(f"Next lesson: {following}")
         self.next.setVisible(bool(following))
-        self.title.setText(self.tr("Done: {title}").format(title=lesson.title))
+        self.title.setText(f"Done: {lesson.title}")
         lines = []
         for place, (step, answer) in enumerate(zip(lesson.steps, answers, strict=True), 1):
-            given = self.tr("no answer")
+            given = "no answer"
             if answer is not None:
                 given = f"{step.with_unit(answer.text)}. {answer.sentence}"
             lines.append(f"{place}. {step.question}\n    {given}")

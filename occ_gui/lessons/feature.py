@@ -1,7 +1,5 @@
 """The pane of the lessons, declared."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.control_panel import ControlPanel
@@ -22,7 +20,7 @@ def lessons(
 
     return Feature(
         name="lessons",
-        title=QCoreApplication.translate("Lessons", "Lessons"),
+        title="Lessons",
         help="lessons.md#follow-a-lesson",
         make=make,
     )

@@ -130,7 +130,7 @@ class LessonController(QObject):
                 failure = one_line(str(error), LONGEST)
             except Exception as error:  # noqa: BLE001 - the window works whatever they contain
                 reason = one_line(f"{type(error).__name__}: {error}")
-                failure = self.tr("The lessons cannot be read: {reason}.").format(reason=reason)
+                failure = f"The lessons cannot be read: {reason}."
             self._pane.list_lessons(
                 self._all.lessons, self._places | self._done, failure, self._all.problems
             )
@@ -217,7 +217,7 @@ class LessonController(QObject):
         if user is None:
             return
         self._scenes.settings.restore(user.settings)
-        title = self.tr("end of the lesson")
+        title = "end of the lesson"
         self._scenes.put(user.scene, title, new_gesture(), force=user.settings.force)
         self._return_photo(user.photo, kept)
         self.pane_wanted.emit("")
@@ -255,7 +255,7 @@ class LessonController(QObject):
     def _set(self, lesson: Lesson, place: int) -> None:
         step = lesson.steps[place]
         self._scenes.settings.restore(FIRST_SETTINGS)  # not the tolerance of the step before
-        title = self.tr("step {number} of “{title}”").format(number=place + 1, title=lesson.title)
+        title = f"step {place + 1} of “{lesson.title}”"
         self._scenes.put(step.scene, title, new_gesture(), force={})
         packet = QUANTITIES["packet-columns"].compute(step.scene, "")
         self.columns_held.emit(PACKETS_IN_VIEW * packet)
@@ -268,9 +268,7 @@ class LessonController(QObject):
         if step.own_photo and self._show_users_photo():
             return  # which the sample would stand in for
         if step.photo and wanted is None:
-            self.status_message.emit(
-                self.tr("The photo {name} is missing.").format(name=step.photo)
-            )
+            self.status_message.emit(f"The photo {step.photo} is missing.")
         elif wanted is not None and wanted == self._open:
             self._tell_frequency(step)
         elif wanted is not None:

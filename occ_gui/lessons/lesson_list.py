@@ -30,8 +30,8 @@ class LessonList(QWidget):
         self._rows = QVBoxLayout()
         self._rows.setSpacing(8)
         self.folder = button(
-            self.tr("Folder of your own lessons"),
-            self.tr("Open the folder of lessons of your own; the guide tells how to write one."),
+            "Folder of your own lessons",
+            "Open the folder of lessons of your own; the guide tells how to write one.",
         )
         self.folder.clicked.connect(self.folder_asked)
         foot = QHBoxLayout()
@@ -40,7 +40,7 @@ class LessonList(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.setSpacing(8)
-        layout.addWidget(heading(self.tr("Lessons")))
+        layout.addWidget(heading("Lessons"))
         layout.addWidget(self.message)
         layout.addLayout(self._rows)
         layout.addWidget(self.problems)
@@ -57,7 +57,7 @@ class LessonList(QWidget):
         """List lessons with the steps reached, or the reason why there are none."""
         self.message.setText(
             failure
-            or self.tr(
+            or (
                 "Each step sets a scene and asks for something that you find by trying. At the end "
                 "your own scene returns."
             )
@@ -72,7 +72,7 @@ class LessonList(QWidget):
             self._add(lesson, reached.get(lesson.name))
         sheets = [each for each in found if each.is_sheet]
         if sheets:
-            self._add_heading(self.tr("Lab sheets"))
+            self._add_heading("Lab sheets")
         for sheet in sheets:
             self._add(sheet, reached.get(sheet.name))
 
@@ -83,12 +83,12 @@ class LessonList(QWidget):
 
     def _add(self, lesson: Lesson, reached: int | None) -> None:
         count = len(lesson.steps)
-        words = {None: self.tr("{title}  ({count} steps)"), count: self.tr("✓  {title}")}
-        text = words.get(reached, self.tr("{title}  (step {place} of {count})"))
+        words = {None: "{title}  ({count} steps)", count: "✓  {title}"}
+        text = words.get(reached, "{title}  (step {place} of {count})")
         choice = QPushButton(
             text.format(title=in_menu(lesson.title), count=count, place=(reached or 0) + 1)
         )
-        choice.setToolTip(self.tr("Set the scene of its step and show its question."))
+        choice.setToolTip("Set the scene of its step and show its question.")
         choice.setAccessibleDescription(lesson.summary)
         choice.setStyleSheet(_LEFT)
         choice.setProperty("lesson", lesson.name)

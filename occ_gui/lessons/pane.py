@@ -82,9 +82,7 @@ class LessonPane(Pane[None]):
             self.status_message.emit(str(error))
             return
         if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder))):
-            self.status_message.emit(
-                self.tr("Your own lessons belong into {folder}").format(folder=folder)
-            )
+            self.status_message.emit(f"Your own lessons belong into {folder}")
 
     def end(self) -> None:
         """Restore what the user was working on."""

@@ -60,10 +60,8 @@ class LessonReports(QObject):
         self.keep_author(author)
         start = Path(self._preferences.export_folder, f"{lesson.name}{_ENDING}")
         chosen, _ = QFileDialog.getSaveFileName(
-            self._window, self.tr("Save the report"), str(start),
-            self.tr(
-                "PDF document (*.pdf);;Markdown (*.md);;PNG picture (*.png);;SVG drawing (*.svg)"
-            ),
+            self._window, "Save the report", str(start),
+            "PDF document (*.pdf);;Markdown (*.md);;PNG picture (*.png);;SVG drawing (*.svg)",
         )  # fmt: skip
         if chosen:
             path = Path(chosen)
@@ -72,12 +70,12 @@ class LessonReports(QObject):
 
     def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
         """Write the report of a lesson to a file."""
-        self.status_message.emit(self.tr("Drawing…"))
+        self.status_message.emit("Drawing…")
         self.runner.ask(_Job(path, lesson, tuple(steps), author))
 
     def _report(self, path: Path) -> None:
         self._preferences.visit_export(path)
-        self.status_message.emit(self.tr("Saved {name}").format(name=one_line(path.name)))
+        self.status_message.emit(f"Saved {one_line(path.name)}")
 
 
 def _write(job: _Job) -> Path:

@@ -43,11 +43,11 @@ class ShutterAnimation(QWidget):
         self._turns.setInterval(_TURN_MS)
         self._turns.timeout.connect(self._advance)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setAccessibleName(self.tr("Animation of a rolling shutter"))
+        self.setAccessibleName("Animation of a rolling shutter")
         self.setAccessibleDescription(
-            self.tr("Each column gathers light a little later than the one before.")
+            "Each column gathers light a little later than the one before."
         )
-        self.setToolTip(self.tr("Click, or press the space bar, to stop and to go on."))
+        self.setToolTip("Click, or press the space bar, to stop and to go on.")
 
     @property
     def is_playing(self) -> bool:

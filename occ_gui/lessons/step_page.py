@@ -53,19 +53,19 @@ class StepPage(QWidget):
         self.progress = QProgressBar()
         self.progress.setTextVisible(False)
         self.progress.setFixedHeight(6)
-        self.progress.setAccessibleName(self.tr("Progress of the lesson"))
+        self.progress.setAccessibleName("Progress of the lesson")
         self.animation = ShutterAnimation()
         self.animation.setFixedHeight(_ANIMATION_HEIGHT)
         self.control = button(
-            "", self.tr("Show the control that this step is about, with all others dimmed.")
+            "", "Show the control that this step is about, with all others dimmed."
         )
-        self.control.setAccessibleName(self.tr("Show the control of this step"))
+        self.control.setAccessibleName("Show the control of this step")
         self.control.clicked.connect(self.control_asked)
         self.changed = paragraph()
-        self.changed.setAccessibleName(self.tr("Your changes of the scene"))
+        self.changed.setAccessibleName("Your changes of the scene")
         self.changed.hide()
-        self.action = button("", self.tr("Do what this step is about."))
-        self.action.setAccessibleName(self.tr("Do what this step asks for"))
+        self.action = button("", "Do what this step is about.")
+        self.action.setAccessibleName("Do what this step asks for")
         self.action.clicked.connect(self.action_asked)
         self.answer_field = AnswerField()
         self.answer_field.checked.connect(self.answer_given)
@@ -77,12 +77,12 @@ class StepPage(QWidget):
         self.answer = typeset_paragraph()
         self.answer.setFrameShape(QFrame.Shape.StyledPanel)
         self.answer.setMargin(8)
-        self.answer.setAccessibleName(self.tr("Explanation"))
+        self.answer.setAccessibleName("Explanation")
         self.equation = EquationText()
         self.equation.setFixedHeight(_EQUATION_HEIGHT)
         self.reveal = button(
-            self.tr("Show the explanation"),
-            self.tr("Show what one finds, to compare with what you found."),
+            "Show the explanation",
+            "Show what one finds, to compare with what you found.",
         )
         self.reveal.setCheckable(True)
         self.reveal.toggled.connect(self._show_answer)
@@ -91,14 +91,12 @@ class StepPage(QWidget):
         self._has_equation = self._is_revealing = False
 
     def _make_buttons(self) -> None:
-        self.all = button(
-            self.tr("All lessons"), self.tr("Go back to the list, and to your own scene.")
-        )
-        self.back = button(self.tr("Back"), self.tr("Go to the step before, and set its scene."))
-        self.next = button(self.tr("Next"), self.tr("Go to the next step, and set its scene."))
+        self.all = button("All lessons", "Go back to the list, and to your own scene.")
+        self.back = button("Back", "Go to the step before, and set its scene.")
+        self.next = button("Next", "Go to the next step, and set its scene.")
         self.again = button(
-            self.tr("Set the scene again"),
-            self.tr("Set the scene of this step again, as one step that can be undone."),
+            "Set the scene again",
+            "Set the scene of this step again, as one step that can be undone.",
         )
         self.all.clicked.connect(self.list_asked)
         self.back.clicked.connect(self._go_back)
@@ -137,11 +135,7 @@ class StepPage(QWidget):
     def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
         """Show a step of a lesson, with the answer given to it before."""
         step, count = lesson.steps[place], len(lesson.steps)
-        self.place.setText(
-            self.tr("{title} · step {place} of {count}").format(
-                title=lesson.title, place=place + 1, count=count
-            )
-        )
+        self.place.setText(f"{lesson.title} · step {place + 1} of {count}")
         self.progress.setRange(0, count)
         self.progress.setValue(place + 1)
         self.goal.setText(step.goal)
@@ -150,7 +144,7 @@ class StepPage(QWidget):
         self.text.setText(typeset(step.text))
         self.question.setText(typeset(step.question))
         label = PARAMETERS[step.control].label if step.control else ""
-        self.control.setText(self.tr("Change: {control}").format(control=label))
+        self.control.setText(f"Change: {label}")
         self.control.setVisible(bool(step.control))
         self.action.setText(self._action_text(step.action))
         self.action.setVisible(bool(step.action))
@@ -159,7 +153,7 @@ class StepPage(QWidget):
         self._has_equation = bool(step.equation)
         self.reveal.setChecked(False)
         self.back.setEnabled(place > 0)
-        self.next.setText(self.tr("Next") if place + 1 < count else self.tr("Done"))
+        self.next.setText("Next" if place + 1 < count else "Done")
         self._scroll.verticalScrollBar().setValue(0)
 
     def show_changed(self, sentence: str) -> None:
@@ -177,9 +171,9 @@ class StepPage(QWidget):
 
     def _action_text(self, action: str) -> str:
         return {
-            "transmitter": self.tr("Make a transmitter…"),
-            "photo": self.tr("Open your photo…"),
-            "match": self.tr("Match the photo"),
+            "transmitter": "Make a transmitter…",
+            "photo": "Open your photo…",
+            "match": "Match the photo",
         }.get(action, "")
 
     def _go_back(self) -> None:
@@ -191,9 +185,7 @@ class StepPage(QWidget):
     def _show_answer(self, shown: bool) -> None:
         self.answer.setVisible(shown)
         self.equation.setVisible(shown and self._has_equation)
-        self.reveal.setText(
-            self.tr("Hide the explanation") if shown else self.tr("Show the explanation")
-        )
+        self.reveal.setText("Hide the explanation" if shown else "Show the explanation")
         self.explained.emit(shown and self._has_equation)
         if shown:
             self._is_revealing = True

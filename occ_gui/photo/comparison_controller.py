@@ -150,7 +150,7 @@ class ComparisonController(QObject):
             sentence = str(error)
         if comparison is not None and float(np.ptp(comparison.simulated)) < _FLAT:
             # A photo scaled to no swing at all would agree with any simulation.
-            comparison, sentence = None, self.tr("The simulation has no stripes there to compare.")
+            comparison, sentence = None, "The simulation has no stripes there to compare."
         raw = photo.profile
         if self._enhanced:
             raw = enhance(raw, method).astype(np.float64)

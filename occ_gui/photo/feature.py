@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
@@ -27,7 +25,7 @@ def photo(
 
     return Feature(
         name="photo",
-        title=QCoreApplication.translate("Photo", "Photo"),
+        title="Photo",
         help="photos.md",
         make=make,
         part=lambda _, results: results.reading,

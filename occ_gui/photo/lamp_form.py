@@ -38,29 +38,25 @@ class LampForm(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.search = QPushButton(self.tr("Find &lamps"))
+        self.search = QPushButton("Find &lamps")
         self.search.setToolTip(
-            self.tr(
-                "Find every lamp in the photo, and whether its light changes while the picture is "
-                "read out. Choose one to match it by itself."
-            )
+            "Find every lamp in the photo, and whether its light changes while the picture is "
+            "read out. Choose one to match it by itself."
         )
         self.search.clicked.connect(self.find_asked)
-        self.by_hand = QPushButton(self.tr("Re&gion by hand"))
+        self.by_hand = QPushButton("Re&gion by hand")
         self.by_hand.setCheckable(True)
         self.by_hand.setToolTip(
-            self.tr(
-                "Match only a rectangle: drag on the photo beside it to draw another one, its "
-                "middle to move it, and its corners to make it larger or smaller."
-            )
+            "Match only a rectangle: drag on the photo beside it to draw another one, its "
+            "middle to move it, and its corners to make it larger or smaller."
         )
         self.by_hand.toggled.connect(self.by_hand_chosen)
-        self.whole = QPushButton(self.tr("&Whole photo"))
-        self.whole.setToolTip(self.tr("Search the whole photo for stripes again."))
+        self.whole = QPushButton("&Whole photo")
+        self.whole.setToolTip("Search the whole photo for stripes again.")
         self.whole.clicked.connect(self.whole_asked)
         self.place = QLabel()
         self.place.setWordWrap(True)
-        self.place.setAccessibleName(self.tr("What is matched"))
+        self.place.setAccessibleName("What is matched")
         self._make_table()
         buttons = QHBoxLayout()
         for button in (self.search, self.by_hand, self.whole):
@@ -77,16 +73,12 @@ class LampForm(QWidget):
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 4)
-        self.table.setHorizontalHeaderLabels(
-            [self.tr("Lamp"), self.tr("Columns"), self.tr("Chip"), self.tr("Periods")]
-        )
-        self.table.setAccessibleName(self.tr("Lamps in the photo"))
+        self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip", "Periods"])
+        self.table.setAccessibleName("Lamps in the photo")
         self.table.setToolTip(
-            self.tr(
-                "The lamps, the brightest first: the columns that each covers, the columns of a "
-                "chip, and the periods in view. Fewer than 2.5 are doubtful, and so is a lamp so "
-                "faint beside the brightest that it may be a reflection."
-            )
+            "The lamps, the brightest first: the columns that each covers, the columns of a "
+            "chip, and the periods in view. Fewer than 2.5 are doubtful, and so is a lamp so "
+            "faint beside the brightest that it may be a reflection."
         )
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -119,10 +111,10 @@ class LampForm(QWidget):
         columns = f"{region.first_column} to {region.last_column - 1}"
         product = lamp.switching_frequency_times_readout
         if product is None:
-            return str(row + 1), columns, self.tr("no stripes"), ""
-        chip = self.tr("{columns:.2f} px").format(columns=1.0 / product)
-        doubt = self.tr(", doubtful") if lamp.is_doubtful else ""
-        periods = self.tr("code") if lamp.periods is None else f"{lamp.periods:.1f}"
+            return str(row + 1), columns, "no stripes", ""
+        chip = f"{1.0 / product:.2f} px"
+        doubt = ", doubtful" if lamp.is_doubtful else ""
+        periods = "code" if lamp.periods is None else f"{lamp.periods:.1f}"
         return str(row + 1), columns, chip, f"{periods}{doubt}"
 
     def show_sentence(self, sentence: str) -> None:
@@ -133,21 +125,19 @@ class LampForm(QWidget):
         """Show what is matched: a rectangle, a lamp of this index, or the whole photo."""
         self.whole.setEnabled(region is not None)
         if region is None:
-            self.place.setText(self.tr("The whole photo will be searched for stripes."))
+            self.place.setText("The whole photo will be searched for stripes.")
             return
         what = (
-            self.tr("A region by hand") if lamp is None
-            else self.tr("Lamp {number}").format(number=lamp + 1)
+            "A region by hand" if lamp is None
+            else f"Lamp {lamp + 1}"
         )  # fmt: skip
-        words = self.tr(
-            "{what} will be matched: columns {left} to {right}, rows {top} to {bottom}."
-        )
+        words = "{what} will be matched: columns {left} to {right}, rows {top} to {bottom}."
         self.place.setText(
             words.format(
                 what=what, left=region.first_column, right=region.last_column - 1,
                 top=region.first_row, bottom=region.last_row - 1,
             )
-            + ("" if lamp is not None else self.tr(" Drag on the photo to draw another one."))
+            + ("" if lamp is not None else " Drag on the photo to draw another one.")
         )  # fmt: skip
 
     def show_by_hand(self, by_hand: bool) -> None:
@@ -159,7 +149,7 @@ class LampForm(QWidget):
         """Show whether lamps are being searched."""
         self.search.setEnabled(not searching)
         if searching:
-            self.place.setText(self.tr("Searching for lamps…"))
+            self.place.setText("Searching for lamps…")
 
     def _choose(self) -> None:
         rows = {item.row() for item in self.table.selectedItems()}

@@ -163,11 +163,11 @@ class MatchController(QObject):
             return
         elsewhere, why = "", ""
         if self._is_reading:
-            elsewhere = self.tr("of the photo before: one is being read")
+            elsewhere = "of the photo before: one is being read"
         elif self._matched_region != self._region:
-            elsewhere = self.tr("of another part of the photo: match again")
+            elsewhere = "of another part of the photo: match again"
         elif self._was_refused:
-            why = self.tr("of the match before: the last one is refused")
+            why = "of the match before: the last one is refused"
         self._why_unusable = elsewhere
         self._pane.show_match_outdated(elsewhere or why, usable=not elsewhere)
 
@@ -219,7 +219,7 @@ class MatchController(QObject):
             return
         notes = {name: getattr(self._photo, name) for name in _RECORDED}
         changes = {name: value for name, value in notes.items() if value is not None}
-        title = self.tr("settings of {name}").format(name=self._photo.path.name)
+        title = f"settings of {self._photo.path.name}"
         try:
             self._scenes.put(self._scenes.scene.replace(**changes), title)
         except OccError as error:
@@ -229,14 +229,14 @@ class MatchController(QObject):
         """Replace the scene by the matched one, as one step."""
         if self.match is None or self._photo is None or self._refuses_outdated():
             return
-        title = self.tr("match with {name}").format(name=self._photo.path.name)
+        title = f"match with {self._photo.path.name}"
         self._scenes.put(self.match.scene, title)
 
     def cure(self) -> None:
         """Replace the scene by the matched one at a shutter speed without bars, as one step."""
         if self.match is None or self._photo is None or self._refuses_outdated():
             return
-        self._scenes.put(cure_of(self.match.scene).scene, self.tr("shutter speed without bars"))
+        self._scenes.put(cure_of(self.match.scene).scene, "shutter speed without bars")
 
     def save(self, name: str, title: str, day: date | None = None) -> None:
         """Save the matched scene as one of the user's presets."""
@@ -260,9 +260,7 @@ class MatchController(QObject):
     def _refuses_outdated(self) -> bool:
         """Say why a match that is not the present one is not used; return whether it is not."""
         if self._why_unusable:
-            self.failed.emit(
-                self.tr("This match is {why}; it is not used.").format(why=self._why_unusable)
-            )
+            self.failed.emit(f"This match is {self._why_unusable}; it is not used.")
         return bool(self._why_unusable)
 
     def _take(self, found: Match | Refusal) -> None:

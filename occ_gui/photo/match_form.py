@@ -58,37 +58,37 @@ class MatchForm(QWidget):
         self._forgotten: dict[str, float] = {}
         """The values that were confirmed of the photos before."""
         self.sent = KeyedComboBox(
-            self.tr("What was sent"),
-            self.tr(
+            "What was sent",
+            (
                 "What the LED in the photo sent: what the scene sends, a square wave of so many "
                 "cycles per second, or whatever can be read from the stripes.\n"
                 "Find out: what the scene sends if that explains the stripes, else read."
             ),
             {
-                "auto": self.tr("Find out: as the scene, else read"),
-                "scene": self.tr("What the scene sends"),
-                "square": self.tr("Square wave of"),
-                "read": self.tr("Unknown: read it from the stripes"),
+                "auto": "Find out: as the scene, else read",
+                "scene": "What the scene sends",
+                "square": "Square wave of",
+                "read": "Unknown: read it from the stripes",
             },
         )
         self.square = QuantityEdit(SQUARE_FREQUENCY)
         self.square.setAccessibleName(SQUARE_FREQUENCY.label)
         self.square.setToolTip(f"{SQUARE_FREQUENCY.label}\n{SQUARE_FREQUENCY.meaning}")
         self.estimate = KeyedComboBox(
-            self.tr("What is estimated"),
-            self.tr(
+            "What is estimated",
+            (
                 "Stripes determine only the product of readout time (in µs) and switching "
                 "frequency (in kHz): one of them must be known, and is taken from the scene."
             ),
             {
-                "readout_time": self.tr("Readout time, frequency known"),
-                "switching_frequency": self.tr("Frequency, readout time known"),
+                "readout_time": "Readout time, frequency known",
+                "switching_frequency": "Frequency, readout time known",
             },
         )
         self._make_known()
-        self.gamma = QCheckBox(self.tr("Fit gamma too"))
+        self.gamma = QCheckBox("Fit gamma too")
         self.gamma.setToolTip(
-            self.tr("Estimate the camera's gamma from the shape of the stripes' edges as well.")
+            "Estimate the camera's gamma from the shape of the stripes' edges as well."
         )
         self._make_notices()
         self._make_run()
@@ -104,20 +104,18 @@ class MatchForm(QWidget):
         for name in KNOWN:
             declared = quantity(name)
             field = self.known[name] = QuantityEdit(declared)
-            field.setAccessibleName(self.tr("Known: {label}").format(label=declared.label))
-            note = self.tr("A known value of the photo; entering it changes the scene.")
+            field.setAccessibleName(f"Known: {declared.label}")
+            note = "A known value of the photo; entering it changes the scene."
             field.setToolTip(f"{note}\n\n{explain(declared)}")
             field.edited.connect(lambda value, name=name: self._edit(name, value))
         self.hint = QLabel()
         self.hint.setTextFormat(Qt.TextFormat.PlainText)
         self.hint.setWordWrap(True)
-        self.certain = QCheckBox(self.tr("certain"))
+        self.certain = QCheckBox("certain")
         self.certain.setToolTip(
-            self.tr(
-                "Whether this value is known of this photo. What is found with a value that is "
-                "only assumed is stated with the assumption. A value that you enter here is "
-                "certain."
-            )
+            "Whether this value is known of this photo. What is found with a value that is "
+            "only assumed is stated with the assumption. A value that you enter here is "
+            "certain."
         )
         self.certain.clicked.connect(self._click_certain)
 
@@ -175,14 +173,14 @@ class MatchForm(QWidget):
         self.certain_changed.emit({})
 
     def _make_run(self) -> None:
-        self.start = QPushButton(self.tr("&Match photo"))
-        self.start.setToolTip(self.tr("Find the settings that explain the photo's stripes."))
+        self.start = QPushButton("&Match photo")
+        self.start.setToolTip("Find the settings that explain the photo's stripes.")
         self.start.clicked.connect(lambda: self.asked.emit(self.choice()))
         self.progress = QProgressBar()
         self.progress.setRange(0, _STEPS)
-        self.progress.setAccessibleName(self.tr("Progress of the match, in percent"))
-        self.cancel = QPushButton(self.tr("&Cancel"))
-        self.cancel.setToolTip(self.tr("Cancel this match; the previous result stays."))
+        self.progress.setAccessibleName("Progress of the match, in percent")
+        self.cancel = QPushButton("&Cancel")
+        self.cancel.setToolTip("Cancel this match; the previous result stays.")
         self.cancel.clicked.connect(self.cancelled)
         self.show_running(False)
 
@@ -190,17 +188,17 @@ class MatchForm(QWidget):
         grid = QGridLayout()
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(3)
-        grid.addWidget(QLabel(self.tr("Sent")), 0, 0)
+        grid.addWidget(QLabel("Sent"), 0, 0)
         grid.addWidget(self.sent, 0, 1)
         grid.addWidget(self.square, 0, 2)
-        grid.addWidget(QLabel(self.tr("Estimate")), 2, 0)
+        grid.addWidget(QLabel("Estimate"), 2, 0)
         grid.addWidget(self.estimate, 2, 1, 1, 2)
         known = QHBoxLayout()
         for field in self.known.values():
             known.addWidget(field)
         known.addWidget(self.certain)
         known.addStretch()
-        grid.addWidget(QLabel(self.tr("Known")), 3, 0)
+        grid.addWidget(QLabel("Known"), 3, 0)
         grid.addLayout(known, 3, 1, 1, 2)
         grid.addWidget(self.hint, 4, 1, 1, 2)
         grid.setColumnStretch(1, 1)
@@ -286,17 +284,15 @@ class MatchForm(QWidget):
         if of_frequency:
             blinking = HERTZ.format(self.known[_FREQUENCY].value() / CHIPS_OF_A_CYCLE, 4)
             text = (
-                self.tr("two chips a cycle of {cycles}")
+                "two chips a cycle of {cycles}"
                 if square
-                else self.tr("of chips; an LED that only blinks does so at {cycles}")
+                else "of chips; an LED that only blinks does so at {cycles}"
             )
             lines.append(text.format(cycles=blinking))
         if not self.certain.isChecked() and is_certain(name, known, self._forgotten):
             lines.append(
-                self.tr(
-                    "Only assumed here: it was certain of another photo. Tick “certain” if it "
-                    "holds for this one."
-                )
+                "Only assumed here: it was certain of another photo. Tick “certain” if it "
+                "holds for this one."
             )
         self.hint.setText("\n".join(lines))
         self.hint.setVisible(bool(lines))

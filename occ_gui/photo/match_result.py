@@ -47,7 +47,7 @@ class MatchResult(QWidget):
         self.stale = QLabel()
         self.stale.setWordWrap(True)
         self.stale.setTextFormat(Qt.TextFormat.PlainText)
-        self.stale.setAccessibleName(self.tr("Whether the match still belongs to the known value"))
+        self.stale.setAccessibleName("Whether the match still belongs to the known value")
         self.stale.hide()
         self.cure = QLabel()
         self.cure.setWordWrap(True)
@@ -68,28 +68,22 @@ class MatchResult(QWidget):
         layout.addStretch()
 
     def _make_buttons(self) -> None:
-        self.apply = QPushButton(self.tr("&Apply to the scene"))
+        self.apply = QPushButton("&Apply to the scene")
         self.apply.setToolTip(
-            self.tr(
-                "Put the result into the scene, as one step that can be undone: its picture then "
-                "lies on the photo."
-            )
+            "Put the result into the scene, as one step that can be undone: its picture then "
+            "lies on the photo."
         )
         self.apply.clicked.connect(self.apply_asked)
-        self.save = QPushButton(self.tr("&Save as preset…"))
+        self.save = QPushButton("&Save as preset…")
         self.save.setToolTip(
-            self.tr(
-                "Save the result as a preset of your own, with the photo and the uncertainties as "
-                "its sources."
-            )
+            "Save the result as a preset of your own, with the photo and the uncertainties as "
+            "its sources."
         )
         self.save.clicked.connect(self.save_asked)
-        self.without_bars = QPushButton(self.tr("&Without bars"))
+        self.without_bars = QPushButton("&Without bars")
         self.without_bars.setToolTip(
-            self.tr(
-                "Simulate the picture at a shutter speed that shows no bars, beside the photo: one "
-                "step that can be undone."
-            )
+            "Simulate the picture at a shutter speed that shows no bars, beside the photo: one "
+            "step that can be undone."
         )
         self.without_bars.clicked.connect(self.cure_asked)
 
@@ -126,22 +120,18 @@ class MatchResult(QWidget):
             self._show_figures(self._match)
 
     def _show_cure(self, found: Cure, match: Match) -> None:
-        text = self.tr("This lamp's light repeats at {frequency}: bars vanish at whole multiples "
+        text = (f"This lamp's light repeats at {HERTZ.format(found.repeats, 4)}: bars vanish at "
+"whole multiples "
                        "of "
-                       "{period}.").format(
-            frequency=HERTZ.format(found.repeats, 4), period=SECOND.format(1.0 / found.repeats, 4)
-        )  # fmt: skip
+                       f"{SECOND.format(1.0 / found.repeats, 4)}.")  # fmt: skip
         first, kept = (
-            self.tr(" or ").join(each.name for each in speeds)
-            for speeds in (found.speeds, found.kept)
+            " or ".join(each.name for each in speeds) for speeds in (found.speeds, found.kept)
         )
         if first == kept != "":
-            text += " " + self.tr("Set {first}.").format(first=first)
+            text += f" Set {first}."
         elif first:
-            text += " " + self.tr("Set {first} if the camera keeps what is written").format(
-                first=first
-            )
-            text += self.tr(", else {kept}.").format(kept=kept) if kept else "."
+            text += f" Set {first} if the camera keeps what is written"
+            text += f", else {kept}." if kept else "."
         assumed = condition_of(match, self._certain).rstrip(": ")
         self.cure.setText(f"{text} ({assumed})" if assumed else text)
 
@@ -189,8 +179,7 @@ class MatchResult(QWidget):
         declared = quantity(name)
         now, then = float(scene.value(name)), float(getattr(match, name))
         self.stale.setText(
-            self.tr("Found with {then}; the scene has {now} now: match again.").format(
-                then=declared.format(then), now=declared.format(now)
-            )
+            f"Found with {declared.format(then)}; the scene has {declared.format(now)} "
+            "now: match again."
         )
         self.stale.setVisible(is_stale(name, then, self.given, now, self._certain))

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QCoreApplication, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
@@ -32,7 +32,7 @@ def label_of(name: str) -> str:
     label = quantity(name).label
     if name != "readout_time":
         return label
-    return QCoreApplication.translate("MatchValues", "{label} a line").format(label=label)
+    return f"{label} a line"
 
 
 def condition_of(match: Match, certain: Mapping[str, float]) -> str:
@@ -48,12 +48,11 @@ def with_uncertainty(quantity: Quantity, value: float, spread: float | None) -> 
 
 def what_errors_mean() -> str:
     """Say what ± and the verdict mean."""
-    return QCoreApplication.translate(
-        "MatchValues",
+    return (
         "± is one standard deviation, of the fit alone: the error of the value that is known comes "
         "on top.\nA limit, as in “below 36 µs”, lies two standard deviations above the value.\n"
         "“Sure” means that no check found a reason to doubt the match; the reasons of a "
-        "doubtful one are listed.",
+        "doubtful one are listed."
     )
 
 
@@ -91,18 +90,18 @@ class MatchValues(QWidget):
         estimates = {name: label_of(name) for name in _ESTIMATES}
         return {
             "readout_time": estimates.pop("readout_time"),
-            "frame": self.tr("Readout of the whole frame"),
+            "frame": "Readout of the whole frame",
             **estimates,
-            "others": self.tr("or exposed for"),
-            "chip": self.tr("Chip length"),
-            "periods": self.tr("Periods in view"),
-            "exposed": self.tr("Exposure in chips"),
-            "correlation": self.tr("Correlation of fit"),
-            "region": self.tr("Matched"),
-            "saturated": self.tr("Saturated"),
-            "duty": self.tr("Duty"),
-            "pattern": self.tr("Pattern"),
-            "alternatives": self.tr("Alternatives"),
+            "others": "or exposed for",
+            "chip": "Chip length",
+            "periods": "Periods in view",
+            "exposed": "Exposure in chips",
+            "correlation": "Correlation of fit",
+            "region": "Matched",
+            "saturated": "Saturated",
+            "duty": "Duty",
+            "pattern": "Pattern",
+            "alternatives": "Alternatives",
         }
 
     def show_match(self, match: Match, certain: Mapping[str, float], noted: float | None) -> None:
@@ -133,9 +132,9 @@ class MatchValues(QWidget):
         """Format the estimates and the given value; empty for a gamma that was not fitted."""
         texts = {}
         condition = self._condition(match)
-        given = {name: self.tr("{value} (given)") for name in _ESTIMATES if name != "gamma"}
+        given = {name: "{value} (given)" for name in _ESTIMATES if name != "gamma"}
         if condition:
-            given[known_of(match)] = self.tr("{value} (assumed)")
+            given[known_of(match)] = "{value} (assumed)"
         for name in _ESTIMATES:
             spread = match.uncertainties.get(name)
             texts[name] = with_uncertainty(quantity(name), getattr(match, name), spread)
@@ -145,7 +144,7 @@ class MatchValues(QWidget):
                 texts[name] = condition + texts[name]
         for name in match.doubtful_alone:
             if texts[name]:
-                texts[name] += self.tr(" (doubtful)")
+                texts[name] += " (doubtful)"
         frame = frame_of_match(match)
         texts["frame"] = (
             "" if frame is None else condition + with_uncertainty(quantity("readout_time"), *frame)
@@ -153,40 +152,33 @@ class MatchValues(QWidget):
         if len(match.pattern) == CHIPS_OF_A_CYCLE:
             # A blinking LED is specified by its cycles, not by its chips.
             cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, _DIGITS)
-            texts["switching_frequency"] += self.tr(": blinks at {cycles}").format(cycles=cycles)
+            texts["switching_frequency"] += f": blinks at {cycles}"
         exposure = quantity("exposure_time")
         if self._noted is not None:
-            texts["exposure_time"] += self.tr("; the camera noted {time}").format(
-                time=exposure.format(self._noted, _DIGITS)
-            )
+            texts["exposure_time"] += f"; the camera noted {exposure.format(self._noted, _DIGITS)}"
         others = (exposure.format(t, _DIGITS) for t in match.other_exposures)
-        other = self.tr(" or ").join(others)
+        other = " or ".join(others)
         return {**texts, "others": condition + other if other else ""}
 
     def _condition(self, match: Match) -> str:
         return condition_of(match, self._certain)
 
     def _quality(self, match: Match) -> dict[str, str]:
-        how = self.tr("read") if match.pattern_was_read else self.tr("given")
+        how = "read" if match.pattern_was_read else "given"
         region = match.region
         return {
-            "region": self.tr(
-                "columns {first} to {last}, between the first edge of a stripe and the last; the "
+            "region": (
+                f"columns {region.first_column} to {region.last_column - 1}, between the "
+                "first edge of a stripe and the last; the "
                 "applied scene is dark outside them"
-            ).format(first=region.first_column, last=region.last_column - 1),
-            "chip": self.tr("{columns:.3f} columns, {chips} chips a period").format(
-                columns=match.columns_per_chip, chips=len(match.pattern)
             ),
+            "chip": f"{match.columns_per_chip:.3f} columns, {len(match.pattern)} chips a period",
             "periods": f"{match.periods_in_view:.3g}",
             "exposed": f"{match.exposure_in_chips:.3g}",
-            "correlation": self.tr("{correlation:.4f}, RMSE {rmse:.2f} grey levels").format(
-                correlation=match.correlation, rmse=match.rmse
-            ),
-            "saturated": self.tr("{share:.1f} % of the region's pixels").format(
-                share=100 * match.stripes.saturated
-            ),
-            "duty": self.tr("lit for {share:.3g} % of a period").format(share=100 * match.duty),
-            "pattern": self.tr("{pattern} ({how})").format(pattern=match.pattern, how=how),
+            "correlation": f"{match.correlation:.4f}, RMSE {match.rmse:.2f} grey levels",
+            "saturated": f"{100 * match.stripes.saturated:.1f} % of the region's pixels",
+            "duty": f"lit for {100 * match.duty:.3g} % of a period",
+            "pattern": f"{match.pattern} ({how})",
         }
 
     def _alternatives(self, match: Match) -> str:
@@ -197,15 +189,14 @@ class MatchValues(QWidget):
         )
 
     def _alternative(self, other: Alternative, estimated: str, condition: str) -> str:
-        side = self.tr("lower") if other.evidence <= 0.0 else self.tr("higher")
-        text = self.tr(
-            "• {what}: correlation {correlation:.3f}, log-likelihood {side} by {step:.1f}"
-        ).format(
-            what=other.sent, correlation=other.correlation, side=side, step=abs(other.evidence)
+        side = "lower" if other.evidence <= 0.0 else "higher"
+        text = (
+            f"• {other.sent}: correlation {other.correlation:.3f}, log-likelihood {side} by "
+            f"{abs(other.evidence):.1f}"
         )
         value = getattr(other, estimated)
         if value is not None and other.exposure_time is not None:
-            text += self.tr("; {condition}{name} {value}, exposed for {exposure}").format(
+            text += "; {condition}{name} {value}, exposed for {exposure}".format(
                 condition=condition,
                 name=quantity(estimated).label.lower(),
                 value=quantity(estimated).format(value, _DIGITS),

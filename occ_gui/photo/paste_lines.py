@@ -27,7 +27,7 @@ class PasteLines(QWidget):
         self.why_none = QLabel()
         self.why_none.setWordWrap(True)
         self.why_none.setTextFormat(Qt.TextFormat.PlainText)
-        self.why_none.setAccessibleName(self.tr("Why there is no line for other programs"))
+        self.why_none.setAccessibleName("Why there is no line for other programs")
         # A grid: a form would not give lines that wrap their height.
         self._grid = QGridLayout()
         self._grid.setVerticalSpacing(2)
@@ -40,7 +40,7 @@ class PasteLines(QWidget):
         self.note = QLabel()
         self.note.setWordWrap(True)
         self.note.setTextFormat(Qt.TextFormat.PlainText)
-        self.note.setAccessibleName(self.tr("What the lines for other programs assume"))
+        self.note.setAccessibleName("What the lines for other programs assume")
         layout.addWidget(self.note)
         self.show_lines({})
 
@@ -66,10 +66,10 @@ class PasteLines(QWidget):
             field.setTextFormat(Qt.TextFormat.PlainText)
             field.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             field.setWordWrap(True)  # the number stands at the end
-            field.setAccessibleName(self.tr("Line for {program}").format(program=program))
+            field.setAccessibleName(f"Line for {program}")
             copy = QToolButton()
-            copy.setText(self.tr("Copy"))
-            copy.setToolTip(self.tr("Copy the line for {program}.").format(program=program))
+            copy.setText("Copy")
+            copy.setToolTip(f"Copy the line for {program}.")
             copy.clicked.connect(
                 lambda _checked=False, text=line: self.copied.emit(copy_text(text))
             )
@@ -87,9 +87,9 @@ class PasteLines(QWidget):
         if not condition or not lines:
             self.show_lines(lines)
             return
-        text = self.tr(
+        text = (
             "Lines for {programs} hold only {condition}. They are given once this is confirmed: "
             "enter the value, or tick “certain”."
         )
-        programs = self.tr(" and ").join(lines)
+        programs = " and ".join(lines)
         self.show_lines({}, text.format(programs=programs, condition=condition.removesuffix(": ")))

@@ -32,36 +32,34 @@ class PhotoFacts(QWidget):
         self.name.setFont(font)
         self.size_line = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.notes = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.use_settings = QPushButton(self.tr("&Use this photo's settings"))
+        self.use_settings = QPushButton("&Use this photo's settings")
         self.use_settings.setToolTip(
-            self.tr(
-                "Put the exposure time, ISO speed and f-number that the camera recorded into the "
-                "scene, as one step that can be undone."
-            )
+            "Put the exposure time, ISO speed and f-number that the camera recorded into the "
+            "scene, as one step that can be undone."
         )
         self.use_settings.clicked.connect(self.settings_asked)
         self.channel = KeyedComboBox(
-            self.tr("Channel"),
-            self.tr("The colour channel searched for stripes; a grey photo has only one."),
+            "Channel",
+            "The colour channel searched for stripes; a grey photo has only one.",
             {
-                "brightest": self.tr("brightest"),
-                "luma": self.tr("luma"),
-                "red": self.tr("red"),
-                "green": self.tr("green"),
-                "blue": self.tr("blue"),
+                "brightest": "brightest",
+                "luma": "luma",
+                "red": "red",
+                "green": "green",
+                "blue": "blue",
             },
         )
         self.channel.chosen.connect(self.channel_chosen)
         self.scan_axis = KeyedComboBox(
-            self.tr("Scanned"),
-            self.tr(
+            "Scanned",
+            (
                 "The direction in which the shutter scanned: by columns or by lines of the file; "
                 "automatic: across the stripes."
             ),
             {
-                "auto": self.tr("automatic"),
-                "columns": self.tr("by columns"),
-                "lines": self.tr("by lines"),
+                "auto": "automatic",
+                "columns": "by columns",
+                "lines": "by lines",
             },
         )
         self.scan_axis.chosen.connect(self.scan_axis_chosen)
@@ -73,8 +71,8 @@ class PhotoFacts(QWidget):
         notes.addWidget(self.use_settings)
         choices = QHBoxLayout()
         for text, control in (
-            (self.tr("Channel"), self.channel),
-            (self.tr("Scanned"), self.scan_axis),
+            ("Channel", self.channel),
+            ("Scanned", self.scan_axis),
         ):
             choices.addWidget(QLabel(text))
             choices.addWidget(control, 1)
@@ -92,17 +90,15 @@ class PhotoFacts(QWidget):
         self.name.setToolTip(in_tool_tip(one_line(str(photo.path), LONGEST)))
         rows, columns = photo.image.shape
         width, height = (rows, columns) if photo.turned else (columns, rows)
-        size = self.tr("{width} x {height} px, {channel}").format(
-            width=width, height=height, channel=self._channel_word(photo.channel)
-        )
+        size = f"{width} x {height} px, {self._channel_word(photo.channel)}"
         if photo.turned:
-            size += self.tr(", turned")
+            size += ", turned"
         if photo.is_linear:
-            size += self.tr(", RAW: gamma 1")
+            size += ", RAW: gamma 1"
         camera = f"{photo.camera}, " if photo.camera else ""
         self.size_line.set_full_text(camera + size)
         recorded = self._recorded(photo)
-        self.notes.set_full_text(", ".join(recorded) or self.tr("No settings recorded."))
+        self.notes.set_full_text(", ".join(recorded) or "No settings recorded.")
         self.use_settings.setEnabled(bool(recorded))
 
     def show_reading(self, channel: str, scan_axis: str) -> None:
@@ -112,11 +108,11 @@ class PhotoFacts(QWidget):
 
     def _channel_word(self, channel: str) -> str:
         words = {
-            "grey": self.tr("grey"),
-            "luma": self.tr("luma"),
-            "red": self.tr("red channel"),
-            "green": self.tr("green channel"),
-            "blue": self.tr("blue channel"),
+            "grey": "grey",
+            "luma": "luma",
+            "red": "red channel",
+            "green": "green channel",
+            "blue": "blue channel",
         }
         return words.get(channel, channel)
 

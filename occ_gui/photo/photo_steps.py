@@ -19,16 +19,16 @@ class PhotoSteps(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._words = {
-            "open": self.tr("Open"),
-            "sent": self.tr("Sent?"),
-            "match": self.tr("Match"),
-            "apply": self.tr("Apply"),
+            "open": "Open",
+            "sent": "Sent?",
+            "match": "Match",
+            "apply": "Apply",
         }
         meanings = {
-            "open": self.tr("Open a photo of a rolling-shutter camera."),
-            "sent": self.tr("Say what the LED sent, as far as it is known."),
-            "match": self.tr("Find the settings that explain the photo's stripes."),
-            "apply": self.tr("Take over the settings that were found."),
+            "open": "Open a photo of a rolling-shutter camera.",
+            "sent": "Say what the LED sent, as far as it is known.",
+            "match": "Find the settings that explain the photo's stripes.",
+            "apply": "Take over the settings that were found.",
         }
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 4, 0, 4)
@@ -86,7 +86,7 @@ class PhotoSteps(QWidget):
             button.style().polish(button)
 
     def _name(self, name: str, done: str, is_current: bool) -> str:
-        state = {"✓": self.tr("done"), "?": self.tr("doubtful")}.get(done, "")
+        state = {"✓": "done", "?": "doubtful"}.get(done, "")
         if is_current:
-            state = self.tr("next step")
+            state = "next step"
         return f"{self._words[name]}: {state}" if state else self._words[name]

@@ -25,7 +25,7 @@ class PhotoVerdictBar(StateBar):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setAccessibleName(self.tr("Verdict on the photo"))
+        self.setAccessibleName("Verdict on the photo")
         self._photo: Photo | None = None
         self._match: Match | None = None
         self._row: PhotoRow | None = None
@@ -81,7 +81,7 @@ class PhotoVerdictBar(StateBar):
 
     def show_simulation(self, state: State, verdict: str) -> None:
         """Show the verdict on the simulated picture beside that on the photo."""
-        meaning = self.tr("What is read from the simulated picture.")
+        meaning = "What is read from the simulated picture."
         chips = (Chip("simulation", verdict, meaning, state),)
         if chips != self._simulation:
             self._simulation = chips
@@ -92,76 +92,76 @@ class PhotoVerdictBar(StateBar):
         chips = self._simulation
         is_present = self._match is not None and not self._outdated and not self._why_not
         if is_present and not self._is_applied:
-            meaning = self.tr("The simulation is of another scene. Apply takes the match over.")
-            chips = (Chip("applied", self.tr("not applied"), meaning, State.DOUBTFUL), *chips)
+            meaning = "The simulation is of another scene. Apply takes the match over."
+            chips = (Chip("applied", "not applied", meaning, State.DOUBTFUL), *chips)
         self.show_state(state, title, *sentences, chips=chips)
 
     def _verdict(self) -> tuple[State, tuple[str, ...]]:
         if self._is_running:
-            return State.WAITING, (self.tr("Photo: matching…"),)
+            return State.WAITING, ("Photo: matching…",)
         if self._photo is None:
-            sentence = self.tr("Open one, say what was sent as far as you know, and match it.")
-            return State.NEUTRAL, (self.tr("No photo is open"), sentence)
+            sentence = "Open one, say what was sent as far as you know, and match it."
+            return State.NEUTRAL, ("No photo is open", sentence)
         if self._why_not:
             reasons = (" ".join(self._why_not), self._first_of(self._why_not))
-            return State.BAD, (self.tr("Photo: not matched"), *reasons)
+            return State.BAD, ("Photo: not matched", *reasons)
         if self._match is None and self._row is not None:
             return self._listed(self._row)
         if self._match is None:
-            sentence = self.tr("Say what was sent as far as you know, and match it.")
-            return State.NEUTRAL, (self.tr("Photo: no match yet"), sentence)
+            sentence = "Say what was sent as far as you know, and match it."
+            return State.NEUTRAL, ("Photo: no match yet", sentence)
         if self._outdated:
-            title = self.tr("Photo: an earlier match is shown")
-            why = self.tr("It is {why}.").format(why=self._outdated)
+            title = "Photo: an earlier match is shown"
+            why = f"It is {self._outdated}."
             return State.WAITING, (title, why)
         return self._worth(self._match)
 
     def _worth(self, match: Match) -> tuple[State, tuple[str, ...]]:
         found = self._found(match)
         if match.verdict == SURE and not match.exposure_reasons:
-            return State.GOOD, (self.tr("Photo: sure match"), found)
+            return State.GOOD, ("Photo: sure match", found)
         if match.verdict == SURE:
-            title = self.tr("Photo: sure, but for the exposure")
+            title = "Photo: sure, but for the exposure"
             return State.GOOD, (title, " ".join((*match.all_reasons, found)), found)
         reasons = match.all_reasons
         reason = self._first_of(reasons)
-        title = self.tr("Photo: doubtful match")
+        title = "Photo: doubtful match"
         return State.DOUBTFUL, (title, f"{reason} {found}", reason)
 
     def _first_of(self, reasons: Sequence[str]) -> str:
         """Return the first reason, and how many more there are."""
         more = len(reasons) - 1
-        return reasons[0] + (self.tr(" And {count} more.").format(count=more) if more else "")
+        return reasons[0] + (f" And {more} more." if more else "")
 
     def about(self) -> str:
         """Return the photo's name, and what its match is worth and has found, for a figure."""
         if self._photo is None:
             return ""
-        name = self.tr("photo {name}").format(name=one_line(self._photo.path.name))
+        name = f"photo {one_line(self._photo.path.name)}"
         if self._match is None or self._outdated or self._why_not:
-            return self.tr("{photo}, not matched").format(photo=name)
+            return f"{name}, not matched"
         verdict = self._match.verdict
         if self._match.only_exposure_is_doubtful:
-            verdict = self.tr("{verdict} but for the exposure time").format(verdict=verdict)
+            verdict = f"{verdict} but for the exposure time"
         text = (
-            self.tr("{photo}, the match is {verdict}. {found}")
+            "{photo}, the match is {verdict}. {found}"
             if self._is_applied
-            else self.tr("{photo}; its match is {verdict}, but not this scene's. {found}")
+            else "{photo}; its match is {verdict}, but not this scene's. {found}"
         )
         return text.format(photo=name, verdict=verdict, found=self._found(self._match))
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return what the table has found, whose numbers stand in its row."""
         titles = {
-            SURE: (State.GOOD, self.tr("Photo: sure in the table")),
-            DOUBTFUL: (State.DOUBTFUL, self.tr("Photo: doubtful in the table")),
-            REFUSED: (State.BAD, self.tr("Photo: refused in the table")),
-            UNREADABLE: (State.BAD, self.tr("Photo: unreadable in the table")),
+            SURE: (State.GOOD, "Photo: sure in the table"),
+            DOUBTFUL: (State.DOUBTFUL, "Photo: doubtful in the table"),
+            REFUSED: (State.BAD, "Photo: refused in the table"),
+            UNREADABLE: (State.BAD, "Photo: unreadable in the table"),
         }
         state, title = titles[row.verdict]
         here = ""
         if row.verdict in {SURE, DOUBTFUL}:
-            here = self.tr("Match it by itself to see its curves and to apply what is found.")
+            here = "Match it by itself to see its curves and to apply what is found."
         return state, (title, f"{row.note} {here}".strip(), row.note or here)
 
     def _found(self, match: Match) -> str:
@@ -173,9 +173,9 @@ class PhotoVerdictBar(StateBar):
             declared, spread = quantity(name), match.uncertainties.get(name)
             value = with_uncertainty(declared, getattr(match, name), spread)
             if name == "readout_time":
-                value = self.tr("{time} a line").format(time=value)
+                value = f"{value} a line"
             if name == "exposure_time" and match.only_exposure_is_doubtful:
-                value = self.tr("{time} (doubtful)").format(time=value)
+                value = f"{value} (doubtful)"
             parts.append(f"{declared.label.lower()} {value}")
         found = condition_of(match, self._certain) + ", ".join(parts)
         return f"{found[0].upper()}{found[1:]}."

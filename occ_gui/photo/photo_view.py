@@ -85,16 +85,12 @@ class PhotoView(QWidget):
     def _make_invitation(self) -> QWidget:
         page = QWidget()
         text = QLabel(
-            self.tr(
-                "No photo is open. Drop one or several on the window, or open them, to lay one "
-                "over the simulation and find the settings that explain its stripes."
-            )
+            "No photo is open. Drop one or several on the window, or open them, to lay one "
+            "over the simulation and find the settings that explain its stripes."
         )
         text.setWordWrap(True)
-        button = QPushButton(self.tr("&Open photos…"))
-        button.setToolTip(
-            self.tr("Choose a photo of a rolling-shutter camera, or several together.")
-        )
+        button = QPushButton("&Open photos…")
+        button.setToolTip("Choose a photo of a rolling-shutter camera, or several together.")
         button.clicked.connect(self.open_asked)
         layout = QVBoxLayout(page)
         layout.addWidget(text)

@@ -84,21 +84,17 @@ class PlacementForm(QWidget):
         self.column, self.row = self._field(COLUMN, 2), self._field(ROW, 2)
         self.scale = self._field(SCALE, 5)
         self.scale.setSingleStep(0.01)
-        self.by_mouse = QPushButton(self.tr("Mo&ve by mouse"))
+        self.by_mouse = QPushButton("Mo&ve by mouse")
         self.by_mouse.setCheckable(True)
         self.by_mouse.setToolTip(
-            self.tr(
-                "Show a frame round the photo while it lies on the simulation: drag it to move "
-                "the photo, its corners to scale it."
-            )
+            "Show a frame round the photo while it lies on the simulation: drag it to move "
+            "the photo, its corners to scale it."
         )
         self.by_mouse.toggled.connect(self.moving_chosen)
-        self.reset = QPushButton(self.tr("&Reset"))
+        self.reset = QPushButton("&Reset")
         self.reset.setToolTip(
-            self.tr(
-                "Place the photo automatically: pixel on pixel if both pictures have the same "
-                "size, else at the panel's corner."
-            )
+            "Place the photo automatically: pixel on pixel if both pictures have the same "
+            "size, else at the panel's corner."
         )
         self.reset.clicked.connect(self.reset_asked)
         self._lay_out()
@@ -123,9 +119,9 @@ class PlacementForm(QWidget):
         grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(2)
         fields = (
-            (self.tr("Photo at column"), self.column),
-            (self.tr("row"), self.row),
-            (self.tr("scaled by"), self.scale),
+            ("Photo at column", self.column),
+            ("row", self.row),
+            ("scaled by", self.scale),
         )
         for place, (text, field) in enumerate(fields):
             grid.addWidget(QLabel(text), 0, place)

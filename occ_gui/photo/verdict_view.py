@@ -28,9 +28,9 @@ class VerdictView(QWidget):
         font.setBold(True)
         self.word.setFont(font)
         self.word.setContentsMargins(_MARGIN, 0, _MARGIN, 0)
-        self.word.setAccessibleName(self.tr("Verdict on the match"))
+        self.word.setAccessibleName("Verdict on the match")
         self.reasons = QLabel()
-        self.reasons.setAccessibleName(self.tr("Reasons of the verdict"))
+        self.reasons.setAccessibleName("Reasons of the verdict")
         for label in (self.word, self.reasons):
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
@@ -59,11 +59,7 @@ class VerdictView(QWidget):
         """Show whether the verdict is on something else than is asked about now."""
         self._is_outdated = outdated
         name = self._names()[self._verdict]
-        self.word.setText(
-            self.tr("Before: {verdict}").format(verdict=name)
-            if outdated
-            else f"{SIGNS[self._verdict]} {name}"
-        )
+        self.word.setText(f"Before: {name}" if outdated else f"{SIGNS[self._verdict]} {name}")
         self.word.setAutoFillBackground(not outdated)
         palette = QPalette()
         if not outdated:
@@ -81,6 +77,6 @@ class VerdictView(QWidget):
 
     def _names(self) -> dict[str, str]:
         return {
-            SURE: self.tr("sure"),
-            DOUBTFUL: self.tr("doubtful"),
+            SURE: "sure",
+            DOUBTFUL: "doubtful",
         }

@@ -67,8 +67,8 @@ class BeforeWipe(QObject):
         self.line = pg.InfiniteLine(angle=90, movable=True, pen=_LINE_PEN)
         self.line.sigPositionChanged.connect(self._follow_line)
         self._names = (
-            pg.TextItem(self.tr("before"), color=_INK, fill=_PAPER, anchor=(1.0, 0.0)),
-            pg.TextItem(self.tr("now"), color=_INK, fill=_PAPER, anchor=(0.0, 0.0)),
+            pg.TextItem("before", color=_INK, fill=_PAPER, anchor=(1.0, 0.0)),
+            pg.TextItem("now", color=_INK, fill=_PAPER, anchor=(0.0, 0.0)),
         )
         # Above the current picture, below a photo that lies on it.
         for depth, item in enumerate((self.picture, self.line, *self._names)):
@@ -78,20 +78,18 @@ class BeforeWipe(QObject):
         self._make_controls()
 
     def _make_controls(self) -> None:
-        self.chosen = QCheckBox(self.tr("Before"))
+        self.chosen = QCheckBox("Before")
         self.chosen.setToolTip(
-            self.tr(
-                "Show, to the left of a line that can be dragged, the picture before the latest "
-                "change, and to the right of it the one now."
-            )
+            "Show, to the left of a line that can be dragged, the picture before the latest "
+            "change, and to the right of it the one now."
         )
         self.chosen.toggled.connect(self._arrange)
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, _SLIDER_STEPS)
         self.slider.setValue(round(self._share * _SLIDER_STEPS))
         self.slider.setFixedWidth(_SLIDER_WIDTH)
-        self.slider.setAccessibleName(self.tr("Position of the line between before and now"))
-        self.slider.setToolTip(self.tr("Position of the line, in percent of the picture's width."))
+        self.slider.setAccessibleName("Position of the line between before and now")
+        self.slider.setToolTip("Position of the line, in percent of the picture's width.")
         self.slider.valueChanged.connect(self._follow_slider)
         self.slider.hide()
         self.controls = QWidget()

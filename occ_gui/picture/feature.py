@@ -2,8 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Feature, Pane
@@ -27,7 +25,7 @@ def picture(store: Store) -> "Feature[PicturePart]":
 
     return Feature(
         name="picture",
-        title=QCoreApplication.translate("Picture", "Picture"),
+        title="Picture",
         help="guide.md#look-at-the-picture",
         make=make,
         part=part,

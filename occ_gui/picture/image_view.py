@@ -46,8 +46,8 @@ class ImageView(QWidget):
         self._frame: Frame | None = None
         self._mode = MODES[0]
         self._whose = PICTURES[0]
-        self.simulation = PicturePane(self.tr("Simulated picture"))
-        self.photo = PicturePane(self.tr("Photo"))
+        self.simulation = PicturePane("Simulated picture")
+        self.photo = PicturePane("Photo")
         self.overlay = PhotoOverlay(self.simulation.box)
         self.before = BeforeWipe(self.simulation.box)
         self._make_switch()
@@ -74,12 +74,12 @@ class ImageView(QWidget):
 
     def _make_switch(self) -> None:
         self.switch = KeyedComboBox(
-            self.tr("Whose picture is shown"),
-            self.tr(
+            "Whose picture is shown",
+            (
                 "Camera: the picture as the camera gives it; a photo is compared with it.\n"
                 "Receiver: the picture with its contrast enhanced, as it is decoded."
             ),
-            {"camera": self.tr("Camera"), "receiver": self.tr("Receiver")},
+            {"camera": "Camera", "receiver": "Receiver"},
         )
         self.switch.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.switch.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
@@ -87,7 +87,7 @@ class ImageView(QWidget):
 
     def _make_controls(self) -> None:
         self.mode = KeyedComboBox(
-            self.tr("How photo and simulation are shown"), self._mode_meanings(), self._mode_words()
+            "How photo and simulation are shown", self._mode_meanings(), self._mode_words()
         )
         # Its words must not be cut off: some begin alike.
         self.mode.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
@@ -96,14 +96,12 @@ class ImageView(QWidget):
         self.opacity.setRange(0, 100)
         self.opacity.setValue(50)
         self.opacity.setMinimumWidth(60)
-        self.opacity.setAccessibleName(self.tr("Opacity of the photo"))
-        self.opacity.setToolTip(self.tr("Opacity of the photo over the simulation, in percent."))
+        self.opacity.setAccessibleName("Opacity of the photo")
+        self.opacity.setToolTip("Opacity of the photo over the simulation, in percent.")
         self.opacity.valueChanged.connect(lambda percent: self.overlay.set_opacity(percent / 100))
         self.gain = KeyedComboBox(
-            self.tr("Factor of the difference"),
-            self.tr(
-                "The factor by which the difference in grey levels is multiplied, up to white."
-            ),
+            "Factor of the difference",
+            "The factor by which the difference in grey levels is multiplied, up to white.",
             {str(gain): f"× {gain}" for gain in _GAINS},  # noqa: RUF001 - the sign for times
         )
         self.gain.show_key(str(_FIRST_GAIN))
@@ -120,14 +118,14 @@ class ImageView(QWidget):
 
     def _mode_words(self) -> dict[str, str]:
         return {
-            "beside": self.tr("Side by side"),
-            "blend": self.tr("Blended"),
-            "split": self.tr("Split"),
-            "difference": self.tr("Difference"),
+            "beside": "Side by side",
+            "blend": "Blended",
+            "split": "Split",
+            "difference": "Difference",
         }
 
     def _mode_meanings(self) -> str:
-        return self.tr(
+        return (
             "Side by side: each picture in its own view.\n"
             "Blended: the photo over the simulation, with the opacity of the slider.\n"
             "Split: the simulation above a line that can be dragged, the photo below it; matching "
@@ -138,22 +136,22 @@ class ImageView(QWidget):
 
     def _caption(self) -> str:
         frame, mode = self._frame, self._mode
-        picture = self.tr("Simulated picture")
+        picture = "Simulated picture"
         if frame is not None:
             picture = frame.picture_title(self._whose)
             if frame.rows_step > 1:
-                text = self.tr("Draft, one row in {step}: {picture}")
+                text = "Draft, one row in {step}: {picture}"
                 picture = text.format(step=frame.rows_step, picture=picture)
         if self._photo is None:
             return picture
         if mode == "beside":  # whose picture it is stands in the choice beside it
             is_draft = frame is not None and frame.rows_step > 1
-            return self.tr("Simulated, draft") if is_draft else self.tr("Simulated")
+            return "Simulated, draft" if is_draft else "Simulated"
         if mode == "blend":
-            return self.tr("Photo over: {picture}").format(picture=picture)
+            return f"Photo over: {picture}"
         if mode == "split":
-            return self.tr("{picture}, above the line; photo below").format(picture=picture)
-        text = self.tr("Difference × {gain}: photo and {picture}; black where equal")  # noqa: RUF001 - the sign for times
+            return f"{picture}, above the line; photo below"
+        text = "Difference × {gain}: photo and {picture}; black where equal"  # noqa: RUF001 - the sign for times
         return text.format(gain=self.gain.key(), picture=picture[:1].lower() + picture[1:])
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -216,10 +214,8 @@ class ImageView(QWidget):
         self._photo = photo
         if photo is not None:
             self.photo.show_picture(photo.image)
-            turned = self.tr(", its lines shown as columns") if photo.turned else ""
-            self.photo.caption.set_full_text(
-                self.tr("Photo {name}{turned}").format(name=photo.path.name, turned=turned)
-            )
+            turned = ", its lines shown as columns" if photo.turned else ""
+            self.photo.caption.set_full_text(f"Photo {photo.path.name}{turned}")
         self.overlay.set_photo(None if photo is None else photo.image)
         self._arrange()
 

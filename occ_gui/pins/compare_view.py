@@ -47,9 +47,9 @@ class CompareView(QWidget):
         self._seen = False
         self.pins = {name: self._pin_button(name) for name in ("A", "B")}
         self.returns = {name: self._return_button(name) for name in ("A", "B")}
-        self.clear = QPushButton(self.tr("Clear"))
-        self.clear.setToolTip(self.tr("Forget A and B."))
-        self.clear.setAccessibleName(self.tr("Clear A and B"))
+        self.clear = QPushButton("Clear")
+        self.clear.setToolTip("Forget A and B.")
+        self.clear.setAccessibleName("Clear A and B")
         self.clear.clicked.connect(self.clear_asked)
         self.hint = QLabel()
         self.hint.setWordWrap(True)
@@ -60,30 +60,22 @@ class CompareView(QWidget):
         self._redraw()
 
     def _pin_button(self, name: str) -> QPushButton:
-        button = QPushButton(self.tr("Pin {name}").format(name=name))
-        button.setToolTip(
-            self.tr("Keep the current state as {name}, to compare it (Ctrl+Shift+{name}).").format(
-                name=name
-            )
-        )
+        button = QPushButton(f"Pin {name}")
+        button.setToolTip(f"Keep the current state as {name}, to compare it (Ctrl+Shift+{name}).")
         button.clicked.connect(lambda: self.pin_asked.emit(name))
         return button
 
     def _return_button(self, name: str) -> QPushButton:
-        button = QPushButton(self.tr("Take me to {name}").format(name=name))
-        button.setToolTip(
-            self.tr("Replace the scene by that of {name}, as one step that can be undone.").format(
-                name=name
-            )
-        )
+        button = QPushButton(f"Take me to {name}")
+        button.setToolTip(f"Replace the scene by that of {name}, as one step that can be undone.")
         button.clicked.connect(lambda: self.go_asked.emit(name))
         return button
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 3)
-        self.table.setHorizontalHeaderLabels([self.tr("Difference"), "A", "B"])
-        self.table.setAccessibleName(self.tr("Differences between A and B"))
-        self.table.setToolTip(self.tr("Inputs that differ between A and B, then outputs."))
+        self.table.setHorizontalHeaderLabels(["Difference", "A", "B"])
+        self.table.setAccessibleName("Differences between A and B")
+        self.table.setToolTip("Inputs that differ between A and B, then outputs.")
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         # A row with a long sentence can be higher than the table.
@@ -104,9 +96,9 @@ class CompareView(QWidget):
 
     def _make_plot(self) -> None:
         self.plot = new_plot(
-            self.tr("The camera's column profiles of A and B, before enhancement"),
-            self.tr("column, before enhancement"),
-            self.tr("grey level"),
+            "The camera's column profiles of A and B, before enhancement",
+            "column, before enhancement",
+            "grey level",
             self.palette(),
         )
         self.plot.setDownsampling(auto=True, mode="peak")
@@ -174,21 +166,21 @@ class CompareView(QWidget):
 
     def _hint(self, pinned: Pinned) -> str:
         if pinned.a is None and pinned.b is None:
-            return self.tr(
+            return (
                 "Compare two scenes: press Pin A to keep the present one, change it by the "
                 "sliders, and press Pin B. What differs is listed here, beside both profiles."
             )
         if pinned.a is None or pinned.b is None:
             name = "A" if pinned.a is None else "B"
             kept = "B" if name == "A" else "A"
-            return self.tr(
-                "{kept} is kept. Change the scene by the sliders, and press Pin {name}: what "
+            return (
+                f"{kept} is kept. Change the scene by the sliders, and press Pin {name}: what "
                 "differs is listed here."
-            ).format(kept=kept, name=name)
-        return "" if pinned.inputs else self.tr("A and B are the same scene.")
+            )
+        return "" if pinned.inputs else "A and B are the same scene."
 
     def _fill(self, pinned: Pinned) -> None:
-        sections = ((self.tr("Inputs"), pinned.inputs), (self.tr("Outputs"), pinned.outputs))
+        sections = (("Inputs", pinned.inputs), ("Outputs", pinned.outputs))
         self.table.clearSpans()
         self.table.setRowCount(0)
         for title, rows in sections:

@@ -1,7 +1,5 @@
 """The pane that compares the pinned states, declared."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.shell.feature import Feature, Pane
 
@@ -16,7 +14,7 @@ def compare(pins: PinController) -> Feature[None]:
 
     return Feature(
         name="compare",
-        title=QCoreApplication.translate("Pins", "Compare"),
+        title="Compare",
         help="guide.md#compare-two-states",
         make=make,
         actions={

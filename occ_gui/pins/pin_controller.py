@@ -112,27 +112,23 @@ class PinController(QObject):
         self._begin_restoring()
         if self._waiting:
             name, self._waiting = self._waiting, ""
-            self.status_message.emit(
-                self.tr("{name} is not pinned: this scene has no picture.").format(name=name)
-            )
+            self.status_message.emit(f"{name} is not pinned: this scene has no picture.")
 
     def pin(self, name: str) -> None:
         """Keep the current state as A or as B."""
         if self._snapshot is None:
-            self.status_message.emit(self.tr("There is no picture to pin yet."))
+            self.status_message.emit("There is no picture to pin yet.")
             return
         if not self._is_present(self._snapshot):
             self._waiting = name
-            self.status_message.emit(
-                self.tr("{name} is pinned as soon as this scene is computed.").format(name=name)
-            )
+            self.status_message.emit(f"{name} is pinned as soon as this scene is computed.")
             return
         self._waiting = ""
         self._restored.pop(name, None)
         self._put_one(name, self._pin_of(self._snapshot))
-        told = self.tr("Pinned the current state as {name}.")
+        told = "Pinned the current state as {name}."
         if self.pinned.a is None or self.pinned.b is None:
-            told = self.tr("Pinned the current state as {name}: change it, and pin {other}, too.")
+            told = "Pinned the current state as {name}: change it, and pin {other}, too."
         else:
             self.both_pinned.emit()
         other = "B" if name == "A" else "A"
@@ -142,15 +138,15 @@ class PinController(QObject):
         """Forget both."""
         self._restored.clear()
         self._put(None, None)
-        self.status_message.emit(self.tr("Nothing is pinned any more."))
+        self.status_message.emit("Nothing is pinned any more.")
 
     def go_to(self, name: str) -> None:
         """Replace the scene by that of A or of B, as one step."""
         pin = self.kept[_NAMES.index(name)]
         if pin is None:
-            self.status_message.emit(self.tr("Nothing is pinned as {name} yet.").format(name=name))
+            self.status_message.emit(f"Nothing is pinned as {name} yet.")
             return
-        title = self.tr("return to {name}").format(name=name)
+        title = f"return to {name}"
         self._scenes.put(pin.scene, title, new_gesture(), force=pin.settings.force)
 
     def _put_one(self, name: str, pin: Pin) -> None:
@@ -176,14 +172,14 @@ class PinController(QObject):
         for declared, one, other in inputs:
             if one != other:
                 texts = distinguished(declared, one, other)
-                first, second = (text or self.tr("none") for text in texts)
+                first, second = (text or "none" for text in texts)
                 rows.append(ComparedRow(declared.label, first, second, explain(declared)))
         if a.settings.force != b.settings.force:
             labels = self._scenes.settings.effect_labels
             forced = (forced_text(pin.settings.force, labels) for pin in (a, b))
-            first, second = (text or self.tr("none") for text in forced)
-            meaning = self.tr("Effects that you have switched on or off; the plan decides others.")
-            rows.append(ComparedRow(self.tr("Effects by hand"), first, second, meaning))
+            first, second = (text or "none" for text in forced)
+            meaning = "Effects that you have switched on or off; the plan decides others."
+            rows.append(ComparedRow("Effects by hand", first, second, meaning))
         return rows
 
     def _differing_outputs(self, a: Pin, b: Pin) -> Iterator[ComparedRow]:
@@ -191,7 +187,7 @@ class PinController(QObject):
         texts = [{what: text for what, text, _ in pin.outputs} for pin in (a, b)]
         meanings = {what: meaning for what, _, meaning in (*a.outputs, *b.outputs)}
         for what, meaning in meanings.items():
-            one, other = (found.get(what, self.tr("not read")) for found in texts)
+            one, other = (found.get(what, "not read") for found in texts)
             if one != other:
                 yield ComparedRow(what, one, other, meaning)
 
@@ -212,29 +208,29 @@ class PinController(QObject):
         shown = {d.effect: d.label for d in frame.plan.decisions if d.included}
         return [
             (
-                self.tr("Contrast"),
-                self.tr("{swing:.1f} grey levels").format(swing=float(np.ptp(frame.profile))),
-                self.tr("Swing of the profile: its largest minus its smallest value."),
+                "Contrast",
+                f"{float(np.ptp(frame.profile)):.1f} grey levels",
+                "Swing of the profile: its largest minus its smallest value.",
             ),
             (
-                self.tr("Columns a chip"),
-                self.tr("{columns:.2f} columns").format(columns=period / scene.camera.readout_time),
-                self.tr("Switching period divided by readout time."),
+                "Columns a chip",
+                f"{period / scene.camera.readout_time:.2f} columns",
+                "Switching period divided by readout time.",
             ),
             (
-                self.tr("Exposure"),
-                self.tr("{chips:.3f} chips").format(chips=scene.camera.exposure_time / period),
-                self.tr("Exposure time divided by switching period."),
+                "Exposure",
+                f"{scene.camera.exposure_time / period:.3f} chips",
+                "Exposure time divided by switching period.",
             ),
             (
-                self.tr("Effects simulated"),
-                ", ".join(shown.values()) or self.tr("none"),
-                self.tr("The effects that the plan includes."),
+                "Effects simulated",
+                ", ".join(shown.values()) or "none",
+                "The effects that the plan includes.",
             ),
             (
-                self.tr("Simulation time"),
-                self.tr("{time:.1f} ms").format(time=1e3 * snapshot.simulation_seconds),
-                self.tr("Computing time of the picture."),
+                "Simulation time",
+                f"{1e3 * snapshot.simulation_seconds:.1f} ms",
+                "Computing time of the picture.",
             ),
             *self._readings(snapshot),
         ]
@@ -242,25 +238,25 @@ class PinController(QObject):
     def _readings(self, snapshot: Snapshot) -> list[tuple[str, str, str]]:
         rows = []
         for result in (snapshot.decoded, *snapshot.others):
-            name = self.tr("Decoder “{name}”").format(name=result.decoder)
-            rows.append((name, self._reading(result, snapshot), self.tr("The code that it read.")))
+            name = f"Decoder “{result.decoder}”"
+            rows.append((name, self._reading(result, snapshot), "The code that it read."))
             if result.decoder != snapshot.decoded.decoder:
                 sure = result.confidence
-                text = self.tr("none") if sure is None else f"{sure:.3f}"
-                meaning = self.tr("Lead of the best code over the second best, 0 to 1.")
-                rows.append((self.tr("Confidence, “{name}”").format(name=result.decoder), text,
+                text = "none" if sure is None else f"{sure:.3f}"
+                meaning = "Lead of the best code over the second best, 0 to 1."
+                rows.append((f"Confidence, “{result.decoder}”", text,
                              meaning))  # fmt: skip
         return rows
 
     def _reading(self, result: DecodeResult, snapshot: Snapshot) -> str:
         if result.code is None:
-            return result.failure or self.tr("no code read")
+            return result.failure or "no code read"
         right = tuple(result.bits.tolist()) == snapshot.sent
-        verdict = self.tr("right") if right else self.tr("wrong")
+        verdict = "right" if right else "wrong"
         if result.payload:
             payload = one_line(result.payload, _LONGEST_PAYLOAD)
-            return self.tr("“{payload}”, {verdict}").format(payload=payload, verdict=verdict)
-        return self.tr("code {code}, {verdict}").format(code=result.code, verdict=verdict)
+            return f"“{payload}”, {verdict}"
+        return f"code {result.code}, {verdict}"
 
 
 def _simulate_all(pins: dict[str, SimulationRequest], report: Report) -> None:

@@ -30,8 +30,8 @@ class ChipStrip(QWidget):
     def __init__(self, plot: Plot, left: int) -> None:
         super().__init__()
         self.copy = QToolButton()
-        self.copy.setText(self.tr("Copy"))
-        self.copy.setToolTip(self.tr("Copy the chips read from the photo as text."))
+        self.copy.setText("Copy")
+        self.copy.setToolTip("Copy the chips read from the photo as text.")
         self.copy.setFixedWidth(left)
         self.copy.clicked.connect(self._copy)
         self.cells = _Cells(plot)
@@ -47,13 +47,10 @@ class ChipStrip(QWidget):
         self.cells.reading = reading
         self.setVisible(reading is not None)
         if reading is not None:
-            text = self.tr(
-                "{count} chips read from the photo, {columns:.2f} columns each; all of them are "
-                "right with a probability of {share:.0f} %"
-            ).format(
-                count=len(reading.chips),
-                columns=reading.columns_per_chip,
-                share=100.0 * reading.confidence,
+            text = (
+                f"{len(reading.chips)} chips read from the photo, "
+                f"{reading.columns_per_chip:.2f} columns each; all of them are "
+                f"right with a probability of {100.0 * reading.confidence:.0f} %"
             )
             self.cells.setToolTip(text)
             self.cells.setAccessibleDescription(f"{text}: {reading.text}")
@@ -78,7 +75,7 @@ class _Cells(QWidget):
         self.reading: ChipReading | None = None
         self.placement = (0.0, 1.0)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(self.tr("Chips read from the photo"))
+        self.setAccessibleName("Chips read from the photo")
         plot.getViewBox().sigXRangeChanged.connect(self._follow)
 
     def _follow(self) -> None:

@@ -2,8 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Feature, Pane
@@ -32,7 +30,7 @@ def profile(store: Store) -> "Feature[ProfilePart]":
 
     return Feature(
         name="profile",
-        title=QCoreApplication.translate("Profile", "Column profile"),
+        title="Column profile",
         help="guide.md#compare-column-profiles",
         make=make,
         part=part,

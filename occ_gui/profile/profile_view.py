@@ -63,9 +63,7 @@ class ProfileView(QWidget):
         self._before: Snapshot | None = None
         self._before_levels: FloatArray | None = None
         self._simulated_levels: tuple[FloatArray | None, ...] = ()
-        self.plot = new_plot(
-            self.tr("Column profile"), self.tr("column"), self.tr("grey level"), self.palette()
-        )
+        self.plot = new_plot("Column profile", "column", "grey level", self.palette())
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
         # Of several columns on one pixel the extremes are drawn, not an arbitrary one.
         self.plot.setDownsampling(auto=True, mode="peak")
@@ -75,7 +73,7 @@ class ProfileView(QWidget):
         self.reason = QLabel()
         self.reason.setWordWrap(True)
         self.reason.setTextFormat(Qt.TextFormat.PlainText)
-        self.reason.setAccessibleName(self.tr("Why the band model drifts or is undefined"))
+        self.reason.setAccessibleName("Why the band model drifts or is undefined")
         self._make_controls()
         self.plot.getAxis("left").setWidth(self._axis_width())
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
@@ -84,13 +82,13 @@ class ProfileView(QWidget):
     def _make_curves(self) -> None:
         line = Qt.PenStyle
         pens = {
-            "simulation": (self.tr("simulation"), thin(SIMULATION)),
-            "before": (self.tr("before"), thin(BEFORE)),
-            "band": (self.tr("band model"), thin(BAND, line.DashLine)),
-            "photo": (self.tr("photo"), thin(PHOTO)),
+            "simulation": ("simulation", thin(SIMULATION)),
+            "before": ("before", thin(BEFORE)),
+            "band": ("band model", thin(BAND, line.DashLine)),
+            "photo": ("photo", thin(PHOTO)),
             # With the mean and the contrast of the simulation: a camera's gain is not known.
-            "fitted": (self.tr("photo, fitted levels"), thin(PHOTO)),
-            "threshold": (self.tr("threshold"), thin(THRESHOLD, line.DashDotLine)),
+            "fitted": ("photo, fitted levels", thin(PHOTO)),
+            "threshold": ("threshold", thin(THRESHOLD, line.DashDotLine)),
         }
         for key, (text, pen) in pens.items():
             self.legend.add_line(key, pen, text)
@@ -115,20 +113,16 @@ class ProfileView(QWidget):
             item.setBrush(shade)
 
     def _make_controls(self) -> None:
-        self.enhanced = QCheckBox(self.tr("Enhanced"))
+        self.enhanced = QCheckBox("Enhanced")
         self.enhanced.setToolTip(
-            self.tr(
-                "Show every curve after the receiver's contrast enhancement: the simulation's as "
-                "the decoders read it, the others each by its own histogram."
-            )
+            "Show every curve after the receiver's contrast enhancement: the simulation's as "
+            "the decoders read it, the others each by its own histogram."
         )
         self.enhanced.toggled.connect(self._draw_before)
         self.enhanced.toggled.connect(self._redraw)
         self.enhanced.toggled.connect(self.enhanced_chosen)
         self._packets = self._range_button(*first_periods(True))
-        self._panel = self._range_button(
-            self.tr("Panel"), self.tr("Show all columns of the panel, and follow it.")
-        )
+        self._panel = self._range_button("Panel", "Show all columns of the panel, and follow it.")
         self._packets.setChecked(True)
 
     def _range_button(self, text: str, tip: str) -> QPushButton:

@@ -26,11 +26,11 @@ class ResidualPlot(QWidget):
     def __init__(self, linked: pg.PlotWidget, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.numbers = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.numbers.setAccessibleName(self.tr("Agreement of photo and simulation"))
+        self.numbers.setAccessibleName("Agreement of photo and simulation")
         self.plot = new_plot(
-            self.tr("Residual, photo minus simulation"),
-            self.tr("column"),
-            self.tr("levels"),  # the line above names the residual: a longer label is cut off here
+            "Residual, photo minus simulation",
+            "column",
+            "levels",  # the line above names the residual: a longer label is cut off here
             self.palette(),
         )
         self.plot.setMinimumHeight(_LEAST_HEIGHT)
@@ -65,7 +65,7 @@ class ResidualPlot(QWidget):
         self.plot.setVisible(comparison is not None)
         if comparison is None:
             self.curve.setData([], [])
-            self.numbers.set_full_text(profile.sentence or self.tr("Searching for stripes…"))
+            self.numbers.set_full_text(profile.sentence or "Searching for stripes…")
             return
         residual = comparison.residual
         columns = comparison.first_column + np.arange(len(residual), dtype=np.float64)
@@ -78,12 +78,11 @@ class ResidualPlot(QWidget):
         self.numbers.set_full_text(self._in_words(comparison, (1.0 + 2.0 * _PADDING) * limit))
 
     def _in_words(self, comparison: Comparison, shown: float) -> str:
-        text = self.tr(
-            "Residual, photo minus the present scene's simulation: correlation {correlation:.4f} "
-            "as they lie here, RMSE {rmse:.2f} grey levels"
-        ).format(correlation=comparison.correlation, rmse=comparison.rmse)
+        text = (
+            "Residual, photo minus the present scene's simulation: correlation "
+            f"{comparison.correlation:.4f} "
+            f"as they lie here, RMSE {comparison.rmse:.2f} grey levels"
+        )
         if comparison.largest_residual > shown:
-            text += self.tr("; at most {largest:.0f}, beyond the axis").format(
-                largest=comparison.largest_residual
-            )
+            text += f"; at most {comparison.largest_residual:.0f}, beyond the axis"
         return text

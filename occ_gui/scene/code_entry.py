@@ -38,13 +38,11 @@ class CodeEntry(QWidget):
         self.title = QLabel()
         """What is sent, to stand above the fields."""
         self.number = CountEdit(count("code"))
-        self.number.setAccessibleName(self.tr("Code as a number"))
+        self.number.setAccessibleName("Code as a number")
         self.bits = QLineEdit()
         self.bits.setFont(QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont))
-        self.bits.setAccessibleName(self.tr("Code as bits"))
-        self.bits.setToolTip(
-            self.tr("The bits, the first sent first; or a text to be sent, such as HELLO.")
-        )
+        self.bits.setAccessibleName("Code as bits")
+        self.bits.setToolTip("The bits, the first sent first; or a text to be sent, such as HELLO.")
         layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setVerticalSpacing(1)
@@ -76,22 +74,20 @@ class CodeEntry(QWidget):
         self.number.blockSignals(True)
         self.number.limit(2**self._bits - 1)
         self.number.blockSignals(False)
-        self.number.setToolTip(
-            self.tr("The code sent, from 0 to {largest}.").format(largest=2**self._bits - 1)
-        )
+        self.number.setToolTip(f"The code sent, from 0 to {2**self._bits - 1}.")
         self._display(transmitter.code)
 
     def _show_title(self, scene: Scene | None) -> None:
         if scene is not None and scene.transmitter.pattern:
-            text = self.tr("Code: not sent, a raw pattern is")
+            text = "Code: not sent, a raw pattern is"
         elif scene is not None and scene.transmitter.payload:
             text = {
-                "text": self.tr("Sent as text: {bits} bits"),
-                "hex": self.tr("Sent as bytes: {bits} bits"),
-                "bits": self.tr("Sent as bits: {bits} bits"),
+                "text": "Sent as text: {bits} bits",
+                "hex": "Sent as bytes: {bits} bits",
+                "bits": "Sent as bits: {bits} bits",
             }[form_of(scene.transmitter.payload)].format(bits=scene.transmitter.payload_length)
         else:
-            text = self.tr("Code, as a number and as bits")
+            text = "Code, as a number and as bits"
         if text != self.title.text():
             self.title.setText(text)
             self.number.setVisible(scene is None or not scene.transmitter.payload)
@@ -145,9 +141,10 @@ class CodeEntry(QWidget):
 
     def _read_digits(self, text: str) -> None:
         if not re.fullmatch(f"[01]{{{self._bits}}}", text):
-            sentence = self.tr(
-                "The bits are {text}; allowed: {bits} characters 0 and 1. As a text: text:{digits}."
-            ).format(text=shown(text), bits=self._bits, digits=one_line(text, _MOST_DIGITS))
+            sentence = (
+                f"The bits are {shown(text)}; allowed: {self._bits} characters 0 and 1. As a "
+                f"text: text:{one_line(text, _MOST_DIGITS)}."
+            )
             self._refuse(sentence)
             return
         self._enter_payload("")

@@ -55,11 +55,9 @@ class ControlPanel(QWidget):
     ) -> None:
         super().__init__(parent)
         self.preset = QComboBox()
-        self.preset.setAccessibleName(self.tr("Preset"))
-        self.preset.setToolTip(
-            self.tr("Load a scene that comes with the program, or one of your own.")
-        )
-        self.preset.setPlaceholderText(self.tr("Choose a preset"))
+        self.preset.setAccessibleName("Preset")
+        self.preset.setToolTip("Load a scene that comes with the program, or one of your own.")
+        self.preset.setPlaceholderText("Choose a preset")
         self.preset.setSizeAdjustPolicy(
             QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
         )
@@ -72,22 +70,22 @@ class ControlPanel(QWidget):
         others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
         model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
         self.panels = {
-            self.tr("Main"): ParameterPanel(MAIN, with_scales=True),
-            self.tr("Panel and camera"): ParameterPanel(n for n in others if n not in model),
-            self.tr("Effects"): ParameterPanel(effects, self._headings(stages)),
-            self.tr("Model"): ParameterPanel(model),
+            "Main": ParameterPanel(MAIN, with_scales=True),
+            "Panel and camera": ParameterPanel(n for n in others if n not in model),
+            "Effects": ParameterPanel(effects, self._headings(stages)),
+            "Model": ParameterPanel(model),
         }
-        main = self.panels[self.tr("Main")]
+        main = self.panels["Main"]
         self.player = Player(self.main_rows(), main.play_buttons, self)
         self._lay_out()
 
     def _headings(self, stages: Mapping[str, str]) -> dict[str, str]:
         """Return the headings of the stages, by the first parameter of each."""
         words = {
-            "light": self.tr("Light: LED and room"),
-            "optics": self.tr("Optics: from the panel through the lens"),
-            "sensor": self.tr("Sensor"),
-            "processing": self.tr("File"),
+            "light": "Light: LED and room",
+            "optics": "Optics: from the panel through the lens",
+            "sensor": "Sensor",
+            "processing": "File",
         }
         first: dict[str, str] = {}
         for name, stage in stages.items():
@@ -102,7 +100,7 @@ class ControlPanel(QWidget):
 
     def _lay_out(self) -> None:
         layout = QVBoxLayout(self)
-        layout.addWidget(QLabel(self.tr("Preset")))
+        layout.addWidget(QLabel("Preset"))
         layout.addWidget(self.preset)
         layout.addWidget(self.forced)
         layout.addWidget(self.code.title)
@@ -138,7 +136,7 @@ class ControlPanel(QWidget):
             by_name = name in own
             self._list(one_line(name if by_name else title), name, title if by_name else name)
         for name, reason in unreadable:
-            text = self.tr("{name}: cannot be read").format(name=one_line(name))
+            text = f"{one_line(name)}: cannot be read"
             place = self._list(text, None, reason)
             entries = self.preset.model()
             if isinstance(entries, QStandardItemModel):
@@ -155,7 +153,7 @@ class ControlPanel(QWidget):
 
     def add_foot(self, widget: QWidget) -> None:
         """Add a widget at the lower end of the first page."""
-        self.panels[self.tr("Main")].add_foot(widget)
+        self.panels["Main"].add_foot(widget)
 
     def main_rows(self) -> dict[str, QuantityRow]:
         """Return the rows of the first page, by the names of their parameters."""
@@ -175,7 +173,7 @@ class ControlPanel(QWidget):
         (row,) = (panel.rows["bits"] for panel in self.panels.values() if "bits" in panel.rows)
         if isinstance(row, CountRow):
             sent = scene.transmitter
-            reason = self.tr("Bits of the payload, which is sent in place of the code.")
+            reason = "Bits of the payload, which is sent in place of the code."
             row.show_instead(*((sent.payload_length, reason) if sent.payload else (None,)))
 
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
@@ -219,10 +217,10 @@ class ControlPanel(QWidget):
         changed
             In that case the preset that it was, None if it was none.
         """
-        text = self.tr("Choose a preset")
+        text = "Choose a preset"
         place = -1 if changed is None else self.preset.findData(changed)
         if place >= 0:
-            text = self.tr("{title}, changed").format(title=self.preset.itemText(place))
+            text = f"{self.preset.itemText(place)}, changed"
         if text != self.preset.placeholderText():
             self.preset.setPlaceholderText(text)
         self.preset.setCurrentIndex(-1 if name is None else self.preset.findData(name))

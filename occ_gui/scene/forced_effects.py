@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QCoreApplication, Qt, Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
     """Say in words how an effect is switched: on or off by hand, or by the plan (None)."""
     texts = {
-        True: QCoreApplication.translate("ForcedEffects", "{effect} on by hand"),
-        False: QCoreApplication.translate("ForcedEffects", "{effect} off by hand"),
-        None: QCoreApplication.translate("ForcedEffects", "{effect} as planned"),
+        True: "{effect} on by hand",
+        False: "{effect} off by hand",
+        None: "{effect} as planned",
     }
     return texts[included].format(effect=labels.get(effect, effect))
 
@@ -43,11 +43,11 @@ class ForcedEffects(QWidget):
         self.text = QLabel()
         self.text.setWordWrap(True)
         self.text.setTextFormat(Qt.TextFormat.PlainText)
-        self.text.setAccessibleName(self.tr("Effects switched by hand"))
+        self.text.setAccessibleName("Effects switched by hand")
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
-        self.back = QPushButton(self.tr("Back to the plan"))
+        self.back = QPushButton("Back to the plan")
         self.back.setToolTip(
-            self.tr("Let the plan decide on these effects again, as one step that can be undone.")
+            "Let the plan decide on these effects again, as one step that can be undone."
         )
         self.back.clicked.connect(self.released)
         layout = QHBoxLayout(self)

@@ -53,10 +53,11 @@ class HoldBrightness(QObject):
         held = min(max(wanted, low), high)
         self._asked = (time, held)
         if held != wanted:
-            self._limit = self.tr(
-                "The brightness cannot be held: it takes ISO {wanted}; the slider goes from "
-                "{low} to {high}."
-            ).format(wanted=iso.format(wanted), low=iso.format(low), high=iso.format(high))
+            self._limit = (
+                f"The brightness cannot be held: it takes ISO {iso.format(wanted)}; the "
+                "slider goes from "
+                f"{iso.format(low)} to {iso.format(high)}."
+            )
         return {_EXPOSURE: time, _ISO: held}
 
     def report_limit(self) -> None:

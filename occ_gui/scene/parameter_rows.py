@@ -262,7 +262,7 @@ class PatternRow(ParameterRow):
         self._declared = declared
         self._shown = ""
         self.field = QLineEdit()
-        self.field.setPlaceholderText(self.tr("empty: {what}").format(what=declared.empty))
+        self.field.setPlaceholderText(f"empty: {declared.empty}")
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self._gestures.end)

@@ -22,12 +22,10 @@ class PlayButton(IconButton):
         self._name = name
         self.setCheckable(True)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
-        self.setAccessibleName(self.tr("Play: {label}").format(label=label))
+        self.setAccessibleName(f"Play: {label}")
         self.setToolTip(
-            self.tr(
-                "Run the slider from end to end and back.\n"
-                "The right mouse button offers speed, loop and a film of it."
-            )
+            "Run the slider from end to end and back.\n"
+            "The right mouse button offers speed, loop and a film of it."
         )
         self.clicked.connect(self._switch)
         self.customContextMenuRequested.connect(self._ask)

@@ -111,7 +111,7 @@ class Player(QObject):
         """Make the menu of a slider's button: speed, loop, and a film of it."""
         menu = QMenu(self._buttons[name])
         words = {
-            "slow": self.tr("&Slow"), "normal": self.tr("&Normal"), "fast": self.tr("&Fast"),
+            "slow": "&Slow", "normal": "&Normal", "fast": "&Fast",
         }  # fmt: skip
         speeds = QActionGroup(menu)
         for speed in SPEEDS:
@@ -122,11 +122,11 @@ class Player(QObject):
             speeds.addAction(action)
         speeds.triggered.connect(self._choose_speed)
         menu.addSeparator()
-        loop = menu.addAction(self.tr("&Loop"))
+        loop = menu.addAction("&Loop")
         loop.setCheckable(True)
         loop.setChecked(self.is_looping)
         loop.toggled.connect(self._set_loop)
-        film = menu.addAction(self.tr("Save as &animation…"))
+        film = menu.addAction("Save as &animation…")
         film.setData(name)
         film.triggered.connect(self._ask_film)
         menu.aboutToHide.connect(menu.deleteLater)

@@ -35,7 +35,7 @@ class SliderScale(QWidget):
         self.marks: tuple[MarkedValue, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         low, high = (quantity.format(value, _DIGITS) for value in quantity.slider)
-        self.setAccessibleName(self.tr("From {low} to {high}").format(low=low, high=high))
+        self.setAccessibleName(f"From {low} to {high}")
 
     def show_marks(self, marks: Sequence[MarkedValue]) -> None:
         """Show marks at some values; those beyond the slider's ends are left out."""

@@ -57,10 +57,11 @@ class Spotlight(QObject):
         _bring_into_view(panel, row)
         children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
         marked = (row, label, panel.play_buttons.get(name))
-        why = self.tr(
-            "This step of the lesson is about “{control}”. The other controls of this page take "
+        why = (
+            f"This step of the lesson is about “{PARAMETERS[name].label}”. The other "
+            "controls of this page take "
             "nothing until it is left."
-        ).format(control=PARAMETERS[name].label)
+        )
         for widget in children:
             if widget not in marked:
                 self._dim(widget, why)

@@ -1,7 +1,5 @@
 """Words for the band model's drift: its bands run off those of the simulation."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.simulation.snapshot import ColumnView
 from occ_model.scene.parameters import PARAMETERS
 
@@ -15,9 +13,9 @@ def drift_of(reading: ColumnView) -> str:
     if columns < _MIN_VISIBLE_DRIFT:
         return ""
     text = (
-        _tr("drifts {columns} columns a cycle")
+        "drifts {columns} columns a cycle"
         if reading.scene.transmitter.pattern
-        else _tr("drifts {columns} columns a packet")
+        else "drifts {columns} columns a packet"
     )
     return text.format(columns=f"{columns:.0f}" if columns >= 10.0 else f"{columns:.1f}")
 
@@ -25,13 +23,13 @@ def drift_of(reading: ColumnView) -> str:
 def drift_sentence(reading: ColumnView) -> str:
     """Say so with the reason in a line; empty where it does not."""
     drift = drift_of(reading)
-    text = _tr("The band model {drift}: it rounds, and skips the exposure between equal chips.")
+    text = "The band model {drift}: it rounds, and skips the exposure between equal chips."
     return text.format(drift=drift) if drift else ""
 
 
 def what_is_compared() -> str:
     """Say what the band model is compared with, where its bands lie where they are sent."""
-    return _tr(
+    return (
         "The band model is drawn with the exact length of each run of chips, so that its bands lie "
         "where those of the simulation do: compare the width and levels of the bands of a packet. "
         "Read literally, in whole columns, it drifts: the field “{field}” under Model."
@@ -40,13 +38,9 @@ def what_is_compared() -> str:
 
 def why_it_drifts() -> str:
     """Say why, and what can be done about it."""
-    return _tr(
+    return (
         "The band model rounds each band to whole columns, and leaves out the exposure between two "
         "equal chips. Both add up along the picture, so that its bands drift away from those of "
         "the simulation. The field “{field}” under Model aligns them: exact run lengths, so that "
         "width and levels of the bands can be compared packet by packet."
     ).format(field=PARAMETERS["band_reading"].label)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("BandDrift", text)

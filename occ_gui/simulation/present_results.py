@@ -43,7 +43,7 @@ class PresentResults(QObject):
         if self._is_refused:
             self._give_up()
         elif not self._serve():
-            self.status_message.emit(self.tr("Waiting for the picture of this scene…"))
+            self.status_message.emit("Waiting for the picture of this scene…")
 
     def _serve(self) -> bool:
         """Deliver the latest results to all who wait, if they are those of the present scene."""
@@ -70,6 +70,4 @@ class PresentResults(QObject):
 
     def _give_up(self) -> None:
         self._waiting.clear()
-        self.status_message.emit(
-            self.tr("This scene has no picture: nothing has been written or copied.")
-        )
+        self.status_message.emit("This scene has no picture: nothing has been written or copied.")

@@ -4,8 +4,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
@@ -51,9 +49,9 @@ class Verdict:
         if not self.reason or self.state is not State.BAD:
             return self.title
         cause = _CLAUSE_END.split(self.reason, maxsplit=1)[0]
-        if cause.startswith(_tr("No code")):
+        if cause.startswith("No code"):
             return cause
-        return _tr("No code: {cause}").format(cause=cause[:1].lower() + cause[1:])
+        return f"No code: {cause[:1].lower() + cause[1:]}"
 
 
 def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
@@ -63,7 +61,7 @@ def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
 
 
 def _awaited() -> str:
-    return _tr("This decoder takes longer: it reads the picture now.")
+    return "This decoder takes longer: it reads the picture now."
 
 
 def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
@@ -80,28 +78,22 @@ def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
 def what_was_read(decoded: DecodeResult) -> str:
     """Name the code or the payload that a decoder read, as the start of a sentence."""
     if decoded.payload:
-        return _tr("“{payload}”").format(payload=one_line(decoded.payload, _LONGEST_PAYLOAD))
-    return _tr("Code {code}").format(code=decoded.code)
+        return f"“{one_line(decoded.payload, _LONGEST_PAYLOAD)}”"
+    return f"Code {decoded.code}"
 
 
 def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
     """Compare what a decoder read with the bits sent; these are empty for a raw pattern."""
     if not sent:
-        return Verdict(State.NEUTRAL, _tr("No code is sent"), decoded.failure or "")
+        return Verdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
     if decoded.failure == _awaited():
-        title = _tr("Reading by the decoder {name}").format(name=decoded.decoder)
+        title = f"Reading by the decoder {decoded.decoder}"
         return Verdict(State.WAITING, title, decoded.failure)
     if decoded.code is None:
-        return Verdict(State.BAD, _tr("No code read"), decoded.failure or "")
+        return Verdict(State.BAD, "No code read", decoded.failure or "")
     if is_right(decoded, sent):
-        title = _tr("{what} read, all bits right").format(what=what_was_read(decoded))
+        title = f"{what_was_read(decoded)} read, all bits right"
         return Verdict(State.GOOD, title)
     wrong = len(wrong_places(sent, decoded.bits.tolist()))
-    title = _tr("{what} read, {wrong} of {bits} bits wrong").format(
-        what=what_was_read(decoded), wrong=wrong, bits=len(sent)
-    )
+    title = f"{what_was_read(decoded)} read, {wrong} of {len(sent)} bits wrong"
     return Verdict(State.BAD if wrong == len(sent) else State.DOUBTFUL, title)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("Verdict", text)

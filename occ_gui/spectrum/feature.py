@@ -1,7 +1,5 @@
 """The pane of the spectrum, declared."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.shell.feature import Feature, Pane
 from occ_gui.simulation.snapshot import Snapshot
 
@@ -10,7 +8,7 @@ def spectrum() -> Feature[Snapshot]:
     """Declare the pane: it shows the exact picture that is there."""
     return Feature(
         name="spectrum",
-        title=QCoreApplication.translate("Spectrum", "Spectrum and levels"),
+        title="Spectrum and levels",
         help="guide.md#measure",
         make=_make,
         part=lambda _, results: results.snapshot,

@@ -41,24 +41,24 @@ class SpectrumView(QWidget):
 
     def _make_spectrum(self) -> None:
         self.spectrum = new_plot(
-            self.tr("Spectrum of the column profile"), self.tr("frequency of the light, F (kHz)"),
-            self.tr("amplitude (levels)"), self.palette(),
+            "Spectrum of the column profile", "frequency of the light, F (kHz)",
+            "amplitude (levels)", self.palette(),
         )  # fmt: skip
         self.amplitudes = self.spectrum.add_curve(thin(SIMULATION))
         self.response = self.spectrum.add_curve(thin(BAND, Qt.PenStyle.DashLine))
         self._zeros: list[pg.InfiniteLine] = []
         self.legend = LineLegend()
-        self.legend.add_line("profile", thin(SIMULATION), self.tr("profile"))
+        self.legend.add_line("profile", thin(SIMULATION), "profile")
         self.legend.add_line(
             "response",
             thin(BAND, Qt.PenStyle.DashLine),
-            self.tr("what the exposure leaves, |sinc(F t)|; zero at F = k / t"),
+            "what the exposure leaves, |sinc(F t)|; zero at F = k / t",
         )
 
     def _make_histogram(self) -> None:
         self.histogram = new_plot(
-            self.tr("Histogram of the panel's pixels"), self.tr("grey level"),
-            self.tr("share (%)"), self.palette(),
+            "Histogram of the panel's pixels", "grey level",
+            "share (%)", self.palette(),
         )  # fmt: skip
         self.bars = pg.BarGraphItem(x=np.arange(256), height=np.zeros(256), width=1.0)
         self.histogram.addItem(self.bars, ignoreBounds=True)
@@ -91,11 +91,10 @@ class SpectrumView(QWidget):
         self.spectrum.setXRange(0.0, last, padding=0)
         self.spectrum.setYRange(0.0, highest, padding=0)
         peak = int(found.amplitudes.argmax())
-        zero = HERTZ.format(found.zeros[0], 4) if found.zeros else self.tr("none in view")
+        zero = HERTZ.format(found.zeros[0], 4) if found.zeros else "none in view"
         self.spectrum.setAccessibleDescription(
-            self.tr("Strongest at {peak}; first zero of the exposure's response: {zero}").format(
-                peak=HERTZ.format(float(found.frequencies[peak]), 4), zero=zero
-            )
+            f"Strongest at {HERTZ.format(float(found.frequencies[peak]), 4)}; first zero "
+            f"of the exposure's response: {zero}"
         )
 
     def show_histogram(self, found: LevelHistogram) -> None:
@@ -103,11 +102,10 @@ class SpectrumView(QWidget):
         self.bars.setOpts(height=100.0 * found.shares)
         self.histogram.setYRange(0.0, max(_HEADROOM * 100.0 * float(found.shares.max()), 1.0))
         if found.is_saturated:
-            text = self.tr(
-                "⚠ {share:.0f} % of the panel's pixels are white: the light beyond is lost."
-            ).format(share=100.0 * found.white)
-        else:
-            text = self.tr("The panel's pixels: {share:.1f} % are white.").format(
-                share=100.0 * found.white
+            text = (
+                f"⚠ {100.0 * found.white:.0f} % of the panel's pixels are white: the light "
+                "beyond is lost."
             )
+        else:
+            text = f"The panel's pixels: {100.0 * found.white:.1f} % are white."
         self.sentence.setText(text)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from PySide6.QtCore import QCoreApplication, QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
 
 from occ_gui.widgets.state_look import State, colours_of
@@ -10,8 +10,7 @@ from occ_gui.widgets.state_look import State, colours_of
 
 def header_texts() -> tuple[str, ...]:
     """Return what a header is called, shorter for narrower cells."""
-    translate = QCoreApplication.translate
-    return translate("BitCells", "header"), translate("BitCells", "H")
+    return "header", "H"
 
 
 _MARKS = {State.GOOD: " ✓", State.BAD: " ✗"}

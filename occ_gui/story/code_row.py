@@ -48,7 +48,7 @@ class CodeRow(StoryRow):
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Code"), axis, crosshair, parent)
+        super().__init__("Code", axis, crosshair, parent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._decoded: DecodeResult | None = None
         self._sent: tuple[int, ...] = ()
@@ -78,9 +78,9 @@ class CodeRow(StoryRow):
         if self._decoded is None:
             return ""
         bits = self._decoded.bits.tolist()
-        return self.tr("sent {sent}, received {received}, {wrong} wrong").format(
-            sent="".join(map(str, self._sent)) or self.tr("no code"),
-            received="".join(map(str, bits)) or self.tr("nothing"),
+        return "sent {sent}, received {received}, {wrong} wrong".format(
+            sent="".join(map(str, self._sent)) or "no code",
+            received="".join(map(str, bits)) or "nothing",
             wrong=len(wrong_places(self._sent, bits)),
         )
 
@@ -184,9 +184,9 @@ class CodeRow(StoryRow):
 
     def _say_instead(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> None:
         """Say why there are no chips: none were read, or the decoder reads whole packets."""
-        text = self.tr("No chips were read.")
+        text = "No chips were read."
         if decoded.code is not None:
-            text = self.tr("This decoder compares whole packets, and reads no single chips.")
+            text = "This decoder compares whole packets, and reads no single chips."
         self._write(painter, place, text)
 
     def _write(self, painter: QPainter, place: QRectF, text: str) -> None:
@@ -197,13 +197,13 @@ class CodeRow(StoryRow):
     def list_label(self) -> str:
         """Return what is said before bits that are not under the columns that carry them."""
         if self._decoded is not None and self._decoded.failure is not None:
-            return self.tr("not accepted:")
-        return self.tr("from all packets together:")
+            return "not accepted:"
+        return "from all packets together:"
 
     def _list_bits(self, painter: QPainter, place: QRectF, decoded: DecodeResult) -> list[Span]:
         """Draw bits that have no columns of their own side by side, and say so before them."""
         if not decoded.bits.size:
-            self._write(painter, place, self.tr("No bits were read."))
+            self._write(painter, place, "No bits were read.")
             return []
         label = self.list_label()
         self._write(painter, place, label)
@@ -222,8 +222,8 @@ class CodeRow(StoryRow):
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         is_text = bool(self.letters) and self._form == "text"
-        letters = self.tr("text") if is_text else self.tr("bytes")
-        names = (self.tr("chips"), letters if self.letters else "", self.tr("bits"))
+        letters = "text" if is_text else "bytes"
+        names = ("chips", letters if self.letters else "", "bits")
         for text, (top, bottom) in zip(names, self._lines(), strict=True):
             painter.drawText(QRectF(0, top, area.left() - 6, bottom - top), flags, text)
 

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.story.code_row import CodeRow
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.profile_row import ProfileRow
@@ -80,29 +78,25 @@ def values_at(
 def in_words(values: ColumnValues, scene: Scene) -> str:
     """Write the values of a column in one line."""
     parts = [
-        _tr("column {column}").format(column=values.column),
-        _tr("{time:.1f} µs").format(time=values.time * _MICRO),
+        f"column {values.column}",
+        f"{values.time * _MICRO:.1f} µs",
         _light(values.light),
     ]
     if values.share is not None:
         exposure = scene.camera.exposure_time
         lit, whole = SECOND.format(values.share * exposure, 3), SECOND.format(exposure, 4)
-        parts.append(_tr("lit for {lit} of {exposure}").format(lit=lit, exposure=whole))
-    parts.append(_tr("level {level:.1f}").format(level=values.level))
+        parts.append(f"lit for {lit} of {whole}")
+    parts.append(f"level {values.level:.1f}")
     if values.chip is not None:
-        parts.append(_tr("chip {chip}").format(chip=values.chip))
+        parts.append(f"chip {values.chip}")
     if values.bit is not None and values.value is not None:
-        mark = {State.GOOD: _tr("right"), State.BAD: _tr("wrong")}.get(values.state, "")
-        text = _tr("bit {number}: {value} {mark}")
+        mark = {State.GOOD: "right", State.BAD: "wrong"}.get(values.state, "")
+        text = "bit {number}: {value} {mark}"
         parts.append(text.format(number=values.bit + 1, value=values.value, mark=mark).rstrip())
     return "  ·  ".join(parts)
 
 
 def _light(light: float) -> str:
     if light in (0.0, 1.0):
-        return _tr("light on") if light else _tr("light off")
-    return _tr("light {share:.0f} %").format(share=100.0 * light)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("ColumnValues", text)
+        return "light on" if light else "light off"
+    return f"light {100.0 * light:.0f} %"

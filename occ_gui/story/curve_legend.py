@@ -37,7 +37,7 @@ class CurveLegend(QWidget):
         self.shown: tuple[str, ...] = ()
         self.note = ""
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setAccessibleName(self.tr("Curves of the profile"))
+        self.setAccessibleName("Curves of the profile")
 
     def rename(self, key: str, name: str) -> None:
         """Give a line another name."""

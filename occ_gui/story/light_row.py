@@ -61,13 +61,11 @@ class LightRow(StoryRow):
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Light"), axis, crosshair, parent)
+        super().__init__("Light", axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self.setToolTip(
-            self.tr(
-                "The LED's light over time. The window is the exposure of the chosen column: drag "
-                "it, click, or use the arrow keys."
-            )
+            "The LED's light over time. The window is the exposure of the chosen column: drag "
+            "it, click, or use the arrow keys."
         )
         self._scene: Scene | None = None
         self._drawn_from: tuple[object, ...] = ()
@@ -156,7 +154,7 @@ class LightRow(StoryRow):
     def _say_too_fast(self, painter: QPainter, light: QRectF) -> None:
         painter.fillRect(light, _GLOW[is_dark(self.palette())])
         painter.setPen(self.colour(QPalette.ColorRole.Text))
-        text = self.tr("The LED switches faster than this view can show: zoom in.")
+        text = "The LED switches faster than this view can show: zoom in."
         painter.drawText(light, Qt.AlignmentFlag.AlignCenter, text)
 
     def _draw_digits(self, painter: QPainter, light: QRectF, curve: LightCurve) -> None:
@@ -230,12 +228,12 @@ class LightRow(StoryRow):
             return ""
         sent = self._scene.transmitter
         if sent.pattern:
-            return self.tr("a raw pattern of {chips} chips").format(chips=len(sent.pattern))
+            return f"a raw pattern of {len(sent.pattern)} chips"
         if sent.payload:
             what = one_line(sent.payload.partition(":")[2], _MOST_LETTERS)
-            text = self.tr("“{what}”, {bits} bits")
+            text = "“{what}”, {bits} bits"
         else:
-            what, text = str(sent.code), self.tr("code {what}, {bits} bits")
+            what, text = str(sent.code), "code {what}, {bits} bits"
         return text.format(what=what, bits=len(self._sent))
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
@@ -243,13 +241,13 @@ class LightRow(StoryRow):
         light = self._light_area(area)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        for text, y in ((self.tr("on"), light.top()), (self.tr("off"), light.bottom())):
+        for text, y in (("on", light.top()), ("off", light.bottom())):
             painter.drawText(QRectF(0, y - 8, area.left() - 6, 16), flags, text)
         strip = self._strip_height()
         if light.bottom() < area.bottom() - strip and self._scene is not None:
             place = QRectF(4, area.bottom() - strip, area.left() - 10, strip)
             left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
-            painter.drawText(place, left, self.tr("sent"))
+            painter.drawText(place, left, "sent")
 
     def draw_markers(self, painter: QPainter, area: QRectF) -> None:
         """Draw the window: shaded, hatched where the LED is on, with its length above."""

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QCoreApplication, QObject, Signal
+from PySide6.QtCore import QObject, Signal
 
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
@@ -81,16 +81,12 @@ def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -
 def in_words(measured: Measured) -> str:
     """Write a difference in one line."""
     parts = [
-        _tr("1 to 2: {columns:.1f} columns").format(columns=measured.columns),
+        f"1 to 2: {measured.columns:.1f} columns",
         SECOND.format(measured.time, 4),
     ]
     if measured.levels is not None:
-        parts.append(_tr("{levels:+.1f} levels").format(levels=measured.levels))
-    parts.append(_tr("{chips:.2f} chips").format(chips=measured.chips))
+        parts.append(f"{measured.levels:+.1f} levels")
+    parts.append(f"{measured.chips:.2f} chips")
     if measured.time:
-        parts.append(_tr("as a period {rate}").format(rate=HERTZ.format(1 / abs(measured.time), 4)))
+        parts.append(f"as a period {HERTZ.format(1 / abs(measured.time), 4)}")
     return "  ·  ".join(parts)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("MeasureCursors", text)

@@ -43,7 +43,7 @@ class ProfileRow(StoryRow):
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Profile"), axis, crosshair, parent)
+        super().__init__("Profile", axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._reading: ColumnView | None = None
         self._decoded: DecodeResult | None = None
@@ -214,7 +214,7 @@ class ProfileRow(StoryRow):
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         unit = QRectF(4, 3 + painter.fontMetrics().lineSpacing(), area.left(), self.height())
         left = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop
-        painter.drawText(unit, left, self.tr("grey\nlevel"))
+        painter.drawText(unit, left, "grey\nlevel")
         for level in self._ticks(area):
             place = QRectF(0, self.y_of(level, area) - 8, area.left() - 6, 16)
             painter.drawText(place, flags, f"{level:g}")

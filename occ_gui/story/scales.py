@@ -106,7 +106,7 @@ class ColumnScale(Scale):
 
     def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
         super().__init__("", axis, is_above=False, parent=parent)
-        self._name = self.tr("column")
+        self._name = "column"
         self.setAccessibleName(self._name)
 
     def least_step(self, step: float) -> float:
@@ -119,7 +119,7 @@ class TimeScale(Scale):
 
     def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
         super().__init__("", axis, is_above=True, parent=parent)
-        self._name = self.tr("time (µs)")
+        self._name = "time (µs)"
         self.setAccessibleName(self._name)
         self._start, self._step = 0.0, 1.0
 

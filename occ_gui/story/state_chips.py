@@ -1,7 +1,5 @@
 """State chips: short labels of what holds for a result, such as where the band model ends."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
@@ -34,19 +32,17 @@ def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
 
 def computing() -> Chip:
     """Return the label of results that are not there yet."""
-    return Chip(_COMPUTING, _tr("computing"), _tr("The results are computed."), State.WAITING)
+    return Chip(_COMPUTING, "computing", "The results are computed.", State.WAITING)
 
 
 def of_pictures(rate: OwnRate) -> Chip:
     """Return what is read of pictures that begin at any time, beside the verdict on this one."""
-    text = _tr("of {images} pictures: {share:.3g} %").format(
-        images=rate.images, share=100.0 * rate.share
-    )
-    meaning = _tr(
-        "This picture is one; of {images} that begin at any time {share:.3g} % of the bits are "
-        "read (95 % interval {low:.1f} to {high:.1f} %). The strips show the same."
-    ).format(
-        images=rate.images, share=100.0 * rate.share, low=100.0 * rate.low, high=100.0 * rate.high
+    text = f"of {rate.images} pictures: {100.0 * rate.share:.3g} %"
+    meaning = (
+        f"This picture is one; of {rate.images} that begin at any time "
+        f"{100.0 * rate.share:.3g} % of the bits are "
+        f"read (95 % interval {100.0 * rate.low:.1f} to {100.0 * rate.high:.1f} %). The "
+        "strips show the same."
     )
     state = State.GOOD if rate.share >= _READS else State.DOUBTFUL if rate.share else State.BAD
     return Chip("rate", text, meaning, state)
@@ -65,22 +61,22 @@ def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
     rest = tuple(chip for chip in chips if chip.key != _COMPUTING)
     if not pictured:
         return rest
-    meaning = _tr("The slider runs ahead of the picture, which is still of this value.")
-    return (Chip(_COMPUTING, _tr("picture: {value}").format(value=pictured), meaning), *rest)
+    meaning = "The slider runs ahead of the picture, which is still of this value."
+    return (Chip(_COMPUTING, f"picture: {pictured}", meaning), *rest)
 
 
 def _followed(reading: Reading) -> list[Chip]:
     """Say that what is shown was read before the picture, which has the last word."""
     if reading.has_picture:
         return []
-    meaning = _tr("Read from the column profile or a draft; the exact picture is computed.")
-    return [Chip(_COMPUTING, _tr("picture follows"), meaning, State.WAITING)]
+    meaning = "Read from the column profile or a draft; the exact picture is computed."
+    return [Chip(_COMPUTING, "picture follows", meaning, State.WAITING)]
 
 
 def _ratio(reading: Reading) -> Chip:
     scene = reading.scene
     ratio = scene.camera.exposure_time / scene.transmitter.switching_period
-    meaning = _tr(
+    meaning = (
         "The exposure time over the time that a chip lasts. Above 1 no column sees one chip alone."
     )
     return Chip("ratio", f"t / t<sub>LED</sub> = {ratio:.3g}", meaning)
@@ -89,7 +85,7 @@ def _ratio(reading: Reading) -> Chip:
 def _band_model(reading: Reading) -> list[Chip]:
     if not reading.band_undefined:
         return []
-    return [Chip("band", _tr("band model ends here"), reading.band_undefined)]
+    return [Chip("band", "band model ends here", reading.band_undefined)]
 
 
 def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
@@ -100,9 +96,9 @@ def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     others = [name for name in right if name != decoder]
     if not reading.sent or not others:
         return []
-    text = _tr("also read: {names}") if decoder in right else _tr("read by: {names}")
+    text = "also read: {names}" if decoder in right else "read by: {names}"
     names = ", ".join(others)
-    meaning = _tr(
+    meaning = (
         "Of the decoders that every picture is read with ({tried}), these too read the code from "
         "the same signal, all bits right: {names}. The others read it where they are chosen."
     ).format(tried=", ".join(READ_BY_ALL), names=names)
@@ -114,9 +110,9 @@ def _by_hand(reading: Reading) -> list[Chip]:
     decisions = reading.plan.decisions
     labels = {decision.effect: decision.label for decision in decisions}
     texts = [switch_text(d.effect, d.included, labels) for d in decisions if d.forced]
-    meaning = _tr("The plan would decide by the tolerance; this was decided by hand.")
+    meaning = "The plan would decide by the tolerance; this was decided by hand."
     if len(texts) > _MOST_FORCED:
-        text = _tr("{count} effects by hand").format(count=len(texts))
+        text = f"{len(texts)} effects by hand"
         return [Chip("forced", text, "\n".join([*texts, meaning]), State.DOUBTFUL)]
     return [Chip("forced", text, meaning, State.DOUBTFUL) for text in texts]
 
@@ -124,11 +120,7 @@ def _by_hand(reading: Reading) -> list[Chip]:
 def _left_out(reading: Reading) -> list[Chip]:
     if not reading.called_for:
         return []
-    meaning = _tr("This picture leaves out what map and strips take in: {effects}.").format(
+    meaning = "This picture leaves out what map and strips take in: {effects}.".format(
         effects=", ".join(reading.called_for)
     )
-    return [Chip("left out", _tr("effects left out"), meaning, State.DOUBTFUL)]
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("StateChips", text)
+    return [Chip("left out", "effects left out", meaning, State.DOUBTFUL)]

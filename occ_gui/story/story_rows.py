@@ -80,11 +80,11 @@ class StoryRows(QWidget):
         line = Qt.PenStyle
         self.legend = CurveLegend(
             {
-                "simulation": (thin(SIMULATION), self.tr("simulation")),
-                "band": (thin(BAND, line.DashLine), self.tr("band model")),
-                "photo": (thin(PHOTO), self.tr("photo")),
-                "fitted": (thin(PHOTO), self.tr("photo, fitted levels")),
-                "threshold": (thin(THRESHOLD, line.DashDotLine), self.tr("threshold")),
+                "simulation": (thin(SIMULATION), "simulation"),
+                "band": (thin(BAND, line.DashLine), "band model"),
+                "photo": (thin(PHOTO), "photo"),
+                "fitted": (thin(PHOTO), "photo, fitted levels"),
+                "threshold": (thin(THRESHOLD, line.DashDotLine), "threshold"),
             },
             usual=("simulation", "threshold", "band"),
         )
@@ -116,7 +116,7 @@ class StoryRows(QWidget):
         }  # fmt: skip
         undefined = "" if self._reading is None else self._reading.band_undefined
         drift = "" if self._reading is None else drift_of(self._reading)
-        note = self.tr("no band model here") if undefined else drift
+        note = "no band model here" if undefined else drift
         keys = tuple(key for key, value in found.items() if value is not None)
         if undefined or profile.band is None:
             why = undefined

@@ -81,11 +81,11 @@ class StoryView(QWidget):
         self.rows.range_left.connect(lambda: self._mark_range(""))
         self.rows.range_kept.connect(lambda: self._mark_range(self.rows.range))
         self.readout = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.readout.setAccessibleName(self.tr("Values at the crosshair"))
+        self.readout.setAccessibleName("Values at the crosshair")
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.rows.values_changed.connect(self.readout.set_full_text)
         self.measured = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.measured.setAccessibleName(self.tr("Measured between the cursors"))
+        self.measured.setAccessibleName("Measured between the cursors")
         self.measured.setContentsMargins(4, 0, 0, 0)
         self.measured.hide()
         self.rows.measured_changed.connect(self._show_measured)
@@ -116,12 +116,12 @@ class StoryView(QWidget):
         """Offer these decoders, beside those offered before."""
         for name in decoders:
             if self.decoder.findData(name) < 0:
-                self.decoder.addItem(self.tr("Decoder: {name}").format(name=name), name)
+                self.decoder.addItem(f"Decoder: {name}", name)
 
     def _make_controls(self, decoders: Sequence[str]) -> None:
         self.decoder = KeyedComboBox(
-            self.tr("Decoder"),
-            self.tr("Whose verdict, threshold, chips and bits are shown."),
+            "Decoder",
+            "Whose verdict, threshold, chips and bits are shown.",
             {},
         )
         self.offer(decoders)
@@ -129,29 +129,29 @@ class StoryView(QWidget):
         self.decoder.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.decoder.chosen.connect(self.decoder_chosen)
         self.whose = KeyedComboBox(
-            self.tr("Whose picture and profile are shown"),
-            self.tr(
+            "Whose picture and profile are shown",
+            (
                 "Camera: picture and profile as the camera gives them.\n"
                 "Receiver: with the contrast enhanced, as they are decoded."
             ),
-            {"camera": self.tr("Camera"), "receiver": self.tr("Receiver")},
+            {"camera": "Camera", "receiver": "Receiver"},
         )
         self.whose.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.whose.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.whose.chosen.connect(self.picture_chosen)
         self.ranges = {}
         for name in RANGES:
-            button = QPushButton(self.tr("Panel"))
+            button = QPushButton("Panel")
             button.setCheckable(True)
-            button.setToolTip(self.tr("Show all columns of the panel, and follow it."))
+            button.setToolTip("Show all columns of the panel, and follow it.")
             button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
             self.ranges[name] = button
         self.ranges[RANGES[0]].setChecked(True)
         self._name_first()
-        self.whole = QPushButton(self.tr("Whole picture"))
+        self.whole = QPushButton("Whole picture")
         self.whole.setCheckable(True)
         self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
-        self.whole.setToolTip(self.tr("Show the whole picture in place of the four rows."))
+        self.whole.setToolTip("Show the whole picture in place of the four rows.")
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.whole.clicked.connect(self.show_whole_picture)
 
@@ -176,11 +176,11 @@ class StoryView(QWidget):
         self.whole.setChecked(shown)
         self._pages.setCurrentWidget(self._picture if shown else self.rows)
         self._size_by_page()
-        self.whole.setText(self.tr("Back to the rows") if shown else self.tr("Whole picture"))
+        self.whole.setText("Back to the rows" if shown else "Whole picture")
         self.whole.setToolTip(
-            self.tr("Show the four rows again.")
+            "Show the four rows again."
             if shown
-            else self.tr("Show the whole picture in place of the four rows.")
+            else "Show the whole picture in place of the four rows."
         )
         self.readout.setVisible(not shown)
         self._show_verdicts()
@@ -248,8 +248,8 @@ class StoryView(QWidget):
         button = self.ranges[RANGES[0]]
         text, tip = first_periods(self._has_packets)
         if self._held is not None:
-            text = self.tr("{columns:.0f} columns").format(columns=self._held)
-            tip = self.tr("Show so many columns from the panel's first on, whatever is sent.")
+            text = f"{self._held:.0f} columns"
+            tip = "Show so many columns from the panel's first on, whatever is sent."
         button.setText(text)
         button.setToolTip(tip)
 

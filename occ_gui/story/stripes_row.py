@@ -37,7 +37,7 @@ class StripesRow(StoryRow):
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
     ) -> None:
-        super().__init__(self.tr("Picture"), axis, crosshair, parent)
+        super().__init__("Picture", axis, crosshair, parent)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._rows = self._all_rows = range(0)
         self._image: ByteArray | None = None
@@ -128,9 +128,9 @@ class FrameThumbnail(QAbstractButton):
         self._view = QRectF()
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
         self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self.setAccessibleName(self.tr("Show the whole picture"))
+        self.setAccessibleName("Show the whole picture")
         self.setToolTip(
-            self.tr("The whole picture, with the part that is shown here: click to see it large.")
+            "The whole picture, with the part that is shown here: click to see it large."
         )
 
     def show_image(self, pixels: ByteArray, rows: int, columns: int) -> None:

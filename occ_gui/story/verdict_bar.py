@@ -35,7 +35,7 @@ class VerdictBar(StateBar):
         self._is_outdated = self._is_named = False
         self._failure = ""
         self._rate: OwnRate | None = None
-        self.setAccessibleName(self.tr("Verdict on the code"))
+        self.setAccessibleName("Verdict on the code")
         self._write()
 
     def show_reading(self, reading: Reading) -> None:
@@ -94,10 +94,10 @@ class VerdictBar(StateBar):
         reading = self._reading
         self._offer(None)
         if self._failure:
-            self.show_state(State.BAD, self.tr("No picture of this scene"), self._failure)
+            self.show_state(State.BAD, "No picture of this scene", self._failure)
             return
         if reading is None:
-            self.show_state(State.WAITING, self.tr("Computing the first picture…"))
+            self.show_state(State.WAITING, "Computing the first picture…")
             return
         result = result_of(reading, self._decoder or reading.decoded.decoder)
         verdict = verdict_on(result, reading.sent)
@@ -116,7 +116,7 @@ class VerdictBar(StateBar):
             if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):
                 self._offer_lesson(AVERAGES_LESSON)
         else:
-            heading = self._heading(self.tr("No code: {cause}").format(cause=cause.what))
+            heading = self._heading(f"No code: {cause.what}")
             why = [f"{cause.why} {verdict.reason}".strip(), cause.why]
             self._offer(None if self._is_outdated else cause.step)
         self.show_state(state, heading, *why, chips=chips)
@@ -130,12 +130,12 @@ class VerdictBar(StateBar):
     def _offer(self, step: Step | None) -> None:
         self._step, self._lesson = step, ""
         self.offer_step(step.label if step else "")
-        self.step.setToolTip(self.tr("Changes the scene or the decoder in one step."))
+        self.step.setToolTip("Changes the scene or the decoder in one step.")
 
     def _offer_lesson(self, name: str) -> None:
         self._lesson = name
-        self.offer_step(self.tr("Lesson"))
-        self.step.setToolTip(self.tr("Opens the lesson on exposures longer than a chip."))
+        self.offer_step("Lesson")
+        self.step.setToolTip("Opens the lesson on exposures longer than a chip.")
 
     def _heading(self, verdict: str) -> str:
         """Write whose verdict it is, where that is not plain."""
@@ -144,12 +144,12 @@ class VerdictBar(StateBar):
         if self._is_named:
             verdict = verdict[:1].lower() + verdict[1:]
             text = (
-                self.tr("Simulation of the earlier scene: {verdict}")
+                "Simulation of the earlier scene: {verdict}"
                 if self._is_outdated
-                else self.tr("Simulation: {verdict}")
+                else "Simulation: {verdict}"
             )
         else:
-            text = self.tr("Earlier scene: {verdict}") if self._is_outdated else "{verdict}"
+            text = "Earlier scene: {verdict}" if self._is_outdated else "{verdict}"
         return text.replace("{verdict}", verdict)
 
     def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
@@ -160,25 +160,25 @@ class VerdictBar(StateBar):
         scene = reading.scene
         fewest = chips_in_exposure(scene)
         texts = [
-            self.tr(
+            (
                 "A column gathers light for {exposure}, a chip lasts {period}: each column sees "
                 "{fewest} or {most} chips."
             ),
-            self.tr("{exposure} of light, {period} a chip: {fewest} or {most} chips a column."),
-            self.tr("{exposure} of light, {period} a chip"),
+            "{exposure} of light, {period} a chip: {fewest} or {most} chips a column.",
+            "{exposure} of light, {period} a chip",
         ]
         if _is_averaged(verdict, reading):
             texts[:0] = [
-                self.tr(
+                (
                     "Exposed for {exposure}, a chip lasts {period}: each column averages {fewest} "
                     "or {most} chips, and the averages of different codes differ; so it is read, "
                     "though the band model ends."
                 ),
-                self.tr(
+                (
                     "Each column averages {fewest} or {most} chips, and the averages of different "
                     "codes differ; so it is read."
                 ),
-                self.tr("No column sees one chip alone: the band model ends."),
+                "No column sees one chip alone: the band model ends.",
             ]
         exposure = SECOND.format(scene.camera.exposure_time, 4)
         period = SECOND.format(scene.transmitter.switching_period, 4)

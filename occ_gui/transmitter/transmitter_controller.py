@@ -110,7 +110,7 @@ class TransmitterController(QObject):
 
     def ask_to_save(self) -> None:
         """Let the user choose the folder in which a new one is made."""
-        title = self.tr("Make a folder for the board in")
+        title = "Make a folder for the board in"
         folder = QFileDialog.getExistingDirectory(self.dialog, title, self._preferences.folder)
         if folder:
             self.save(Path(folder))
@@ -118,12 +118,12 @@ class TransmitterController(QObject):
     def save(self, parent: Path) -> None:
         """Write the files into a new folder."""
         if self._sent is not None:
-            self._say(self.tr("Writing…"))
+            self._say("Writing…")
             self.saving.ask(SaveJob(self._sent, parent))
 
     def _report(self, saved: Saved) -> None:
         self._preferences.visit(saved.folder)
-        said = self.tr("Saved {count} files into {folder}; scene.toml has the sent frequency.")
+        said = "Saved {count} files into {folder}; scene.toml has the sent frequency."
         text = said.format(count=saved.files, folder=one_line(str(saved.folder)))
         self._say(f"{text} {saved.missing}".strip())
 

@@ -35,22 +35,20 @@ class TransmitterDialog(QDialog):
     def __init__(self, boards: Mapping[str, str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        self.setWindowTitle(self.tr("Transmitter: blink this scene"))
-        self.board = KeyedComboBox(
-            self.tr("Board"), self.tr("The board that blinks the LED."), boards
-        )
+        self.setWindowTitle("Transmitter: blink this scene")
+        self.board = KeyedComboBox("Board", "The board that blinks the LED.", boards)
         self.board.chosen.connect(self.board_chosen)
-        self.facts = self._text(self.tr("What is sent"))
-        self.note = self._text(self.tr("Result of saving"))
+        self.facts = self._text("What is sent")
+        self.note = self._text("Result of saving")
         self.wiring = QLabel()
         self.wiring.setFixedSize(_FIGURE)
         self.wiring.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.wiring.setWordWrap(True)
         self.wiring.setTextFormat(Qt.TextFormat.PlainText)
-        self.wiring.setAccessibleName(self.tr("Wiring"))
+        self.wiring.setAccessibleName("Wiring")
         form = QFormLayout()
-        form.addRow(self.tr("&Board"), self.board)
-        form.addRow(self.tr("Sent"), self.facts)
+        form.addRow("&Board", self.board)
+        form.addRow("Sent", self.facts)
         layout = QVBoxLayout(self)
         layout.addLayout(form)
         layout.addWidget(self.wiring, alignment=Qt.AlignmentFlag.AlignHCenter)
@@ -68,14 +66,14 @@ class TransmitterDialog(QDialog):
     def _make_buttons(self) -> QDialogButtonBox:
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         roles = QDialogButtonBox.ButtonRole
-        self.save = buttons.addButton(self.tr("&Save files…"), roles.ActionRole)
+        self.save = buttons.addButton("&Save files…", roles.ActionRole)
         self.save.setToolTip(
-            self.tr("Choose where a new folder is made: sketch, waveform, wiring and scene.")
+            "Choose where a new folder is made: sketch, waveform, wiring and scene."
         )
-        self.take = buttons.addButton(self.tr("&Take the sent frequency"), roles.ActionRole)
-        self.take.setToolTip(self.tr("Set the scene to the frequency that the board really sends."))
+        self.take = buttons.addButton("&Take the sent frequency", roles.ActionRole)
+        self.take.setToolTip("Set the scene to the frequency that the board really sends.")
         close: QPushButton = buttons.button(QDialogButtonBox.StandardButton.Close)
-        close.setToolTip(self.tr("Close this dialog."))
+        close.setToolTip("Close this dialog.")
         self.save.clicked.connect(self.save_asked)
         self.take.clicked.connect(self.frequency_asked)
         buttons.rejected.connect(self.reject)
@@ -86,7 +84,7 @@ class TransmitterDialog(QDialog):
         self.facts.setText(facts)
         self.take.setEnabled(differs)
         self.save.setEnabled(True)
-        self._say_of_wiring(self.tr("Drawing the wiring…"))
+        self._say_of_wiring("Drawing the wiring…")
 
     def show_refusal(self, sentence: str) -> None:
         """Say why the board cannot send the scene."""

@@ -29,13 +29,13 @@ class DataView(QWidget):
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
         self.text.setMinimumHeight(_LEAST_HEIGHT)
-        self.text.setAccessibleName(self.tr("What was read"))
-        self.text.setPlaceholderText(self.tr("What is read of the film appears here."))
+        self.text.setAccessibleName("What was read")
+        self.text.setPlaceholderText("What is read of the film appears here.")
         self.text.setTabChangesFocus(True)
         self.sentences = QLabel()
         self.sentences.setWordWrap(True)
         self.sentences.setTextFormat(Qt.TextFormat.PlainText)
-        self.sentences.setAccessibleName(self.tr("What is not sure"))
+        self.sentences.setAccessibleName("What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.labels: dict[str, QLabel] = {}
         """The values of the figures, by what they are."""

@@ -1,7 +1,5 @@
 """The pane of the films, declared."""
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
 
@@ -16,7 +14,7 @@ def video(scenes: SceneStore) -> Feature[None]:
 
     return Feature(
         name="video",
-        title=QCoreApplication.translate("Video", "Video"),
+        title="Video",
         help="guide.md#watch-a-film",
         make=make,
     )

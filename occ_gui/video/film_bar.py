@@ -40,32 +40,32 @@ class FilmBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.open = QPushButton(self.tr("Open fil&m…"))
-        self.open.setToolTip(self.tr("Choose a film of a rolling-shutter camera."))
+        self.open = QPushButton("Open fil&m…")
+        self.open.setToolTip("Choose a film of a rolling-shutter camera.")
         self.open.clicked.connect(self.open_asked)
-        self.camera = QPushButton(self.tr("Camera"))
-        self.camera.setToolTip(self.tr("Read what a camera of this computer sees, live."))
+        self.camera = QPushButton("Camera")
+        self.camera.setToolTip("Read what a camera of this computer sees, live.")
         self.cameras = QMenu(self.camera)
         self.camera.setMenu(self.cameras)
         self.cameras.aboutToShow.connect(self.cameras_asked)
-        self.close_film = QPushButton(self.tr("Close"))
+        self.close_film = QPushButton("Close")
         self.close_film.clicked.connect(self.close_asked)
         self.axis = KeyedComboBox(
-            self.tr("What the shutter scans"),
-            self.tr(
+            "What the shutter scans",
+            (
                 "Whether the shutter scans the picture line by line or column by column.\n"
                 "Of a film it is found on the first frames; choose, where that went wrong."
             ),
-            dict(zip(AXES, (self.tr("line by line"), self.tr("column by column")), strict=True)),
+            dict(zip(AXES, ("line by line", "column by column"), strict=True)),
         )
         self.axis.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.axis.setSizeAdjustPolicy(KeyedComboBox.SizeAdjustPolicy.AdjustToContents)
-        self.lock = QCheckBox(self.tr("Hold exposure"))
-        self.lock.setToolTip(self.tr("Keep the camera's exposure as it is now."))
+        self.lock = QCheckBox("Hold exposure")
+        self.lock.setToolTip("Keep the camera's exposure as it is now.")
         self.read = QPushButton()
         self.read.clicked.connect(self.read_asked)
         self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.title.setAccessibleName(self.tr("Film"))
+        self.title.setAccessibleName("Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         buttons = QHBoxLayout()
         buttons.setContentsMargins(0, 0, 0, 0)
@@ -85,11 +85,11 @@ class FilmBar(QWidget):
         """Show what is read: a film, a camera's picture, or the simulated film where neither is."""
         self.title.set_full_text(title)
         self.close_film.setVisible(is_film or is_live)
-        self.close_film.setText(self.tr("Stop camera") if is_live else self.tr("Close"))
+        self.close_film.setText("Stop camera" if is_live else "Close")
         self.close_film.setToolTip(
-            self.tr("Release the camera; the last picture stays.")
+            "Release the camera; the last picture stays."
             if is_live
-            else self.tr("Close the film, and show the simulated one.")
+            else "Close the film, and show the simulated one."
         )
         self.axis.setVisible(is_film or is_live)
         self.lock.setVisible(is_live)
@@ -97,17 +97,11 @@ class FilmBar(QWidget):
 
     def show_reading(self, reading: bool, done: bool = False) -> None:
         """Show whether the film is being read, or has been."""
-        self.read.setText(
-            self.tr("Stop reading")
-            if reading
-            else self.tr("Read again")
-            if done
-            else self.tr("Read the film")
-        )
+        self.read.setText("Stop reading" if reading else "Read again" if done else "Read the film")
         self.read.setToolTip(
-            self.tr("Leave it at what has been read.")
+            "Leave it at what has been read."
             if reading
-            else self.tr("Find the packets in all frames, and measure the camera's clock.")
+            else "Find the packets in all frames, and measure the camera's clock."
         )
 
     def list_cameras(self, devices: Sequence[CameraDevice] | None) -> None:
@@ -117,7 +111,7 @@ class FilmBar(QWidget):
             action = self.cameras.addAction(in_menu(device.name))
             action.triggered.connect(lambda _=False, device=device: self._choose(device))
         if not devices:
-            words = self.tr("No camera was found") if devices is not None else self.tr("Looking…")
+            words = "No camera was found" if devices is not None else "Looking…"
             self.cameras.addAction(words).setEnabled(False)
 
     def _choose(self, device: CameraDevice) -> None:

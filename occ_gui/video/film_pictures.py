@@ -73,8 +73,8 @@ class FilmPictures(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._film = _Side(self.tr("Film"))
-        self._simulated = _Side(self.tr("Simulated film"))
+        self._film = _Side("Film")
+        self._simulated = _Side("Simulated film")
         self.film, self.simulated = self._film.pane, self._simulated.pane
         self.split = QSplitter(Qt.Orientation.Horizontal)
         self.split.setChildrenCollapsible(False)

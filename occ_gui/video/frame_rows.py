@@ -43,13 +43,13 @@ class FrameRows(QWidget):
         self.rows = StoryRows()
         self.rows.stripes.thumbnail.clicked.connect(self.picture_asked)
         self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.title.setAccessibleName(self.tr("What the rows show"))
+        self.title.setAccessibleName("What the rows show")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         line = QHBoxLayout()
         line.setContentsMargins(4, 0, 4, 0)
         line.addWidget(self.title, 1)
-        texts = (self.tr("{packets} packets").format(packets=PACKETS_IN_VIEW), self.tr("Panel"))
-        tips = (self.tr("Show the first packets."), self.tr("Show all columns of the panel."))
+        texts = (f"{PACKETS_IN_VIEW} packets", "Panel")
+        tips = ("Show the first packets.", "Show all columns of the panel.")
         self.ranges: dict[str, QPushButton] = {}
         for name, text, tip in zip(RANGES, texts, tips, strict=True):
             button = QPushButton(text)
@@ -78,7 +78,7 @@ class FrameRows(QWidget):
         # The light of a frame that was filmed is not known: only what its columns gathered of it.
         self.rows.light.setVisible(story.knows_light)
         self.rows.time.setVisible(story.knows_light)
-        name = self.tr("simulation") if story.knows_light else self.tr("film")
+        name = "simulation" if story.knows_light else "film"
         self.rows.legend.rename("simulation", name)
         self.rows.show_picture(story.picture)
         self.rows.show_reading(story.reading)

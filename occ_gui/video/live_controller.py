@@ -138,9 +138,9 @@ class LiveController(QObject):
     def _on_answer(self, on: bool, done: bool) -> None:
         if not done:
             self.exposure_refused.emit(
-                self.tr("This camera does not let its exposure be held.")
+                "This camera does not let its exposure be held."
                 if on
-                else self.tr("This camera does not let its exposure go.")
+                else "This camera does not let its exposure go."
             )
 
     def stop(self) -> None:

@@ -66,18 +66,18 @@ class MarkLegend(LineLegend):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setAccessibleName(self.tr("Legend of the timeline"))
+        self.setAccessibleName("Legend of the timeline")
         texts = {
             MarkState.READ: (
-                self.tr("read"),
-                self.tr("A frame whose place is known; a packet as all others have it."),
+                "read",
+                "A frame whose place is known; a packet as all others have it.",
             ),
             MarkState.UNCHECKED: (
-                self.tr("not checked"),
-                self.tr("Read, but nothing says whether it is right, or where it belongs."),
+                "not checked",
+                "Read, but nothing says whether it is right, or where it belongs.",
             ),
-            MarkState.LOST: (self.tr("lost"), self.tr("Not read, or read wrong.")),
-            MarkState.PENDING: (self.tr("to come"), self.tr("Not looked at yet.")),
+            MarkState.LOST: ("lost", "Not read, or read wrong."),
+            MarkState.PENDING: ("to come", "Not looked at yet."),
         }  # fmt: skip
         for state, (text, meaning) in texts.items():
             self.add_sample(state.name, _sample_of(state), _SAMPLE, text, meaning)

@@ -2,8 +2,6 @@
 
 import math
 
-from PySide6.QtCore import QCoreApplication
-
 from occ_gui.video.film_reading import Figure
 from occ_model.results.video_reading import Clock, FilmProgress, Measured, VideoReading
 from occ_model.scene.units import HERTZ, SECOND, Unit
@@ -24,16 +22,14 @@ def figures_of(known: FilmProgress, whole: VideoReading | None) -> tuple[Figure,
     """
     figures = [
         Figure(
-            _tr("Frames placed"),
-            _tr("{placed} of {frames}").format(placed=known.placed, frames=known.frames),
-            _tr("Frames whose place in what is sent over and over is known."),
+            "Frames placed",
+            f"{known.placed} of {known.frames}",
+            "Frames whose place in what is sent over and over is known.",
         ),
         Figure(
-            _tr("Packet known"),
+            "Packet known",
             f"{_PERCENT * known.known:.0f} %",
-            _tr(
-                "Share of the chips sent over and over that are known, those of a header included."
-            ),
+            "Share of the chips sent over and over that are known, those of a header included.",
         ),
     ]
     if whole is not None:
@@ -65,25 +61,25 @@ def _rates(whole: VideoReading) -> list[Figure]:
     if whole.complete_after is not None:
         found.append(
             Figure(
-                _tr("Payload complete"),
-                _tr("after {time}").format(time=SECOND.format(whole.complete_after, 4)),
-                _tr("How long the film had run by the end of the frame that completed it."),
+                "Payload complete",
+                f"after {SECOND.format(whole.complete_after, 4)}",
+                "How long the film had run by the end of the frame that completed it.",
             )
         )
     if not whole.packets:
         return found
     found.append(
         Figure(
-            _tr("Packets"),
-            _tr("{read} read, {lost} lost").format(read=whole.read, lost=whole.lost),
-            _tr("Of those sent; one that no frame shows whole is lost."),
+            "Packets",
+            f"{whole.read} read, {whole.lost} lost",
+            "Of those sent; one that no frame shows whole is lost.",
         )
     )
     found.append(
         Figure(
-            _tr("Net rate"),
-            _tr("{rate:.4g} bit/s").format(rate=whole.net_bits_per_second),
-            _tr(
+            "Net rate",
+            f"{whole.net_bits_per_second:.4g} bit/s",
+            (
                 "Bits that were wanted and arrived: repeats of a packet within a frame count once, "
                 "as if every frame showed another payload."
             ),
@@ -92,24 +88,21 @@ def _rates(whole: VideoReading) -> list[Figure]:
     (counts,) = whole.rates(1)
     found.append(
         Figure(
-            _tr("Packet error rate"),
-            _tr("{share} of {sent} packets").format(
-                share=_share(counts.packets_lost, counts.packets), sent=counts.packets
-            ),
-            _tr(
-                "Share of the packets sent that were lost: {cut} were cut off by the edge of a "
+            "Packet error rate",
+            f"{_share(counts.packets_lost, counts.packets)} of {counts.packets} packets",
+            (
+                f"Share of the packets sent that were lost: {whole.cut_off} were cut off "
+                "by the edge of a "
                 "frame or fell in the gap, and the frames can all be read all the same."
-            ).format(cut=whole.cut_off),
+            ),
         )
     )
     if counts.bits:
         found.append(
             Figure(
-                _tr("Bit error rate"),
-                _tr("{share} of {read} bits").format(
-                    share=_share(counts.bits_wrong, counts.bits), read=counts.bits
-                ),
-                _tr(
+                "Bit error rate",
+                f"{_share(counts.bits_wrong, counts.bits)} of {counts.bits} bits",
+                (
                     "Share of wrong bits in the packets that one frame shows whole, against the "
                     "payload of all together. Packets that no frame shows whole have no bits here."
                 ),
@@ -128,46 +121,44 @@ def _share(count: int, total: int) -> str:
 
 def _losses(known: FilmProgress, whole: VideoReading) -> str:
     """Say why packets are lost, and that their bits are not counted as wrong ones."""
-    where = _tr("sent in the gap between two frames, or cut off by a frame's edge")
+    where = "sent in the gap between two frames, or cut off by a frame's edge"
     if unplaced := known.frames - known.placed:
-        where += _tr(", or in one of {count} frames that were not placed").format(count=unplaced)
-    text = _tr("Of {lost} lost packets no frame shows {cut_off} whole: {where}.").format(
-        lost=whole.lost, cut_off=whole.cut_off, where=where
-    )
+        where += f", or in one of {unplaced} frames that were not placed"
+    text = f"Of {whole.lost} lost packets no frame shows {whole.cut_off} whole: {where}."
     if misread := whole.lost - whole.cut_off:
-        text += _tr(" {misread} were in view and misread.").format(misread=misread)
-    return text + _tr(" The bit error rate counts only bits of packets in view.")
+        text += f" {misread} were in view and misread."
+    return text + " The bit error rate counts only bits of packets in view."
 
 
 def _clocks(clock: Clock) -> list[Figure]:
-    doubt = "" if clock.is_sure else _tr(", not sure")
+    doubt = "" if clock.is_sure else ", not sure"
     found = [
         Figure(label, _with_error(unit, measured) + mark, meaning)
         for label, unit, measured, mark, meaning in (
             (
-                _tr("Frequency"), HERTZ, clock.switching_frequency, doubt,
-                _tr("Switching frequency by the clock that states the frames' times."),
+                "Frequency", HERTZ, clock.switching_frequency, doubt,
+                "Switching frequency by the clock that states the frames' times.",
             ),
             (
-                _tr("Readout time"), SECOND, clock.readout_time, doubt,
-                _tr("From one column to the next, without any LED that is known."),
+                "Readout time", SECOND, clock.readout_time, doubt,
+                "From one column to the next, without any LED that is known.",
             ),
             (
-                _tr("Gap"), SECOND, clock.gap, doubt,
-                _tr("The part of a frame's period in which no column begins."),
+                "Gap", SECOND, clock.gap, doubt,
+                "The part of a frame's period in which no column begins.",
             ),
             (
-                _tr("Frame period"), SECOND, clock.frame_period, "",
-                _tr("From one frame to the next."),
+                "Frame period", SECOND, clock.frame_period, "",
+                "From one frame to the next.",
             ),
         )
     ]  # fmt: skip
     if clock.drift is not None:
         found.append(
             Figure(
-                _tr("Drift"),
+                "Drift",
                 _with_error(_RATE, clock.drift),
-                _tr("How the switching frequency changes while the film runs."),
+                "How the switching frequency changes while the film runs.",
             )
         )
     return found
@@ -175,7 +166,3 @@ def _clocks(clock: Clock) -> list[Figure]:
 
 def _with_error(unit: Unit, measured: Measured) -> str:
     return unit.format_estimate(measured.value, measured.error)
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("FilmReading", text)

@@ -59,15 +59,15 @@ class RecordingForm(QWidget):
         self.gap = QLabel()
         self.gap.setWordWrap(True)
         self.gap.setTextFormat(Qt.TextFormat.PlainText)
-        self.gap.setAccessibleName(self.tr("Gap between two frames"))
+        self.gap.setAccessibleName("Gap between two frames")
         self.gap.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         form.addRow(self.gap)
-        self.save = QPushButton(self.tr("Sa&ve the simulated film…"))
+        self.save = QPushButton("Sa&ve the simulated film…")
         self.save.setToolTip(
-            self.tr("MKV, GIF and PNG keep every grey level, MP4 does not. The scene is inside.")
+            "MKV, GIF and PNG keep every grey level, MP4 does not. The scene is inside."
         )
         self.save.clicked.connect(self.save_asked)
-        self.saving = WorkBar(self.tr("How much of the film has been written"))
+        self.saving = WorkBar("How much of the film has been written")
         line = QHBoxLayout()
         for part in (self.save, self.saving):
             line.addWidget(part)
@@ -106,8 +106,9 @@ class RecordingForm(QWidget):
             return
         gap, share = self._recording.gap(scene), 100.0 * self._recording.gap_ratio(scene)
         self.gap.setText(
-            self.tr("Between two frames no column is read for {gap}, {share:.1f} % of a frame.")
-            .format(gap=SECOND.format(gap, 4), share=share)
+            f"Between two frames no column is read for {SECOND.format(gap, 4)}, "
+f"{share:.1f} % of a frame."
+
         )  # fmt: skip
 
     def _take(self, name: str, value: float) -> None:

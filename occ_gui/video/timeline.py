@@ -49,12 +49,10 @@ class Timeline(QWidget):
         """The frame that is shown."""
         self._scale = TimelineScale()
         self._drawn: QPixmap | None = None
-        self.setAccessibleName(self.tr("Timeline"))
+        self.setAccessibleName("Timeline")
         self.setToolTip(
-            self.tr(
-                "Frames and packets over time. Click or drag to see a frame; Left and Right step "
-                "by one, Page up and Page down by ten, Home and End go to the ends, Space plays."
-            )
+            "Frames and packets over time. Click or drag to see a frame; Left and Right step "
+            "by one, Page up and Page down by ten, Home and End go to the ends, Space plays."
         )
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -96,28 +94,25 @@ class Timeline(QWidget):
         """Say in words what is shown."""
         count = len(self.frames)
         if not 0 <= self.index < count:
-            self.setAccessibleDescription(self.tr("no film"))
+            self.setAccessibleDescription("no film")
             return
         words = {
-            MarkState.PENDING: self.tr("not looked at yet"),
-            MarkState.READ: self.tr("read"),
-            MarkState.UNCHECKED: self.tr("read, not checked"),
-            MarkState.LOST: self.tr("lost"),
+            MarkState.PENDING: "not looked at yet",
+            MarkState.READ: "read",
+            MarkState.UNCHECKED: "read, not checked",
+            MarkState.LOST: "lost",
         }
         self.setAccessibleDescription(
-            self.tr("frame {number} of {count}, {time:.3f} s, {state}").format(
-                number=self.index + 1,
-                count=count,
-                time=float(self.frames.starts[self.index]),
-                state=words[MarkState(int(self.frames.states[self.index]))],
-            )
+            f"frame {self.index + 1} of {count}, "
+            f"{float(self.frames.starts[self.index]):.3f} s, "
+            f"{words[MarkState(int(self.frames.states[self.index]))]}"
         )
 
     # Where things are.
 
     def _gutter(self) -> int:
         """Return the room that the names of the rows need."""
-        names = self.tr("frames"), self.tr("packets")
+        names = "frames", "packets"
         widest = max(map(self.fontMetrics().horizontalAdvance, names))
         return max(widest + 2 * _BESIDE, _LEAST_GUTTER)
 
@@ -164,8 +159,8 @@ class Timeline(QWidget):
         painter.setFont(self.font())
         area = self._area()
         for name, marks, top, height in (
-            (self.tr("frames"), self.frames, area.top(), _FRAMES),
-            (self.tr("packets"), self.packets, area.top() + _FRAMES + _GAP, _PACKETS),
+            ("frames", self.frames, area.top(), _FRAMES),
+            ("packets", self.packets, area.top() + _FRAMES + _GAP, _PACKETS),
         ):
             place = QRectF(area.left(), top, area.width(), height)
             painter.setPen(self.palette().color(QPalette.ColorRole.WindowText))

@@ -46,15 +46,11 @@ class Transport(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.back = TransportButton(
-            "step-back", self.tr("Step back"), self.tr("Show the frame before (Left).")
-        )
+        self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
         self.play = TransportButton("play", "", "")
-        self.on = TransportButton(
-            "step-on", self.tr("Step on"), self.tr("Show the next frame (Right).")
-        )
+        self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")
         self.place = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.place.setAccessibleName(self.tr("Frame and time shown"))
+        self.place.setAccessibleName("Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -71,20 +67,18 @@ class Transport(QWidget):
     def show_playing(self, playing: bool) -> None:
         """Show whether the film plays."""
         if playing:
-            self.play.rename("pause", self.tr("Pause"), self.tr("Stop at this frame (Space)."))
+            self.play.rename("pause", "Pause", "Stop at this frame (Space).")
         else:
-            self.play.rename(
-                "play", self.tr("Play"), self.tr("Play the film at its own speed (Space).")
-            )
+            self.play.rename("play", "Play", "Play the film at its own speed (Space).")
 
     def show_place(self, index: int, count: int | None, time: float | None) -> None:
         """Show which frame is seen, of how many, and its time in seconds."""
         if time is None:
             self.place.set_full_text("")
             return
-        of_all = self.tr("frame {number} of {count}") if count else self.tr("frame {number}")
+        of_all = "frame {number} of {count}" if count else "frame {number}"
         text = of_all.format(number=index + 1, count=count)
-        self.place.set_full_text(self.tr("{frame}, {time:.4f} s").format(frame=text, time=time))
+        self.place.set_full_text(f"{text}, {time:.4f} s")
 
     def set_usable(self, usable: bool) -> None:
         """Let the buttons be pressed while there is a film of several frames."""

@@ -37,13 +37,13 @@ class VideoView(QWidget):
         self.message = QLabel()
         self.message.setWordWrap(True)
         self.message.setTextFormat(Qt.TextFormat.PlainText)
-        self.message.setAccessibleName(self.tr("What is wrong with the film"))
+        self.message.setAccessibleName("What is wrong with the film")
         self.message.hide()
         self.pages = QTabWidget()
         self.pages.setDocumentMode(True)
-        self.pages.addTab(self.data, self.tr("What is read"))
-        self.pages.addTab(self.rows, self.tr("This frame"))
-        self.pages.addTab(ScrollPane(self.form, _LEAST_FORM), self.tr("Recording"))
+        self.pages.addTab(self.data, "What is read")
+        self.pages.addTab(self.rows, "This frame")
+        self.pages.addTab(ScrollPane(self.form, _LEAST_FORM), "Recording")
         self.split = QSplitter(Qt.Orientation.Vertical)
         self.split.setChildrenCollapsible(False)
         self.split.addWidget(self.pictures)
@@ -86,11 +86,11 @@ class VideoView(QWidget):
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the reading is of an earlier scene."""
         for mark in self._outdated:
-            mark.show_age(1.0 if outdated else 0.0, self.tr("read for an earlier scene"))
+            mark.show_age(1.0 if outdated else 0.0, "read for an earlier scene")
 
     def show_frame_outdated(self, age: float) -> None:
         """Show for how many seconds the frame that is shown has not been the one wanted."""
-        self._old_pictures.show_age(age, self.tr("computing…"))
+        self._old_pictures.show_age(age, "computing…")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         """Step, seek and play by the keys of the timeline, wherever they are not used."""

@@ -55,7 +55,7 @@ class VideoWiring(Pane[None]):
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
         self.saving: FileWriter[FilmToSave] = FileWriter(
             save_film, "writing of the film", self.view.form.saving,
-            self.tr("The film was given up."),
+            "The film was given up.",
         )  # fmt: skip
         self.saving.status_message.connect(self.status_message)
         self.view.form.save_asked.connect(self.save_asked)
@@ -221,11 +221,9 @@ class VideoWiring(Pane[None]):
     def _show_bar(self) -> None:
         film, form = self.films.film, self.view.form
         if film is None:
-            title = self.tr("Simulated film: {count} frames, {rate:g} a second").format(
-                count=form.frames, rate=form.recording.frame_rate
-            )
+            title = f"Simulated film: {form.frames} frames, {form.recording.frame_rate:g} a second"
         elif self.films.is_live:
-            title = self.tr("{name}, live") if self.live.is_filming else self.tr("{name}, stopped")
+            title = "{name}, live" if self.live.is_filming else "{name}, stopped"
             title = title.format(name=one_line(film.title))
         else:
             title = _title_of(film)
@@ -259,8 +257,8 @@ class VideoWiring(Pane[None]):
     def _instead_of_film(self) -> str:
         """Return what stands in the place of a film's frame while there is none."""
         if self.films.film is not None or self.films.is_live:
-            return self.tr("The frame is on its way.")
-        return self.tr("Open a film, or use a camera, to see it beside the simulated one.")
+            return "The frame is on its way."
+        return "Open a film, or use a camera, to see it beside the simulated one."
 
     def _show_reading(self) -> None:
         readings = self.readings

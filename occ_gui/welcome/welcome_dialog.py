@@ -16,35 +16,33 @@ class WelcomeDialog(QDialog):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle(self.tr("Welcome"))
+        self.setWindowTitle("Welcome")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        title = QLabel(self.tr("Light that carries bits"))
+        title = QLabel("Light that carries bits")
         font = title.font()
         font.setBold(True)
         font.setPointSizeF(font.pointSizeF() * _LARGER)
         title.setFont(font)
         about = QLabel(
-            self.tr(
-                "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
-                "code is read back from them. See how, and where it ends."
-            )
+            "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
+            "code is read back from them. See how, and where it ends."
         )
         about.setWordWrap(True)
         self.doors = {
             "learn": Door(
                 "door-learn",
-                self.tr("Learn in five minutes"),
-                self.tr("See how a rolling shutter turns a blinking lamp into stripes."),
+                "Learn in five minutes",
+                "See how a rolling shutter turns a blinking lamp into stripes.",
             ),
             "photo": Door(
                 "door-photo",
-                self.tr("Match my photo"),
-                self.tr("Open a photo of a blinking LED, and measure the camera with it."),
+                "Match my photo",
+                "Open a photo of a blinking LED, and measure the camera with it.",
             ),
             "explore": Door(
                 "door-explore",
-                self.tr("Free exploration"),
-                self.tr("Move the sliders, and watch picture, profile and code follow."),
+                "Free exploration",
+                "Move the sliders, and watch picture, profile and code follow.",
             ),
         }
         width = max(door.size_for().width() for door in self.doors.values())

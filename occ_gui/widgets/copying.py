@@ -1,6 +1,5 @@
 """Copy a text to the clipboard, and say so: nothing else on the screen shows that it was."""
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import QGuiApplication
 
 from occ_model.errors import one_line
@@ -12,6 +11,6 @@ _MAX_SHOWN_CHARACTERS = 80
 def copy_text(text: str) -> str:
     """Copy a text, and return the sentence for the status line."""
     QGuiApplication.clipboard().setText(text)
-    told = QCoreApplication.translate("Copying", "Copied: {text}")
+    told = "Copied: {text}"
     first, _, more = text.strip().partition("\n")
     return told.format(text=one_line(f"{first} …" if more else first, _MAX_SHOWN_CHARACTERS))

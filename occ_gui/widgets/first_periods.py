@@ -1,7 +1,5 @@
 """Words on the button that shows the first periods of what is sent: packets, or cycles."""
 
-from PySide6.QtCore import QCoreApplication
-
 PACKETS_IN_VIEW = 2
 """Packets in the first view of a plot over columns."""
 
@@ -9,11 +7,7 @@ PACKETS_IN_VIEW = 2
 def first_periods(has_packets: bool) -> tuple[str, str]:
     """Return the text of the button and its tooltip."""
     if has_packets:
-        text, tip = _tr("{count} packets"), _tr("Show the panel's first packets, and follow them.")
+        text, tip = "{count} packets", "Show the panel's first packets, and follow them."
     else:
-        text, tip = _tr("{count} cycles"), _tr("Show the pattern's first cycles, and follow them.")
+        text, tip = "{count} cycles", "Show the pattern's first cycles, and follow them."
     return text.format(count=PACKETS_IN_VIEW), tip
-
-
-def _tr(text: str) -> str:
-    return QCoreApplication.translate("FirstPeriods", text)

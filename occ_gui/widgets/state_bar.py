@@ -49,8 +49,8 @@ class StateBar(QWidget):
         self._lines = 1
         self.chips = ChipRow()
         self.step = QPushButton()
-        self.step.setAccessibleName(self.tr("A step that helps"))
-        self.step.setToolTip(self.tr("Changes the scene or the decoder in one step."))
+        self.step.setAccessibleName("A step that helps")
+        self.step.setToolTip("Changes the scene or the decoder in one step.")
         self.step.clicked.connect(self.step_taken)
         self.step.hide()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)

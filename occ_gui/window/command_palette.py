@@ -52,22 +52,22 @@ class CommandPalette(QDialog):
 
     def __init__(self, commands: Sequence[Command], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle(self.tr("Find a command"))
+        self.setWindowTitle("Find a command")
         self._commands = commands
         self._matching: list[Command] = []
         self._chosen: Command | None = None
         self.line = QLineEdit()
-        self.line.setPlaceholderText(self.tr("A few letters of a command or parameter"))
-        self.line.setAccessibleName(self.tr("Words to look for"))
-        self.line.setToolTip(self.tr("Up and down choose, Enter does it, Escape leaves."))
+        self.line.setPlaceholderText("A few letters of a command or parameter")
+        self.line.setAccessibleName("Words to look for")
+        self.line.setToolTip("Up and down choose, Enter does it, Escape leaves.")
         self.line.textChanged.connect(self._filter)
         self.line.installEventFilter(self)
         self.list = QListWidget()
-        self.list.setAccessibleName(self.tr("Commands found"))
+        self.list.setAccessibleName("Commands found")
         self.list.setUniformItemSizes(True)
         self.list.itemActivated.connect(self._accept_chosen)
         self.list.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self._nothing = QLabel(self.tr("Nothing by these words."))
+        self._nothing = QLabel("Nothing by these words.")
         layout = QVBoxLayout(self)
         for widget in (self.line, self.list, self._nothing):
             layout.addWidget(widget)

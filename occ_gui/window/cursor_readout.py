@@ -48,7 +48,7 @@ class _PictureFollower(_Follower):
         levels = self._image.levels_at(column, row)
         if levels is None:
             return ""
-        return self.tr(
+        return (
             "Simulation: column {column}, row {row}, camera level {camera}, "
             "receiver level {receiver}"
         ).format(column=column, row=row, **levels)
@@ -65,9 +65,7 @@ class _PhotoFollower(_Follower):
         level = self._pane.level_at(column, row)
         if level is None:
             return ""
-        return self.tr("Photo: column {column}, row {row}, level {level}").format(
-            column=column, row=row, level=level
-        )
+        return f"Photo: column {column}, row {row}, level {level}"
 
 
 class _ProfileFollower(_Follower):
@@ -83,9 +81,7 @@ class _ProfileFollower(_Follower):
         level = self._pane.level_at(column)
         if level is None:
             return ""
-        return self.tr("Profile: column {column}, level {level:.1f}").format(
-            column=column, level=level
-        )
+        return f"Profile: column {column}, level {level:.1f}"
 
 
 def follow_profile(profile: ProfileView, show: Callable[[str], None]) -> None:

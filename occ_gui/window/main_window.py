@@ -53,7 +53,7 @@ class MainWindow(QMainWindow):
         undo_stack: QUndoStack,
     ) -> None:
         super().__init__()
-        self.setWindowTitle(self.tr("Optical Camera Communication"))
+        self.setWindowTitle("Optical Camera Communication")
         # Else what is inside keeps the colours of the theme that it was first shown in.
         QApplication.setAttribute(_PROPAGATED)
         self.dress()
@@ -61,7 +61,7 @@ class MainWindow(QMainWindow):
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
         self.setCentralWidget(story)
-        self.docks = {"controls": self._dock("controls", self.tr("Scene"), controls)}
+        self.docks = {"controls": self._dock("controls", "Scene", controls)}
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
         self.modes = ModeSwitch(self, self.docks, self._show_page)

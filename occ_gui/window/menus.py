@@ -70,39 +70,39 @@ class Menus(QObject):
 
     def _make_file_menu(self, window: QMainWindow) -> None:
         keys = QKeySequence.StandardKey
-        menu = self._top("file", self.tr("&File"))
-        self._add(menu, "open_photo", self.tr("Open &photos…"), keys.Open)
-        self.recent = menu.addMenu(self.tr("Open &recent"))
-        self.samples = menu.addMenu(self.tr("Open sa&mple photo"))
+        menu = self._top("file", "&File")
+        self._add(menu, "open_photo", "Open &photos…", keys.Open)
+        self.recent = menu.addMenu("Open &recent")
+        self.samples = menu.addMenu("Open sa&mple photo")
         for submenu in (self.recent, self.samples):
             submenu.setToolTipsVisible(True)
             submenu.setEnabled(False)
-        self._add(menu, "close_photo", self.tr("&Close photo"))
-        self._add(menu, "open_film", self.tr("Open &film…"), self.tr("Ctrl+Alt+O"))
-        self._add(menu, "close_film", self.tr("C&lose film"))
+        self._add(menu, "close_photo", "&Close photo")
+        self._add(menu, "open_film", "Open &film…", "Ctrl+Alt+O")
+        self._add(menu, "close_film", "C&lose film")
         menu.addSeparator()
-        self._add(menu, "open_scene", self.tr("Open sc&ene…"), self.tr("Ctrl+Shift+O"))
-        self._add(menu, "save_scene", self.tr("&Save scene"), keys.Save)
-        self._add(menu, "save_scene_as", self.tr("Save scene &as…"), self.tr("Ctrl+Shift+S"))
-        self._add(menu, "save_picture", self.tr("Save simulated p&icture as…"))
+        self._add(menu, "open_scene", "Open sc&ene…", "Ctrl+Shift+O")
+        self._add(menu, "save_scene", "&Save scene", keys.Save)
+        self._add(menu, "save_scene_as", "Save scene &as…", "Ctrl+Shift+S")
+        self._add(menu, "save_picture", "Save simulated p&icture as…")
         menu.addSeparator()
         self._make_export_menu(menu)
-        self._add(menu, "transmitter", self.tr("&Transmitter…"))
+        self._add(menu, "transmitter", "&Transmitter…")
         menu.addSeparator()
-        self._add(menu, "quit", self.tr("&Quit"), self.tr("Ctrl+Q")).triggered.connect(window.close)
+        self._add(menu, "quit", "&Quit", "Ctrl+Q").triggered.connect(window.close)
 
     def _make_export_menu(self, file: QMenu) -> None:
-        self._export = self.drop_downs["export"] = file.addMenu(self.tr("E&xport"))
+        self._export = self.drop_downs["export"] = file.addMenu("E&xport")
         self._export.setToolTipsVisible(True)
         self._after_figures = self._export.addSeparator()
-        keys = self.tr("Ctrl+Shift+E")
-        self._add(self._export, "export_all", self.tr("A&ll figures…"), keys)
+        keys = "Ctrl+Shift+E"
+        self._add(self._export, "export_all", "A&ll figures…", keys)
 
     def add_figures(self, titles: Mapping[str, str]) -> None:
         """Add figures to the export menu."""
         for name, title in titles.items():
-            action = QAction(self.tr("{figure}…").format(figure=title), self._export)
-            action.setToolTip(self.tr("As PNG, SVG, PDF or CSV, with the scene inside."))
+            action = QAction(f"{title}…", self._export)
+            action.setToolTip("As PNG, SVG, PDF or CSV, with the scene inside.")
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
             action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
@@ -110,83 +110,83 @@ class Menus(QObject):
 
     def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
         """Offer an animation of each of these sliders in the export menu."""
-        menu = QMenu(self.tr("A&nimation of a slider"), self._export)
+        menu = QMenu("A&nimation of a slider", self._export)
         self._export.insertMenu(self._after_figures, menu)
         menu.setToolTipsVisible(True)
         for name, label in labels.items():
-            action = menu.addAction(self.tr("{label}…").format(label=in_menu(label)))
-            action.setToolTip(self.tr("The slider's run from end to end, as GIF, MP4 or PNG."))
+            action = menu.addAction(f"{in_menu(label)}…")
+            action.setToolTip("The slider's run from end to end, as GIF, MP4 or PNG.")
             action.triggered.connect(partial(_ask_for, ask, name))
             give_words("animation", action)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
-        menu = self._top("edit", self.tr("&Edit"))
-        undo = undo_stack.createUndoAction(self, self.tr("&Undo"))
-        redo = undo_stack.createRedoAction(self, self.tr("&Redo"))
+        menu = self._top("edit", "&Edit")
+        undo = undo_stack.createUndoAction(self, "&Undo")
+        redo = undo_stack.createRedoAction(self, "&Redo")
         undo.setShortcut(QKeySequence(QKeySequence.StandardKey.Undo))
         redo.setShortcut(QKeySequence(QKeySequence.StandardKey.Redo))
         menu.addActions([undo, redo])
         self.actions |= {"undo": undo, "redo": redo}
         self._make_pin_menu(menu)
         menu.addSeparator()
-        self._add(menu, "copy_figure", self.tr("Copy fi&gure"), self.tr("Ctrl+Shift+C"))
+        self._add(menu, "copy_figure", "Copy fi&gure", "Ctrl+Shift+C")
         menu.addSeparator()
-        hold = self._add(menu, "hold_brightness", self.tr("&Hold brightness"), self.tr("Ctrl+B"))
+        hold = self._add(menu, "hold_brightness", "&Hold brightness", "Ctrl+B")
         hold.setCheckable(True)
-        hold.setToolTip(self.tr("While on, the ISO speed moves against the exposure time."))
-        self._add(menu, "reset_scene", self.tr("Reset &scene"))
+        hold.setToolTip("While on, the ISO speed moves against the exposure time.")
+        self._add(menu, "reset_scene", "Reset &scene")
 
     def _make_pin_menu(self, edit: QMenu) -> None:
-        menu = edit.addMenu(self.tr("Pi&n and compare"))
-        self._add(menu, "pin_a", self.tr("Pin as &A"), self.tr("Ctrl+Shift+A"))
-        self._add(menu, "pin_b", self.tr("Pin as &B"), self.tr("Ctrl+Shift+B"))
-        self._add(menu, "go_to_a", self.tr("Take me &to A"))
-        self._add(menu, "go_to_b", self.tr("Take me t&o B"))
-        self._add(menu, "clear_pins", self.tr("C&lear both"))
+        menu = edit.addMenu("Pi&n and compare")
+        self._add(menu, "pin_a", "Pin as &A", "Ctrl+Shift+A")
+        self._add(menu, "pin_b", "Pin as &B", "Ctrl+Shift+B")
+        self._add(menu, "go_to_a", "Take me &to A")
+        self._add(menu, "go_to_b", "Take me t&o B")
+        self._add(menu, "clear_pins", "C&lear both")
 
     def _make_photo_menu(self) -> None:
-        menu = self._top("photo", self.tr("&Photo"))
-        self._add(menu, "match", self.tr("&Match photo"), self.tr("Ctrl+M"))
-        self._add(menu, "match_all", self.tr("Ma&tch all photos"))
-        self._add(menu, "find_lamps", self.tr("&Find lamps"))
-        self._add(menu, "region_by_hand", self.tr("&Region by hand"))
-        self._add(menu, "whole_photo", self.tr("&Whole photo"))
-        self._add(menu, "apply_match", self.tr("&Apply to the scene"), self.tr("Ctrl+Shift+M"))
-        self._add(menu, "save_match", self.tr("Save match as &preset…"))
-        self._add(menu, "delete_preset", self.tr("D&elete preset…"))
-        self._add(menu, "use_settings", self.tr("&Use this photo's settings"))
+        menu = self._top("photo", "&Photo")
+        self._add(menu, "match", "&Match photo", "Ctrl+M")
+        self._add(menu, "match_all", "Ma&tch all photos")
+        self._add(menu, "find_lamps", "&Find lamps")
+        self._add(menu, "region_by_hand", "&Region by hand")
+        self._add(menu, "whole_photo", "&Whole photo")
+        self._add(menu, "apply_match", "&Apply to the scene", "Ctrl+Shift+M")
+        self._add(menu, "save_match", "Save match as &preset…")
+        self._add(menu, "delete_preset", "D&elete preset…")
+        self._add(menu, "use_settings", "&Use this photo's settings")
         menu.addSeparator()
         words = {
-            "beside": self.tr("&Side by side"),
-            "blend": self.tr("&Blended over the simulation"),
-            "split": self.tr("Sp&lit along a line"),
-            "difference": self.tr("&Difference"),
+            "beside": "&Side by side",
+            "blend": "&Blended over the simulation",
+            "split": "Sp&lit along a line",
+            "difference": "&Difference",
         }
         self.overlays = QActionGroup(self)
         for place, mode in enumerate(OVERLAYS, 1):
             action = self._add_choice(menu, self.overlays, f"show_{mode}", words[mode], mode)
             action.setShortcut(QKeySequence(f"Ctrl+Alt+{place}"))
         menu.addSeparator()
-        axes = menu.addMenu(self.tr("Photo was s&canned"))
+        axes = menu.addMenu("Photo was s&canned")
         words = {
-            "auto": self.tr("&Automatic: across its stripes"),
-            "columns": self.tr("Column by &column"),
-            "lines": self.tr("&Line by line"),
+            "auto": "&Automatic: across its stripes",
+            "columns": "Column by &column",
+            "lines": "&Line by line",
         }
         self.scan_axes = QActionGroup(self)
         for axis in SCAN_AXES:
             self._add_choice(axes, self.scan_axes, f"scan_{axis}", words[axis], axis)
 
     def _make_mode_menu(self, view: QMenu) -> None:
-        menu = view.addMenu(self.tr("&Mode"))
+        menu = view.addMenu("&Mode")
         menu.setToolTipsVisible(True)
         texts = {
-            "explore": (self.tr("&Explore"), self.tr("From the LED's light to the bits.")),
-            "photo": (self.tr("&Photo"), self.tr("Explain a photo of your own.")),
-            "limits": (self.tr("&Limits"), self.tr("How fast the code can be, and still be read.")),
-            "effects": (self.tr("E&ffects"), self.tr("What accuracy costs in time.")),
-            "lessons": (self.tr("Le&ssons"), self.tr("Learn step by step.")),
-            "video": (self.tr("&Video"), self.tr("Read films, and what a camera sees.")),
+            "explore": ("&Explore", "From the LED's light to the bits."),
+            "photo": ("&Photo", "Explain a photo of your own."),
+            "limits": ("&Limits", "How fast the code can be, and still be read."),
+            "effects": ("E&ffects", "What accuracy costs in time."),
+            "lessons": ("Le&ssons", "Learn step by step."),
+            "video": ("&Video", "Read films, and what a camera sees."),
         }
         self.modes = QActionGroup(self)
         for place, name in enumerate(MODES, 1):
@@ -196,36 +196,36 @@ class Menus(QObject):
             action.setToolTip(meaning)
 
     def _make_view_menu(self, window: QMainWindow, docks: Iterable[QDockWidget]) -> None:
-        menu = self._view = self._top("view", self.tr("&View"))
+        menu = self._view = self._top("view", "&View")
         self._make_mode_menu(menu)
-        self._add(menu, "fit", self.tr("&Fit pictures"), self.tr("Ctrl+0"))
-        before = self._add(menu, "before", self.tr("&Before the change"), self.tr("Ctrl+Alt+Z"))
+        self._add(menu, "fit", "&Fit pictures", "Ctrl+0")
+        before = self._add(menu, "before", "&Before the change", "Ctrl+Alt+Z")
         before.setCheckable(True)
-        before.setToolTip(self.tr("Show the picture before the latest change beside the one now."))
-        measure = self._add(menu, "measure", self.tr("Meas&ure"), self.tr("Ctrl+Shift+D"))
+        before.setToolTip("Show the picture before the latest change beside the one now.")
+        measure = self._add(menu, "measure", "Meas&ure", "Ctrl+Shift+D")
         measure.setCheckable(True)
-        measure.setToolTip(self.tr("Two cursors, 1 and 2, that you drag over the rows."))
-        theme = self.drop_downs["theme"] = menu.addMenu(self.tr("&Theme"))
+        measure.setToolTip("Two cursors, 1 and 2, that you drag over the rows.")
+        theme = self.drop_downs["theme"] = menu.addMenu("&Theme")
         words = {
-            "system": self.tr("&System"),
-            "light": self.tr("&Light"),
-            "dark": self.tr("&Dark"),
+            "system": "&System",
+            "light": "&Light",
+            "dark": "&Dark",
         }
         self.themes = QActionGroup(self)
         for key in THEMES:
             self._add_choice(theme, self.themes, f"theme_{key}", words[key], key)
         keys = QKeySequence.StandardKey
-        larger = self._add(menu, "text_larger", self.tr("Lar&ger text"), keys.ZoomIn)
-        larger.setToolTip(self.tr("As for a projector: all text of the window."))
-        self._add(menu, "text_smaller", self.tr("Smaller te&xt"), keys.ZoomOut)
-        self._add(menu, "text_normal", self.tr("&Normal text size"), self.tr("Ctrl+Alt+0"))
-        full = self._add(menu, "full_screen", self.tr("Fu&ll screen"), self.tr("F11"))
-        full.setToolTip(self.tr("The window as large as the screen, as for a projector."))
+        larger = self._add(menu, "text_larger", "Lar&ger text", keys.ZoomIn)
+        larger.setToolTip("As for a projector: all text of the window.")
+        self._add(menu, "text_smaller", "Smaller te&xt", keys.ZoomOut)
+        self._add(menu, "text_normal", "&Normal text size", "Ctrl+Alt+0")
+        full = self._add(menu, "full_screen", "Fu&ll screen", "F11")
+        full.setToolTip("The window as large as the screen, as for a projector.")
         FullScreen(window, full)
-        self._add(menu, "reset_layout", self.tr("&Reset layout"))
-        strips = self._add(menu, "slider_strips", self.tr("&Slider strips"))
+        self._add(menu, "reset_layout", "&Reset layout")
+        strips = self._add(menu, "slider_strips", "&Slider strips")
         strips.setCheckable(True)
-        strips.setToolTip(self.tr("The share of bits that the decoder reads along each slider."))
+        strips.setToolTip("The share of bits that the decoder reads along each slider.")
         menu.addSeparator()
         for dock in docks:
             self.add_dock(dock)
@@ -235,13 +235,13 @@ class Menus(QObject):
         self._view.addAction(dock.toggleViewAction())
 
     def _make_help_menu(self) -> None:
-        menu = self._top("help", self.tr("&Help"))
-        self._add(menu, "welcome", self.tr("&Welcome…"))
-        self._add(menu, "lessons", self.tr("&Lessons"))
-        self._add(menu, "report", self.tr("&Report…"))
-        self._add(menu, "about", self.tr("&About"))
-        self._add(menu, "shortcuts", self.tr("&Keyboard shortcuts…"), self.tr("F1"))
-        self._add(menu, "palette", self.tr("Find a &command…"), self.tr("Ctrl+Shift+P"))
+        menu = self._top("help", "&Help")
+        self._add(menu, "welcome", "&Welcome…")
+        self._add(menu, "lessons", "&Lessons")
+        self._add(menu, "report", "&Report…")
+        self._add(menu, "about", "&About")
+        self._add(menu, "shortcuts", "&Keyboard shortcuts…", "F1")
+        self._add(menu, "palette", "Find a &command…", "Ctrl+Shift+P")
 
     def _add_choice(
         self, menu: QMenu, group: QActionGroup, name: str, text: str, key: str
@@ -281,13 +281,13 @@ class Menus(QObject):
         self.recent.setEnabled(not self.recent.isEmpty())
         if not self.recent.isEmpty():
             self.recent.addSeparator()
-            self.recent.addAction(self.tr("&Clear this list")).triggered.connect(clear)
+            self.recent.addAction("&Clear this list").triggered.connect(clear)
 
     def show_samples(self, files: Iterable[Path], open_file: Callable[[Path], None]) -> None:
         """List the photos that come with the program."""
         self.samples.clear()
         for path in files:
-            text = self.tr("{name} (simulated)").format(name=_words_of(path.stem))
+            text = f"{_words_of(path.stem)} (simulated)"
             _add_file(self.samples, path, text, open_file)
         self.samples.setEnabled(not self.samples.isEmpty())
 

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from PySide6.QtCore import QCoreApplication
 from PySide6.QtGui import QAction
 
 _PROPERTY = "search_words"
@@ -59,7 +58,7 @@ _WORDS: Mapping[str, str] = MappingProxyType(
 def give_words(name: str, action: QAction) -> None:
     """Let an entry of a menu be found by words that are not its own."""
     words = _WORDS.get(name) or _WORDS.get(f"{name.partition('_')[0]}_", "")
-    action.setProperty(_PROPERTY, QCoreApplication.translate("SearchWords", words))
+    action.setProperty(_PROPERTY, words)
 
 
 def words_of(action: QAction) -> str:

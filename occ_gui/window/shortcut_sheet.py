@@ -22,11 +22,11 @@ class ShortcutSheet(QDialog):
 
     def __init__(self, rows: Iterable[tuple[str, str, str]], parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle(self.tr("Keyboard shortcuts"))
+        self.setWindowTitle("Keyboard shortcuts")
         shown = list(rows)
         self.table = QTableWidget(len(shown), 3)
-        self.table.setAccessibleName(self.tr("Keyboard shortcuts"))
-        self.table.setHorizontalHeaderLabels([self.tr("Menu"), self.tr("Does"), self.tr("Keys")])
+        self.table.setAccessibleName("Keyboard shortcuts")
+        self.table.setHorizontalHeaderLabels(["Menu", "Does", "Keys"])
         self.table.verticalHeader().hide()
         self.table.setShowGrid(False)
         self.table.setAlternatingRowColors(True)
@@ -41,10 +41,8 @@ class ShortcutSheet(QDialog):
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setSectionResizeMode(1, QHeaderView.ResizeMode.Stretch)
         hint = QLabel(
-            self.tr(
-                "Sliders: arrows and Page Up/Down. Fields: type a number with its unit, such as "
-                "68us or 1/8000 s; Enter takes it. Alt and an underlined letter opens a menu."
-            )
+            "Sliders: arrows and Page Up/Down. Fields: type a number with its unit, such as "
+            "68us or 1/8000 s; Enter takes it. Alt and an underlined letter opens a menu."
         )
         hint.setWordWrap(True)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)

@@ -34,9 +34,9 @@ class StatusLine(QStatusBar):
         self._others: list[QLabel] = []
         self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self._sentence.setAccessibleName(self.tr("Message"))
-        self.reading = WorkBar(self.tr("How much of the photo has been read"))
-        self.filming = WorkBar(self.tr("How much of the animation has been written"))
+        self._sentence.setAccessibleName("Message")
+        self.reading = WorkBar("How much of the photo has been read")
+        self.filming = WorkBar("How much of the animation has been written")
         self.pointed, self._timing = _Readout(), _Readout()
         self.addWidget(self._sentence, 1)
         for widget in (self.reading, self.filming, self.pointed, self._timing):
@@ -82,9 +82,7 @@ class StatusLine(QStatusBar):
     def show_timing(self, simulation: float, reading: float) -> None:
         """Show the computing times in seconds of the last simulation and its decoding."""
         self._timing.set_full_text(
-            self.tr("simulated in {simulation:.1f} ms, read in {reading:.1f} ms").format(
-                simulation=1e3 * simulation, reading=1e3 * reading
-            )
+            f"simulated in {1e3 * simulation:.1f} ms, read in {1e3 * reading:.1f} ms"
         )
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

@@ -69,25 +69,25 @@ class ManyPhotosView(QWidget):
         self.rows.modelReset.connect(self.rows_changed)
         self.rows.dataChanged.connect(self.rows_changed)
         self.rows.refused.connect(self._show_note)
-        self.title = _text(self.tr("How many photos"))
+        self.title = _text("How many photos")
         self._make_buttons()
         self._make_table()
-        self.work = WorkBar(self.tr("Photos that are matched"))
+        self.work = WorkBar("Photos that are matched")
         self.work.cancelled.connect(self.cancelled)
         self.mean, self.exposure, self.frame, self.notes = (
             _text(name)
             for name in (
-                self.tr("Mean of the photos"),
-                self.tr("Mean exposure time"),
-                self.tr("Readout time of the whole frame"),
-                self.tr("Notes on the photos together"),
+                "Mean of the photos",
+                "Mean exposure time",
+                "Readout time of the whole frame",
+                "Notes on the photos together",
             )
         )
         self.paste = PasteLines()
         self.paste.copied.connect(self.copied)
         for label in (self.mean, self.exposure, self.frame):
             label.setToolTip(what_errors_mean())
-        self.stale = _text(self.tr("Whether the table still belongs to the known value"))
+        self.stale = _text("Whether the table still belongs to the known value")
         self._found: PhotoTable | None = None
         self._asked: tuple[str, Scene] | None = None
         self._counts = ""
@@ -112,27 +112,25 @@ class ManyPhotosView(QWidget):
         self.hide()
 
     def _make_buttons(self) -> None:
-        self.start = QPushButton(self.tr("Match &all"))
+        self.start = QPushButton("Match &all")
         self.start.setToolTip(
-            self.tr("Match every photo with the choices below, and combine what they measure.")
+            "Match every photo with the choices below, and combine what they measure."
         )
         self.start.clicked.connect(self.match_asked)
-        self.copy = QPushButton(self.tr("&Copy table"))
-        self.copy.setToolTip(self.tr("Copy the table as CSV, with the scene that it belongs to."))
+        self.copy = QPushButton("&Copy table")
+        self.copy.setToolTip("Copy the table as CSV, with the scene that it belongs to.")
         self.copy.clicked.connect(lambda: self.copied.emit(copy_text(self.csv())))
-        self.save = QPushButton(self.tr("&Save table…"))
-        self.save.setToolTip(
-            self.tr("Save the table as a CSV file, with the scene that it belongs to.")
-        )
+        self.save = QPushButton("&Save table…")
+        self.save.setToolTip("Save the table as a CSV file, with the scene that it belongs to.")
         self.save.clicked.connect(lambda: self.save_asked.emit(self.csv()))
-        self.close_table = QPushButton(self.tr("Close table"))
-        self.close_table.setToolTip(self.tr("Put the table away; the open photo stays."))
+        self.close_table = QPushButton("Close table")
+        self.close_table.setToolTip("Put the table away; the open photo stays.")
         self.close_table.clicked.connect(self.closed)
 
     def _make_table(self) -> None:
         self.table = QTableView()
         self.table.setModel(self.rows)
-        self.table.setAccessibleName(self.tr("Photos"))
+        self.table.setAccessibleName("Photos")
         self.table.setShowGrid(False)
         self.table.setWordWrap(False)
         self.table.setTextElideMode(Qt.TextElideMode.ElideMiddle)  # names often end in a number
@@ -188,20 +186,20 @@ class ManyPhotosView(QWidget):
 
     def _show_done(self, done: int) -> None:
         count = len(self.rows.paths)
-        self.work.progress.setFormat(self.tr("{done} of {count}").format(done=done, count=count))
+        self.work.progress.setFormat(f"{done} of {count}")
         self.work.show_progress(done / count)
 
     def _show_title(self) -> None:
         """Show how many photos there are, their verdicts, and what their times rest on."""
-        text = self.tr("{count} photos").format(count=len(self.rows.paths))
+        text = f"{len(self.rows.paths)} photos"
         if self._asked is None:
-            text += self.tr(", not matched yet: say below what is known.")
+            text += ", not matched yet: say below what is known."
         else:
             text += f": {self._counts}" if self._counts else ""
             rests_on = self._rests_on(*self._asked)
             self.rows.show_condition(rests_on)
             if rests_on:
-                text += self.tr(". What is measured holds only {condition}.").format(
+                text += ". What is measured holds only {condition}.".format(
                     condition=rests_on.removesuffix(": ")
                 )
         self.title.setText(text)
@@ -255,9 +253,8 @@ class ManyPhotosView(QWidget):
         known = quantity(table.known)
         now, then = float(scene.value(known.name)), float(table.scene.value(known.name))
         self.stale.setText(
-            self.tr("Found with {then}; the scene has {now} now: match all again.").format(
-                then=known.format(then), now=known.format(now)
-            )
+            f"Found with {known.format(then)}; the scene has {known.format(now)} now: "
+            "match all again."
         )
         self.stale.setVisible(is_stale(known.name, then, self._given, now, self._certain))
 
@@ -286,9 +283,7 @@ class ManyPhotosView(QWidget):
             frame = frame_readout_time(table)
             if frame is not None:
                 time = with_uncertainty(quantity("readout_time"), *frame)
-                texts[self.frame] = self.tr(
-                    "Readout of the whole frame, sure photos: {time}"
-                ).format(time=rests_on + time)
+                texts[self.frame] = f"Readout of the whole frame, sure photos: {rests_on + time}"
             texts[self.notes] = "\n".join(table.notes)
             self.paste.show_lines_if(rests_on, lines_to_paste(table))
         else:
@@ -303,17 +298,15 @@ class ManyPhotosView(QWidget):
         declared = quantity(name)
         value = with_uncertainty(declared, found.value, found.uncertainty)
         text = (
-            self.tr("{label}: {value}, mean of {count} sure photos")
+            "{label}: {value}, mean of {count} sure photos"
             if found.count > 1
-            else self.tr("{label}: {value}, of the one sure photo")
+            else "{label}: {value}, of the one sure photo"
         ).format(label=label_of(name), value=condition + value, count=found.count)
         if found.count > 1:
-            how = self.tr("they agree") if found.agrees else self.tr("they do not agree")
-            text += self.tr("; χ² {chi:.3g} of {degrees}: {how}").format(
-                chi=found.chi_square, degrees=found.degrees_of_freedom, how=how
-            )
+            how = "they agree" if found.agrees else "they do not agree"
+            text += f"; χ² {found.chi_square:.3g} of {found.degrees_of_freedom}: {how}"
         if found.outliers:
-            text += self.tr("; {count} left out").format(count=len(found.outliers))
+            text += f"; {len(found.outliers)} left out"
         return text
 
     def csv(self) -> str:

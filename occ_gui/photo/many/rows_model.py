@@ -137,15 +137,15 @@ class PhotoRowsModel(QAbstractTableModel):
 
     def _titles(self) -> tuple[str, ...]:
         return (
-            self.tr("Photo"),
-            self.tr("Verdict"),
+            "Photo",
+            "Verdict",
             # Short: the times beside it are to stay in view.
-            self.tr("given {symbol}").format(symbol=quantity(self.known).symbol),
+            f"given {quantity(self.known).symbol}",
             label_of(self._estimate),
             label_of("exposure_time"),
-            self.tr("As noted"),
-            self.tr("Correlation"),
-            self.tr("Why"),
+            "As noted",
+            "Correlation",
+            "Why",
         )
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
@@ -205,7 +205,7 @@ class PhotoRowsModel(QAbstractTableModel):
             is_own = row is not None and row.given is not None
             return text if is_own else f"{self._condition}{text}"
         if column == KNOWN:
-            return self.tr(
+            return (
                 "Known of this photo: double-click to enter another value than that of all "
                 "others, as of another lamp; enter nothing to take that one again.\n"
                 "A lamp that only blinks has two chips a cycle."
@@ -233,7 +233,7 @@ class PhotoRowsModel(QAbstractTableModel):
                 text = _estimate(row, "exposure_time")
                 # Of a doubtful photo all is.
                 is_apart = row.verdict == SURE and row.exposure_verdict == DOUBTFUL
-                return self.tr("{time} (doubtful)").format(time=text) if is_apart else text
+                return f"{text} (doubtful)" if is_apart else text
             case 5:
                 noted = row.noted_exposure
                 return "" if noted is None else quantity("exposure_time").format(noted, 4)
@@ -243,16 +243,16 @@ class PhotoRowsModel(QAbstractTableModel):
 
     def _verdict(self, place: int, row: PhotoRow) -> str:
         names = {
-            SURE: self.tr("sure"),
-            DOUBTFUL: self.tr("doubtful"),
-            REFUSED: self.tr("refused"),
-            UNREADABLE: self.tr("unreadable"),
+            SURE: "sure",
+            DOUBTFUL: "doubtful",
+            REFUSED: "refused",
+            UNREADABLE: "unreadable",
         }
         name = names[row.verdict]
         if self._table is not None and self._table.is_outlier(place):
-            name = self.tr("{verdict}, outlier").format(verdict=name)
+            name = f"{name}, outlier"
         if self.paths[place] == self._earlier:
-            name = self.tr("{verdict}, earlier match").format(verdict=name)
+            name = f"{name}, earlier match"
         return f"{SIGNS[row.verdict]} {name}"
 
 

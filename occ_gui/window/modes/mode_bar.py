@@ -26,8 +26,8 @@ class ModeBar(QTabBar):
         self._icons: list[QIcon] = []
         self._has_icons, self._whole = False, 0
         self.setObjectName("modes")
-        self.setAccessibleName(self.tr("Mode"))
-        self.setToolTip(self.tr("The task that the window is laid out for."))
+        self.setAccessibleName("Mode")
+        self.setToolTip("The task that the window is laid out for.")
         self.setDrawBase(False)
         self.setExpanding(False)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))

@@ -43,7 +43,7 @@ class ToolButton(QToolButton):
         name = plain(action.text()).rstrip("…")
         keys = action.shortcut().toString(_NATIVE)
         self.setAccessibleName(name)
-        text = self.tr("{command} ({keys})").format(command=name, keys=keys) if keys else name
+        text = f"{name} ({keys})" if keys else name
         meaning = action.toolTip()
         if meaning != name:  # where none is given, Qt takes the name
             text = f"{text}\n{meaning}"

@@ -35,8 +35,8 @@ class ToolBar(QToolBar):
     ) -> None:
         super().__init__(parent)
         self.setObjectName("toolbar")
-        self.setWindowTitle(self.tr("Toolbar"))
-        self.setAccessibleName(self.tr("Toolbar"))
+        self.setWindowTitle("Toolbar")
+        self.setAccessibleName("Toolbar")
         self.setMovable(False)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))
         # The menu of Qt that hides toolbars would leave no way to show it again.

@@ -48,32 +48,42 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
     from occ_model.receiver.decoder import Decoder as Decoder
     from occ_model.receiver.decoders import decoders as decoders
     from occ_model.receiver.read_payload import read_payload as read_payload
-    from occ_model.results import (
-        Alternative as Alternative,
+    from occ_model.results.bands import (
         BandAdvice as BandAdvice,
         BandDepth as BandDepth,
-        BitErrors as BitErrors,
-        ChipReading as ChipReading,
-        Clock as Clock,
-        Comparison as Comparison,
-        Decision as Decision,
-        DecodeResult as DecodeResult,
         EyeFlicker as EyeFlicker,
-        FilmProgress as FilmProgress,
-        Frame as Frame,
-        FrameReading as FrameReading,
-        Lamp as Lamp,
-        Limits as Limits,
-        Match as Match,
-        MostBits as MostBits,
-        PacketReading as PacketReading,
-        PhotoTable as PhotoTable,
-        Plan as Plan,
+    )
+    from occ_model.results.bit_errors import BitErrors as BitErrors
+    from occ_model.results.decoding import (
+        DecodeResult as DecodeResult,
         Region as Region,
+    )
+    from occ_model.results.frame import Frame as Frame
+    from occ_model.results.lamp import Lamp as Lamp
+    from occ_model.results.limits import Limits as Limits
+    from occ_model.results.match import (
+        Alternative as Alternative,
+        ChipReading as ChipReading,
+        Comparison as Comparison,
+        Match as Match,
         Stripes as Stripes,
-        SweepTable as SweepTable,
+    )
+    from occ_model.results.most_bits import MostBits as MostBits
+    from occ_model.results.photo_table import PhotoTable as PhotoTable
+    from occ_model.results.plan import (
+        Decision as Decision,
+        Plan as Plan,
+    )
+    from occ_model.results.sent_packets import PacketReading as PacketReading
+    from occ_model.results.sweep import SweepTable as SweepTable
+    from occ_model.results.video import (
         Video as Video,
         VideoFrame as VideoFrame,
+    )
+    from occ_model.results.video_reading import (
+        Clock as Clock,
+        FilmProgress as FilmProgress,
+        FrameReading as FrameReading,
         VideoReading as VideoReading,
     )
     from occ_model.room.locate import (
@@ -151,48 +161,48 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
 # isort: on
 
 _MODULES = {
-    "Alternative": "results",
-    "BandAdvice": "results",
-    "BandDepth": "results",
+    "Alternative": "results.match",
+    "BandAdvice": "results.bands",
+    "BandDepth": "results.bands",
     "BandModelUndefined": "errors",
-    "BitErrors": "results",
-    "ChipReading": "results",
-    "Clock": "results",
-    "Comparison": "results",
-    "Decision": "results",
+    "BitErrors": "results.bit_errors",
+    "ChipReading": "results.match",
+    "Clock": "results.video_reading",
+    "Comparison": "results.match",
+    "Decision": "results.plan",
     "DecodeInputError": "errors",
-    "DecodeResult": "results",
+    "DecodeResult": "results.decoding",
     "Decoded": "transmitter.line_codes.line_code",
     "Decoder": "receiver.decoder",
-    "EyeFlicker": "results",
-    "FilmProgress": "results",
-    "Frame": "results",
+    "EyeFlicker": "results.bands",
+    "FilmProgress": "results.video_reading",
+    "Frame": "results.frame",
     "FrameFormat": "transmitter.framings.framing",
-    "FrameReading": "results",
+    "FrameReading": "results.video_reading",
     "Framed": "transmitter.framings.framing",
     "Framing": "transmitter.framings.framing",
-    "Lamp": "results",
-    "Limits": "results",
+    "Lamp": "results.lamp",
+    "Limits": "results.limits",
     "LineCode": "transmitter.line_codes.line_code",
     "Located": "room.locate",
-    "Match": "results",
+    "Match": "results.match",
     "MatchError": "errors",
-    "MostBits": "results",
+    "MostBits": "results.most_bits",
     "OccError": "errors",
     "OutputError": "errors",
-    "PacketReading": "results",
+    "PacketReading": "results.sent_packets",
     "ParameterError": "errors",
     "Photo": "photo.reading.load",
     "PhotoError": "errors",
-    "PhotoTable": "results",
+    "PhotoTable": "results.photo_table",
     "Place": "room.room",
-    "Plan": "results",
+    "Plan": "results.plan",
     "PluginError": "errors",
     "PresetError": "errors",
     "ProjectionError": "errors",
     "ReadLamp": "room.reading",
     "Recording": "scene.recording",
-    "Region": "results",
+    "Region": "results.decoding",
     "Room": "room.room",
     "RoomFrame": "room.render",
     "RoomLamp": "room.room",
@@ -201,13 +211,13 @@ _MODULES = {
     "SceneFileError": "errors",
     "Scheme": "transmitter.scheme",
     "SimulationSettings": "scene.simulation_settings",
-    "Stripes": "results",
-    "SweepTable": "results",
-    "Video": "results",
+    "Stripes": "results.match",
+    "SweepTable": "results.sweep",
+    "Video": "results.video",
     "VideoError": "errors",
-    "VideoFrame": "results",
+    "VideoFrame": "results.video",
     "VideoReader": "video.reader",
-    "VideoReading": "results",
+    "VideoReading": "results.video_reading",
     "Waypoint": "scene.recording",
     "accuracy": "study.accuracy",
     "band_advice": "study.bands.advice",

@@ -24,7 +24,9 @@ from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.results import AccuracyPoint, Decision, Forecast, MeasuredCosts, TimeShares
+from occ_model.results.accuracy import AccuracyPoint
+from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312

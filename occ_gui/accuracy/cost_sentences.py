@@ -4,7 +4,9 @@ import math
 from collections.abc import Sequence
 
 from occ_gui.accuracy.effect_rows import levels, milliseconds
-from occ_model.results import Decision, Forecast, Frame, MeasuredCosts, TimeShares
+from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.frame import Frame
+from occ_model.results.plan import Decision
 
 
 def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | None) -> str:

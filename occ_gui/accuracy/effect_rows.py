@@ -3,7 +3,9 @@
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from occ_model.results import Decision, EffectCrop, EffectDifference, Forecast, Frame, MeasuredCosts
+from occ_model.results.effect_costs import EffectCrop, EffectDifference, Forecast, MeasuredCosts
+from occ_model.results.frame import Frame
+from occ_model.results.plan import Decision
 
 ELSE = "everything else"
 """Key of the last row, which is no effect."""

@@ -8,7 +8,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import Decision
+from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings
 
 AccuracyPart: TypeAlias = tuple[SimulationSettings, tuple[Decision, ...], Snapshot | None]

@@ -3,7 +3,8 @@
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import Decision, Frame
+from occ_model.results.frame import Frame
+from occ_model.results.plan import Decision
 
 _NEW_MS = 8000
 """For how long what the plan has switched is marked, and told in the status line."""

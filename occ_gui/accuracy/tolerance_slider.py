@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.results import Way
+from occ_model.results.plan import Way
 from occ_model.scene.simulation_settings import TOLERANCE
 
 STEPS = 200

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from occ_model.results import CLOSED_FORM, AccuracyPoint
+from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 
 _EVERY = 4
 """Of the samplings, every fourth one is a point; the curve joins them all."""

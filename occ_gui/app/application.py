@@ -45,7 +45,8 @@ from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
 from occ_model.plugins import all_at_work
 from occ_model.receiver.decoders import DECODERS, decoders
-from occ_model.results import Decision, Match
+from occ_model.results.match import Match
+from occ_model.results.plan import Decision
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.cause import Step

@@ -13,7 +13,7 @@ from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.pens import BAND, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 
 _CHIP_STRIP_HEIGHT = 0.16
 """Height of the strip of chips below the signal, as a fraction of the signal's range."""

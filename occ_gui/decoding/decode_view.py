@@ -13,7 +13,7 @@ from occ_gui.decoding.payload_text import PayloadText
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, result_of, verdict_on
 from occ_gui.widgets.state_look import State
-from occ_model.results import DecodeResult, Location
+from occ_model.results.decoding import DecodeResult, Location
 
 _MARKS = {State.GOOD: "✓ ", State.NEUTRAL: "", State.WAITING: "… "}
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject
 
-from occ_model.results import Limits, Trial, WorkingRange
 from occ_model.results.advice import Advice, EndFacts, TheoryLimits
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.limits import Limits, Trial, WorkingRange
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND
 

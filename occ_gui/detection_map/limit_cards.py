@@ -13,8 +13,8 @@ from occ_gui.detection_map.advice_sentences import (
 )
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import TextSize, scaled
-from occ_model.results import WorkingRange
 from occ_model.results.advice import Advice, EndFacts
+from occ_model.results.limits import WorkingRange
 
 _PARAMETER = "switching_frequency"
 

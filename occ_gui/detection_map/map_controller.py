@@ -20,8 +20,7 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_model.arrays import FloatArray
 from occ_model.parallel.job import Stage
 from occ_model.receiver.decoders import QUICK_DECODERS
-from occ_model.results import SweepPoint
-from occ_model.results.sweep_request import Shown
+from occ_model.results.sweep_request import Shown, SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

@@ -9,7 +9,7 @@ from occ_gui.detection_map.rate_map import STRIDES, lattice
 from occ_gui.detection_map.worker import rate_settings, theory_fields
 from occ_model.arrays import IndexArray
 from occ_model.parallel.job import Job, Stage
-from occ_model.results import SweepRequest
+from occ_model.results.sweep_request import SweepRequest
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.sweep.points import measure_points

@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QWidget
 
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_model.results import MostBits
+from occ_model.results.most_bits import MostBits
 from occ_model.scene.units import HERTZ
 
 _DIGITS = 3

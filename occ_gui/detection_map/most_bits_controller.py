@@ -13,7 +13,7 @@ from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.receiver import decoders
-from occ_model.results import MostBits
+from occ_model.results.most_bits import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, example_of, unvaried
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.results import SweepPoint
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 
 MAP_PARAMETERS = (

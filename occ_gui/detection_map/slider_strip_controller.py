@@ -11,7 +11,7 @@ from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_se
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
-from occ_model.results import SweepPoint
+from occ_model.results.sweep_request import SweepPoint
 
 POSITIONS = 29
 """Positions along a slider."""

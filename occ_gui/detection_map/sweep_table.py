@@ -7,8 +7,9 @@ import numpy as np
 from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import map_request
 from occ_gui.detection_map.rate_map import RateMap
-from occ_model.results import SweepPoint, SweepTable
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.study.sweep.counts import rate_intervals
 
 

@@ -11,8 +11,9 @@ from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import MostBits, RateSettings, SignalPath, SweepPoint
 from occ_model.results.advice import Advice
+from occ_model.results.most_bits import MostBits
+from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

@@ -18,8 +18,9 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import AccuracyPoint, DecodeResult
+from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.bench import BenchPoint, BenchRequest
+from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene

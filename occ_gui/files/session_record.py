@@ -13,7 +13,7 @@ from occ_gui.core.step_history import History, StepChange
 from occ_gui.core.workspace import Step
 from occ_gui.files.preferences import text_of
 from occ_gui.simulation.snapshot import Pins, SimulationRequest
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (

@@ -20,8 +20,8 @@ from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
 from occ_model.results.lessons import Lesson, LessonList, Step
+from occ_model.results.match import Match
 from occ_model.teaching.explanations import explanation
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES

@@ -9,7 +9,9 @@ import occ_model as occ
 from occ_gui.background.task import Task
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import ChipReading, Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import ChipReading
 
 
 class ChipPane(Protocol):

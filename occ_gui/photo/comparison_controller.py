@@ -15,7 +15,9 @@ from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare, enhance_comparison
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Comparison, Lamp, Match, Region, Stripes
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Comparison, Match, Stripes
 
 _FLAT = 0.5
 """Swing in grey levels below which the simulated columns show no stripes."""

@@ -7,7 +7,9 @@ from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.picture.placement import Placement
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Match, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Match
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,8 @@ from occ_gui.photo.kept_photo import KeptRegion
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import region_within
-from occ_model.results import Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
 
 _INSET = 4
 """A first rectangle leaves out one part of so many at each side of the photo."""

@@ -10,7 +10,8 @@ from PySide6.QtGui import QPen, QPolygonF
 
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.pens import PHOTO, REGION
-from occ_model.results import Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
 
 _THIN, _THICK = 2, 4
 _ABOVE = 20

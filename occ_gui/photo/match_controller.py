@@ -14,8 +14,10 @@ from occ_gui.photo.match_request import MatchRequest, Refusal, match, request_of
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Match, Region
 from occ_model.results.bands import Cure
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Match
 from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.presets import save_preset
 from occ_model.study.bands.cure import cure_of

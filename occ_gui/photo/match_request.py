@@ -7,7 +7,9 @@ from occ_gui.background.task import Report
 from occ_gui.photo.match_choice import MatchChoice
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Match, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import blinking
 

@@ -12,8 +12,8 @@ from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.photo.many.other_programs import lines_of_match
-from occ_model.results import Match
 from occ_model.results.bands import Cure
+from occ_model.results.match import Match
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND

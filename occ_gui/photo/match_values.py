@@ -11,7 +11,7 @@ from occ_gui.photo.match_choice import KNOWN
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.other_programs import frame_of_match
-from occ_model.results import Alternative, Match
+from occ_model.results.match import Alternative, Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE

@@ -10,8 +10,8 @@ from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match, PhotoRow
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
+from occ_model.results.match import Match
+from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE, PhotoRow
 from occ_model.scene.parameters import quantity
 
 

@@ -24,8 +24,8 @@ from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.picture.placement import Placement
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
 from occ_model.results.bands import Cure
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
 _SCROLL_BAR = 20

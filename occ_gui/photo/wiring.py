@@ -22,7 +22,9 @@ from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Reading
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Match, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Match
 
 
 class PhotoWiring(Pane[Reading | None]):

@@ -12,8 +12,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.pens import BEFORE
 from occ_model.arrays import ByteArray
-from occ_model.results import Frame
-from occ_model.results.frame import PICTURES
+from occ_model.results.frame import PICTURES, Frame
 
 _LINE_PEN = pg.mkPen(BEFORE, width=2)
 _PAPER = "#f4f4f4"

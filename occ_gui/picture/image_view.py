@@ -20,8 +20,7 @@ from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Frame
-from occ_model.results.frame import PICTURES
+from occ_model.results.frame import PICTURES, Frame
 
 _GAINS = (1, 2, 4, 8)
 _APART = 8

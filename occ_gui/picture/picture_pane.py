@@ -10,7 +10,7 @@ from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.pens import REGION
 from occ_model.arrays import ByteArray
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _REGION_PEN = pg.mkPen(REGION, width=2)
 

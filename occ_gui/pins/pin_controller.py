@@ -16,7 +16,7 @@ from occ_gui.scene.wording import distinguished
 from occ_gui.simulation.jobs import snapshot_of
 from occ_gui.simulation.snapshot import Pins, SimulationRequest, Snapshot
 from occ_model.errors import OccError, one_line
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS

@@ -9,7 +9,7 @@ from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.pens import PHOTO
 from occ_gui.widgets.plot import Plot
-from occ_model.results import ChipReading
+from occ_model.results.match import ChipReading
 
 _CERTAIN = 0.95
 """Probability that all chips are right from which they are drawn in full."""

@@ -8,7 +8,7 @@ from occ_gui.profile.profile_view import ProfileView
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Reading, Snapshot
-from occ_model.results import ChipReading
+from occ_model.results.match import ChipReading
 
 ProfilePart: TypeAlias = tuple[
     Reading | None, Snapshot | None, PhotoProfile | None, ChipReading | None, bool

@@ -9,7 +9,7 @@ from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.pens import PHOTO, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
-from occ_model.results import Comparison
+from occ_model.results.match import Comparison
 
 _LEAST_HEIGHT = 56
 

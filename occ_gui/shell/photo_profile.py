@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
-from occ_model.results import Comparison
+from occ_model.results.match import Comparison
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -7,7 +7,8 @@ from PySide6.QtCore import QObject, Signal
 from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
-from occ_model.results import ChipReading, Decision
+from occ_model.results.match import ChipReading
+from occ_model.results.plan import Decision
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -11,7 +11,9 @@ from occ_model.arrays import FloatArray
 from occ_model.effects.plan import called_for_by_signal
 from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
-from occ_model.results import DecodeResult, Frame, Plan
+from occ_model.results.decoding import DecodeResult
+from occ_model.results.frame import Frame
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with

@@ -8,7 +8,7 @@ import numpy as np
 
 from occ_gui.simulation.snapshot import Reading, SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.results import Frame
+from occ_model.results.frame import Frame
 
 _MIN_COPY_SIDE = 256
 """Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""

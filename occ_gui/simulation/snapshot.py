@@ -4,8 +4,9 @@ from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 from occ_model.arrays import FloatArray
-from occ_model.results import DecodeResult, Frame, Plan
-from occ_model.results.frame import PICTURES
+from occ_model.results.decoding import DecodeResult
+from occ_model.results.frame import PICTURES, Frame
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

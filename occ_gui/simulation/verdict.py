@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 
 _LONGEST_PAYLOAD = 24
 """Characters of a payload that a title shows."""

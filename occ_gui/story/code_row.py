@@ -24,7 +24,7 @@ from occ_gui.widgets.pens import SIMULATION
 from occ_gui.widgets.state_look import State
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.payload import Piece, compared, form_of
 
 Span: TypeAlias = tuple[float, float]

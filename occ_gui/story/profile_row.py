@@ -18,7 +18,7 @@ from occ_gui.widgets.contrast import mixed, seen_on
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD
 from occ_gui.widgets.unchanged import are_same
 from occ_model.arrays import FloatArray
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 
 _LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)

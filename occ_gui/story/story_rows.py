@@ -23,7 +23,7 @@ from occ_gui.story.stripes_row import StripesRow
 from occ_gui.story.text_room import gutter_of
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD, thin
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
 
 RANGES = ("packets", "panel")

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QW
 
 from occ_gui.picture.picture_pane import PicturePane
 from occ_model.arrays import ByteArray
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _LEAST = QSize(140, 90)
 

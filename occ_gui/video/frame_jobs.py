@@ -12,7 +12,7 @@ from occ_gui.video.frame_rows import FrameStory
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
 from occ_model.receiver.signal import column_means
-from occ_model.results import DecodeResult, Region
+from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.video import Video, VideoFrame
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene

@@ -15,7 +15,7 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
-from occ_model.results import AccuracyPoint
+from occ_model.results.accuracy import AccuracyPoint
 from occ_model.study.accuracy import accuracy, point_count
 
 

@@ -1,6 +1,6 @@
 """The chips in view of ``occ-model match --chips`` as text."""
 
-from occ_model.results import ChipReading
+from occ_model.results.match import ChipReading
 
 
 def chip_lines(reading: ChipReading) -> list[str]:

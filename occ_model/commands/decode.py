@@ -17,7 +17,7 @@ from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.video.clock import READOUT_TOLERANCE
 from occ_model.video.file.kind import is_film
 

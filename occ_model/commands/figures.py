@@ -12,8 +12,8 @@ from occ_model.errors import one_line
 from occ_model.files.writing import make_folder
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.receiver.decoders import PAPER_DECODER, QUICK_DECODERS
-from occ_model.results import SweepRequest, SweepTable
-from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import MOST_IMAGES, MOST_JOBS, SweepRequest
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.units import HERTZ
 from occ_model.study.paper_grid import DEVICES, IMAGES, ceases_at, grid_request

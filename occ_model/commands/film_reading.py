@@ -6,8 +6,8 @@ import sys
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError
 from occ_model.program import EXIT_FAILURE
-from occ_model.results import Clock, FilmProgress, Measured, VideoReading
 from occ_model.results.video import Video
+from occ_model.results.video_reading import Clock, FilmProgress, Measured, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND, Unit
 from occ_model.study.confidence import wilson_interval

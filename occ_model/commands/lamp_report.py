@@ -3,7 +3,8 @@
 import re
 
 from occ_model.errors import ParameterError, shown
-from occ_model.results import Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
 from occ_model.scene.units import Unit
 
 _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")

@@ -16,9 +16,9 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.results.advice import Advice
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene

@@ -17,7 +17,7 @@ from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
-from occ_model.results import Alternative, Match
+from occ_model.results.match import Alternative, Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

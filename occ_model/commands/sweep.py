@@ -24,9 +24,15 @@ from occ_model.effects.registry import NAMES
 from occ_model.errors import OutputError, ParameterError, one_line, shown
 from occ_model.program import EXIT_INTERRUPTED
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER, QUICK_DECODERS
-from occ_model.results import RateSettings, SweepRequest, SweepTable
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.sweep_request import MOST_JOBS, SHOWN, SIGNAL_PATHS
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import (
+    MOST_JOBS,
+    SHOWN,
+    SIGNAL_PATHS,
+    RateSettings,
+    SweepRequest,
+)
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.request_check import checked_request

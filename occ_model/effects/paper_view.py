@@ -20,7 +20,7 @@ from occ_model.camera.photometry import (
     pixel_value,
 )
 from occ_model.camera.projection import panel_corners
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
 

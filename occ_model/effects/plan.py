@@ -15,7 +15,7 @@ from occ_model.effects.effect import Effect
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
 from occ_model.errors import ProjectionError
-from occ_model.results import Decision, Plan, Way
+from occ_model.results.plan import Decision, Plan, Way
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE, Observable, SimulationSettings
 

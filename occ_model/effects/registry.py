@@ -12,7 +12,7 @@ from occ_model.effects.jpeg import Jpeg
 from occ_model.effects.led_edges import LedEdges
 from occ_model.effects.sensor_effects import FixedPattern, FullWell, SensorNoise
 from occ_model.effects.vignetting import Vignetting
-from occ_model.results import Plan
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 
 EFFECTS: tuple[Effect, ...] = (

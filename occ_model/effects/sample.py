@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.optics import Gain, Optics
 from occ_model.effects.normal import normal_share
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 COLUMNS = 192
 """Most columns of a sample of a large picture."""

@@ -11,7 +11,7 @@ from matplotlib.ticker import LogFormatterMathtext
 
 from occ_model import colours
 from occ_model.figures.drawing import Drawing, settings_notes
-from occ_model.results import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
+from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERROR, AccuracyPoint
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

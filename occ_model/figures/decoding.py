@@ -13,7 +13,7 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import one_line, printable
 from occ_model.figures.drawing import THRESHOLD, Drawing
 from occ_model.figures.window_panes import caption, write_caption
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 
 _LONGEST_PAYLOAD = 40

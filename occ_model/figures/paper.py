@@ -16,7 +16,8 @@ from occ_model.errors import BandModelUndefined, one_line
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure
 from occ_model.figures.table import write_table
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Frame, SweepTable
+from occ_model.results.frame import Frame
+from occ_model.results.sweep import SweepTable
 from occ_model.scene.presets import load_preset
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene

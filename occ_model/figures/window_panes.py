@@ -13,8 +13,9 @@ from occ_model import colours
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, THRESHOLD, Drawing
 from occ_model.figures.overlay import Difference, PhotoLayer, lay_over
-from occ_model.results import Comparison, DecodeResult, Frame, Region
-from occ_model.results.frame import PICTURES
+from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.frame import PICTURES, Frame
+from occ_model.results.match import Comparison
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.teaching.packet_fields import threshold_levels

@@ -5,7 +5,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError, ParameterError
-from occ_model.results import Comparison
+from occ_model.results.match import Comparison
 
 _FLAT = 1e-9
 """Standard deviation below which a profile differs by rounding only."""

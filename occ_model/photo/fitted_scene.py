@@ -18,7 +18,8 @@ from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.evenly_lit import Cells
-from occ_model.results import Match, Region, Stripes
+from occ_model.results.decoding import Region
+from occ_model.results.match import Match, Stripes
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Lens, Scene

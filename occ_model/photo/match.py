@@ -26,7 +26,8 @@ from occ_model.photo.fitted_scene import (
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import Alternative, Lamp, Match, Stripes
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips

@@ -14,7 +14,7 @@ from occ_model.receiver.matched.decoder import DECODER as MATCHED
 from occ_model.receiver.plugin_result import problem_of
 from occ_model.receiver.sequence.decoder import DECODER as SEQUENCE
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.plugin_values import plain_reason
 

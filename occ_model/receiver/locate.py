@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
 from occ_model.receiver.signal import otsu_split
-from occ_model.results import Location, Region
+from occ_model.results.decoding import Location, Region
 
 _GRID = 512
 """Most cells a side of the grid that contours are grown on; they need not be as fine as pixels."""

@@ -6,8 +6,7 @@ from numbers import Integral, Real
 import numpy as np
 
 from occ_model.errors import shown
-from occ_model.results import DecodeResult
-from occ_model.results.decoding import RunHistogram, Runs
+from occ_model.results.decoding import DecodeResult, RunHistogram, Runs
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.plugin_values import MOST_CHIPS, excess, is_bits, is_reason
 

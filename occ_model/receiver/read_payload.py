@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.framing import Framed

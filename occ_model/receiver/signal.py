@@ -5,7 +5,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _BINS = 256
 

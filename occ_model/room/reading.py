@@ -13,7 +13,7 @@ from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import luminance_of
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decode import decode
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import packet

@@ -17,7 +17,8 @@ from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES, planned
-from occ_model.results import Plan, Region
+from occ_model.results.decoding import Region
+from occ_model.results.plan import Plan
 from occ_model.room.composition import LampRows, RoomRows
 from occ_model.room.room import Room, RoomLamp, check_room
 from occ_model.room.view import LampView, lamps_in_view

@@ -12,7 +12,7 @@ from occ_model.camera.photometry import panel_values, saturate, surroundings_val
 from occ_model.effects.effect import LightEffect, PixelEffect
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
-from occ_model.results import Plan
+from occ_model.results.plan import Plan
 from occ_model.simulation.stage_timer import StageTimer
 
 

@@ -18,7 +18,7 @@ from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import planned
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import Plan
+from occ_model.results.plan import Plan
 from occ_model.scene.simulation_settings import NoiseSource, Observable
 from occ_model.simulation.column_means import ColumnMeans
 from occ_model.simulation.columns import Columns

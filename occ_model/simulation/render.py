@@ -15,7 +15,8 @@ from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import Frame, Plan
+from occ_model.results.frame import Frame
+from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import (

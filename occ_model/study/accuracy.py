@@ -22,7 +22,8 @@ from occ_model.effects.noise_spread import pixel_spread
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
-from occ_model.results import CLOSED_FORM, AccuracyPoint, Plan
+from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
+from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NOISE_SOURCES, SimulationSettings

@@ -1,7 +1,7 @@
 """Gather the facts for advice on a scene: the limits found by trial beside those of theory."""
 
-from occ_model.results import Limits, RangeEnd, WorkingRange
 from occ_model.results.advice import Advice, EndFacts, RangeFacts, Side, TheoryLimits
+from occ_model.results.limits import Limits, RangeEnd, WorkingRange
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
 from occ_model.study.cause import TWO_HEADERS

@@ -6,7 +6,7 @@ from numbers import Real
 from statistics import NormalDist
 
 from occ_model.errors import ParameterError, shown
-from occ_model.results import Trial
+from occ_model.results.limits import Trial
 from occ_model.scene.argument_checks import check_count
 
 _MOST_TRIALS = 2**53

@@ -14,7 +14,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
 from occ_model.receiver.locate import grid_of, least_bright_share
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _SURE = 1.0 - 1e-12
 """Largest probability of a bright pixel of which a logarithm is taken."""

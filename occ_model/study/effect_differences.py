@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray, Pixels
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
-from occ_model.results import EffectDifference, Plan
+from occ_model.results.effect_costs import EffectDifference
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 from occ_model.simulation.render import observe, render_plan

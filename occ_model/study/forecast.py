@@ -6,7 +6,8 @@ import numpy as np
 
 from occ_model.effects.plan import plan_with, ways_of
 from occ_model.effects.registry import EFFECTS
-from occ_model.results import Forecast, MeasuredCosts, Way
+from occ_model.results.effect_costs import Forecast, MeasuredCosts
+from occ_model.results.plan import Way
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource, Observable, SimulationSettings
 from occ_model.study.effect_differences import rms

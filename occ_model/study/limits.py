@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
-from occ_model.results import Limits, RateSettings, SignalPath, WorkingRange
-from occ_model.results.sweep_request import MOST_JOBS
+from occ_model.results.limits import Limits, WorkingRange
+from occ_model.results.sweep_request import MOST_JOBS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene

@@ -13,8 +13,9 @@ import numpy as np
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import decoder_named
-from occ_model.results import MostBits, RateSettings
 from occ_model.results.bit_errors import FRAMES_A_SECOND
+from occ_model.results.most_bits import MostBits
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.parameters import quantity
 from occ_model.scene.payload import MAX_PAYLOAD_BITS

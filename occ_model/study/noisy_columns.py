@@ -16,7 +16,8 @@ from occ_model.effects.effect import NoiseEffect, PixelEffect
 from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.registry import planned
 from occ_model.receiver.locate import bright_level
-from occ_model.results import Plan, Region
+from occ_model.results.decoding import Region
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
 from occ_model.study.drawn_region import BrightShares

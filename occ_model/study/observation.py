@@ -17,7 +17,8 @@ from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.receiver.decode import decode
 from occ_model.receiver.locate import bright_level, locate
 from occ_model.receiver.signal import column_means
-from occ_model.results import DecodeResult, Plan, Region
+from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.row_sample import SampledPicture

@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 
-from occ_model.results import RateSettings, SweepRequest, SweepTable
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import RateSettings, SweepRequest
 from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep.request_check import checked_request

@@ -17,7 +17,8 @@ from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES
 from occ_model.receiver.decoders import QUICK_DECODERS
-from occ_model.results import DecodeResult, Plan, Region
+from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.columns import Columns, expose_columns

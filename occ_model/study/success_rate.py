@@ -15,8 +15,9 @@ from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
-from occ_model.results import DecodeResult, Plan, RateSettings, Region, SignalPath
-from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS
+from occ_model.results.decoding import DecodeResult, Region
+from occ_model.results.plan import Plan
+from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_choice, check_count, check_seed, check_switches
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings

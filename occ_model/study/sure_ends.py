@@ -11,7 +11,8 @@ from dataclasses import replace
 from itertools import takewhile
 
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import RangeEnd, RateSettings, ReadInterval, Trial, WorkingRange
+from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import TWO_SIDED, trial_of
 from occ_model.study.working_range import NEAR, moved, other_seed, right_bits_at

@@ -5,7 +5,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import WHITE
-from occ_model.results import EffectCrop
+from occ_model.results.effect_costs import EffectCrop
 
 CROP = (64, 112)
 """Rows and columns of a crop that is looked at closely."""

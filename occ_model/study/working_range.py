@@ -25,7 +25,8 @@ import numpy as np
 
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import decoder_named
-from occ_model.results import RangeEnd, RateSettings, ReadInterval, Trial, WorkingRange
+from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene

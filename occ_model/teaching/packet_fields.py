@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.framings.paper import FRAMING, HEADER_ONES
 from occ_model.transmitter.line_codes.registry import LINE_CODES

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.video.chip_timing import ChipLattice
 

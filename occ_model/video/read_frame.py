@@ -11,7 +11,7 @@ from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.light import in_light
 from occ_model.receiver.signal import column_means
-from occ_model.results import DecodeResult, Region
+from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.video import VideoFrame
 from occ_model.results.video_reading import FrameReading
 from occ_model.scene.scene import Scene

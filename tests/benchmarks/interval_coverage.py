@@ -15,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 import numpy as np
 
 import occ_model as occ
-from occ_model.results import RateSettings
+from occ_model.results.sweep_request import RateSettings
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.sure_ends import with_sure_ends

@@ -23,7 +23,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.exposure import forget_exposures
 from occ_model.receiver.matched.code_templates import code_templates
-from occ_model.results import Frame
+from occ_model.results.frame import Frame
 from occ_model.scene.scene import Scene
 
 _COLD_STARTS = 7

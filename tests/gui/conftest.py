@@ -25,7 +25,7 @@ from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

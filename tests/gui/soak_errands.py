@@ -14,7 +14,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_model import plugins
 from occ_model.receiver import decoders
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
 PLUGINS = """

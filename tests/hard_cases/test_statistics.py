@@ -18,7 +18,7 @@ from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.column_means import ColumnMeans
 from occ_model.simulation.columns import expose_columns

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 import occ_model as occ
-from occ_model.results import Plan
+from occ_model.results.plan import Plan
 from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import stats
 
 import occ_model as occ
-from occ_model.results import RateSettings, SignalPath
+from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import right_bits_of_images

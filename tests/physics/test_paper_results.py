@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results import SweepRow, SweepTable
+from occ_model.results.sweep import SweepRow, SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.paper_grid import (
     DEVICES,

@@ -5,7 +5,7 @@ import pytest
 from physics.paths import compared, significance
 
 import occ_model as occ
-from occ_model.results import RateSettings
+from occ_model.results.sweep_request import RateSettings
 from occ_model.study.success_rate import right_bits
 
 IN_DOUBT = (50, 105, 150, 160, 182)

@@ -15,8 +15,7 @@ from occ_gui.photo.match_request import known_scene
 from occ_gui.photo.photo_controller import PhotoReading
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
-from occ_model.results import PhotoRow, PhotoTable
-from occ_model.results.photo_table import known_beside
+from occ_model.results.photo_table import PhotoRow, PhotoTable, known_beside
 
 if TYPE_CHECKING:  # imported with the first match, not with the window
     from occ_model.photo.many.row import MatchSettings

@@ -26,8 +26,13 @@ from occ_model.photo.many.other_programs import (
     lines_to_paste,
     stated_lines,
 )
-from occ_model.results import CombinedEstimate, PhotoRow, PhotoTable
-from occ_model.results.photo_table import VERDICTS, known_beside
+from occ_model.results.photo_table import (
+    VERDICTS,
+    CombinedEstimate,
+    PhotoRow,
+    PhotoTable,
+    known_beside,
+)
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene

@@ -18,8 +18,15 @@ from occ_gui.photo.match_values import label_of, with_uncertainty
 from occ_gui.photo.verdict_view import SIGNS
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import ParameterError, one_line
-from occ_model.results import PhotoRow, PhotoTable
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE, known_beside
+from occ_model.results.photo_table import (
+    DOUBTFUL,
+    REFUSED,
+    SURE,
+    UNREADABLE,
+    PhotoRow,
+    PhotoTable,
+    known_beside,
+)
 from occ_model.scene.parameters import quantity
 
 _Index = QModelIndex | QPersistentModelIndex

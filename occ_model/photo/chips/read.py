@@ -9,7 +9,8 @@ from occ_model.photo.chips.lattice import certainty, chips_between, coarsest, wi
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes
-from occ_model.results import ChipReading, Lamp
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import ChipReading
 
 _EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
 """Exposures in chips that are tried to explain the profile by the edges that were found."""

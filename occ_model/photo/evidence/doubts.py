@@ -3,7 +3,7 @@
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, runs_of
 from occ_model.photo.evidence.repetition import strongest_line
 from occ_model.photo.stripes.period import unrepeated_share
-from occ_model.results import Stripes
+from occ_model.results.match import Stripes
 
 _LEAST_PERIODS = 1.5
 """Periods of a long pattern in view below which hardly a chip is seen twice."""

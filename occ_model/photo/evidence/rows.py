@@ -6,7 +6,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.envelope import without_trend
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _BANDS = 8
 """Number of bands of rows that are compared."""

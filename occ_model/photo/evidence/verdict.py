@@ -11,7 +11,7 @@ from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns,
 from occ_model.photo.evidence.refusal import PLAIN_STRIPES, Surroundings, refusals
 from occ_model.photo.evidence.repeated_wave import repeated_wave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
-from occ_model.results import Stripes
+from occ_model.results.match import Stripes
 
 _DECIDEDLY = 10.0
 """Difference of log-likelihoods from which one explanation counts as decidedly better."""

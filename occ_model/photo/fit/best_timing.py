@@ -11,7 +11,7 @@ from occ_model.photo.fit.initial_search import Candidate, Search
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import without_trend
-from occ_model.results import Stripes
+from occ_model.results.match import Stripes
 from occ_model.transmitter.waveform import Waveform
 
 _SURELY = 0.9

@@ -24,7 +24,7 @@ from occ_model.photo.fit.other_starts import (
 )
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
-from occ_model.results import Stripes
+from occ_model.results.match import Stripes
 from occ_model.transmitter.waveform import Waveform
 
 _CHIPS_LIT = 8

@@ -15,7 +15,8 @@ from occ_model.photo.lamps.steady import steady_lamps
 from occ_model.photo.lamps.strips import strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
 
 _FAINT = 0.45
 """Share of a lamp's light below which what blinks in time with it is its reflection."""

@@ -7,7 +7,8 @@ from occ_model.errors import MatchError
 from occ_model.photo.lamps.find import find_lamps
 from occ_model.photo.match import match_photo
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Match
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
 MatchedLamp: TypeAlias = tuple[Lamp, Match | MatchError]

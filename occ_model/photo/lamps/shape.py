@@ -7,7 +7,7 @@ import numpy as np
 from occ_model.arrays import IndexArray
 from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.timing import LampTiming
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _OFF = 0.06
 """Share of a chip, besides a column, by which an edge may lie off the lamp's."""

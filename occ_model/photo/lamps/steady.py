@@ -7,7 +7,8 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
-from occ_model.results import Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
 
 _BRIGHT = 0.6
 """Share of white from which a place is bright."""

@@ -15,7 +15,7 @@ the sensor is read out, but not from which end; most are read from the top.
 import math
 from collections.abc import Mapping
 
-from occ_model.results import Match
+from occ_model.results.match import Match
 from occ_model.results.photo_table import SURE, PhotoRow, PhotoTable
 
 _DIRECTIONS = {"lines": "TopToBottom", "columns": "LeftToRight"}

@@ -8,7 +8,7 @@ from occ_model.parallel.job import Heartbeat
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
-from occ_model.results import Match
+from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, UNREADABLE, PhotoRow, known_beside
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene

@@ -8,7 +8,7 @@ from occ_model.camera.photometry import WHITE
 from occ_model.errors import ParameterError, shown
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.scan_axis import means_along
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 Corners: TypeAlias = Region | Sequence[int]
 """A Region, or first row, row after the last, first column, column after the last."""

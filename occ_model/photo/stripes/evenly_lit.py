@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 _BANDS = 64
 """Largest number of bands of rows whose pixels are compared."""

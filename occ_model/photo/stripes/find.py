@@ -17,7 +17,9 @@ from occ_model.photo.reading.part import Corners, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
 from occ_model.photo.stripes.lamp_profile import lamp_profile
 from occ_model.photo.stripes.period import repeat_period
-from occ_model.results import Lamp, Region, Stripes
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Stripes
 
 _BANDS = 64
 """Number of bands of rows whose means are compared with each other."""

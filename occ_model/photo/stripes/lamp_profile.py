@@ -7,7 +7,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp
+from occ_model.results.lamp import Lamp
 
 _RIM_STRIPS = 3
 """Fewest strips of which the first and the last, which the lamp's rim cuts, are left out."""

@@ -17,7 +17,7 @@ from occ_model.receiver.light import in_light
 from occ_model.receiver.read_payload import with_bits
 from occ_model.receiver.signal import why_flat
 from occ_model.receiver.threshold.decoder import read_stripes as read_by_threshold
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.paper import HEADER

@@ -30,7 +30,7 @@ from occ_model.receiver.matched.payload_templates import (
 from occ_model.receiver.read_payload import with_bits
 from occ_model.receiver.short_chips import then_short_chips, with_short_chips
 from occ_model.receiver.signal import why_flat
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameters.light import MAX_BITS
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.framing import Framed

@@ -29,7 +29,7 @@ from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.short_chips import has_short_chips, with_short_chips
 from occ_model.receiver.signal import why_flat
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_of
 

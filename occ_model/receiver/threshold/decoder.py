@@ -10,7 +10,7 @@ from occ_model.receiver.read_payload import read_payload
 from occ_model.receiver.short_chips import columns_of_chip, has_short_chips, with_short_chips
 from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.receiver.threshold.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
-from occ_model.results import DecodeResult, Runs
+from occ_model.results.decoding import DecodeResult, Runs
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of

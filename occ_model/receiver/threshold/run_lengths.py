@@ -6,7 +6,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.signal import otsu_split
-from occ_model.results import RunHistogram, Runs
+from occ_model.results.decoding import RunHistogram, Runs
 
 _LONGEST = np.array([2, 4])
 """Chips of the longest run of zeros, and of ones: a header after data that end in a one."""

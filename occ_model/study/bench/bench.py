@@ -18,8 +18,8 @@ from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import decoder_named, decoders
-from occ_model.results import BitErrors
 from occ_model.results.bench import BenchPlace, BenchPoint, BenchRequest
+from occ_model.results.bit_errors import BitErrors
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.scene.scene import Scene

@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from occ_model.results import SweepPoint, SweepRequest, SweepTable
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.study.confidence import interval_of_pictures
 
 

@@ -7,8 +7,8 @@ from typing import TypeAlias
 
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.results import RateSettings, SweepPoint, SweepRequest
 from occ_model.results.sweep_csv import one_line
+from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import check_rate, right_and_whole

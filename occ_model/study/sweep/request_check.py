@@ -6,8 +6,14 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from occ_model.errors import ParameterError, shown
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results import RateSettings, SweepRequest
-from occ_model.results.sweep_request import JOBS_A_CORE, MOST_AXES, MOST_JOBS, MOST_POINTS
+from occ_model.results.sweep_request import (
+    JOBS_A_CORE,
+    MOST_AXES,
+    MOST_JOBS,
+    MOST_POINTS,
+    RateSettings,
+    SweepRequest,
+)
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import Choice, ParameterValue
 from occ_model.scene.parameters import parameter_named

@@ -15,8 +15,9 @@ from typing import BinaryIO, Self
 
 from occ_model.errors import OutputError, one_line, shown
 from occ_model.files.writing import check_replaceable, write_whole
-from occ_model.results import SweepPoint, SweepRequest, SweepTable
+from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_text
+from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.study.sweep.file_lock import is_locked_by_us
 
 _SYNC_SECONDS = 2.0

@@ -13,9 +13,15 @@ from typing import TypeAlias
 from occ_model.errors import one_line
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
-from occ_model.results import RateSettings, SignalPath, SweepPoint, SweepRequest, SweepTable
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.sweep_request import MOST_JOBS
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import (
+    MOST_JOBS,
+    RateSettings,
+    SignalPath,
+    SweepPoint,
+    SweepRequest,
+)
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene

@@ -17,7 +17,7 @@ from occ_model.parallel.job import (
 )
 from occ_model.parallel.request import Run
 from occ_model.parallel.scheduler import Scheduler
-from occ_model.results import SweepPoint, SweepRequest
+from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.study.sweep.points import MeasuredPoints, measure_here, measure_points
 
 PRELOAD = "occ_model.study.sweep.points"

@@ -13,7 +13,7 @@ from occ_gui.accuracy.accuracy_plot import _RING, COLOURS, SYMBOLS, AccuracyPlot
 from occ_gui.accuracy.point_names import _FreePlaces
 from occ_gui.accuracy.ways_shown import ways_shown
 from occ_gui.widgets.axes import LogAxis
-from occ_model.results import LEAST_ERROR, AccuracyPoint
+from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint
 
 ALL = ("vignetting", "jpeg")
 POINTS = (

@@ -19,7 +19,7 @@ from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.app.application import Application
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.effects.plan import plan_with
-from occ_model.results import Forecast
+from occ_model.results.effect_costs import Forecast
 
 
 @pytest.fixture

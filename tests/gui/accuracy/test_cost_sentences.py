@@ -6,7 +6,8 @@ import pytest
 
 import occ_model as occ
 from occ_gui.accuracy.cost_sentences import ends_sentence, forecast_sentence, picture_sentence
-from occ_model.results import Forecast, Frame, MeasuredCosts, TimeShares
+from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
+from occ_model.results.frame import Frame
 
 
 @pytest.fixture(scope="module")

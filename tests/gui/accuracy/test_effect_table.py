@@ -17,14 +17,14 @@ from occ_gui.accuracy.effect_rows import ELSE, rows_of
 from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
 from occ_gui.accuracy.row_order import EFFECT, ERROR, STAGE, SWITCH, TIME, slowest_of
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import (
+from occ_model.results.effect_costs import (
     EffectCrop,
     EffectDifference,
     Forecast,
-    Frame,
     MeasuredCosts,
     TimeShares,
 )
+from occ_model.results.frame import Frame
 
 ROLE = Qt.ItemDataRole
 

@@ -21,7 +21,7 @@ from occ_gui.detection_map.slider_strip_controller import IMAGES, POSITIONS
 from occ_gui.detection_map.worker import SEED, measure_along, rate_settings
 from occ_model.cli import main
 from occ_model.parallel.job import do_job
-from occ_model.results import RateSettings
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

@@ -26,8 +26,8 @@ from occ_gui.detection_map.slider_strip_controller import RANKS
 from occ_gui.scene.frame_rate import FrameRate
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Job, JobResult, Stage
-from occ_model.results import BitErrors
 from occ_model.results.bench import BenchPoint, BenchRequest
+from occ_model.results.bit_errors import BitErrors
 from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import measure_bench_point
 

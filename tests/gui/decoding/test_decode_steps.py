@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_gui.decoding import decode_steps
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import DecodeResult, RunHistogram
+from occ_model.results.decoding import DecodeResult, RunHistogram
 
 SnapshotOf = Callable[..., Snapshot]
 

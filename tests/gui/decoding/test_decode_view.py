@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.simulation.jobs import reading_by_profile
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import DecodeResult, Region
+from occ_model.results.decoding import DecodeResult, Region
 
 SnapshotOf = Callable[..., Snapshot]
 

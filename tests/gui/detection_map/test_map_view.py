@@ -34,7 +34,7 @@ from occ_gui.detection_map.rate_map import (
 )
 from occ_gui.detection_map.worker import PRELOAD
 from occ_model.parallel.process_pool import ProcessPool
-from occ_model.results import SweepPoint
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 

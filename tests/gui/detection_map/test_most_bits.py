@@ -13,7 +13,7 @@ from occ_gui.detection_map import worker
 from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.most_bits_controller import MostBitsController
 from occ_gui.scene.frame_rate import FrameRate
-from occ_model.results import MostBits
+from occ_model.results.most_bits import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, unvaried
 

@@ -21,7 +21,8 @@ from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
 from occ_gui.picture.placement import MODES
 from occ_model.figures import drawing
-from occ_model.results import AccuracyPoint, SweepPoint
+from occ_model.results.accuracy import AccuracyPoint
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.provenance import ENDINGS, scene_inside
 from occ_model.scene.scene import Scene
 

@@ -22,7 +22,7 @@ from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import NAMES
 from occ_model.errors import SceneFileError
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 

@@ -6,7 +6,8 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_view import PhotoView
-from occ_model.results import Match, Region, Stripes
+from occ_model.results.decoding import Region
+from occ_model.results.match import Match, Stripes
 
 
 @pytest.fixture

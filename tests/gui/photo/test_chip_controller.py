@@ -10,7 +10,8 @@ import occ_model as occ
 from occ_gui.photo.chip_controller import ChipController
 from occ_model.errors import MatchError
 from occ_model.photo.reading.load import Photo
-from occ_model.results import ChipReading, Region
+from occ_model.results.decoding import Region
+from occ_model.results.match import ChipReading
 
 READING = ChipReading(np.array([1, 0], np.uint8), 9.0, 1.0, 0.0, Region(0, 9, 0, 60))
 

@@ -21,7 +21,8 @@ from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Comparison, Match, Region, Stripes
+from occ_model.results.decoding import Region
+from occ_model.results.match import Comparison, Match, Stripes
 
 Grey = NDArray[np.uint8]
 SnapshotOf = Callable[..., Snapshot]

@@ -17,7 +17,8 @@ from occ_gui.photo.lamp_controller import LampController
 from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.lamp_outlines import LampOutlines
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Lamp, Region
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
 
 
 def lamp_at(region: Region, modulated: bool = True, periods: float = 6.0) -> Lamp:

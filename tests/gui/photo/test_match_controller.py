@@ -18,8 +18,9 @@ from occ_gui.photo.match_controller import MatchController
 from occ_model.errors import MatchError
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match, Region, Stripes
 from occ_model.results.bands import Cure
+from occ_model.results.decoding import Region
+from occ_model.results.match import Match, Stripes
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_WAVE

@@ -13,7 +13,7 @@ from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
+from occ_model.results.match import Match
 from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.photo.match_values import with_uncertainty
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
+from occ_model.results.match import Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.study.bands.cure import cure_of

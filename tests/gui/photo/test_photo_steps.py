@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.photo.photo_steps import STEPS, PhotoSteps
 from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match
+from occ_model.results.match import Match
 
 
 @pytest.fixture

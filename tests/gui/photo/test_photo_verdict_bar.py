@@ -11,7 +11,8 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.widgets.state_look import State
 from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match, PhotoRow
+from occ_model.results.match import Match
+from occ_model.results.photo_table import PhotoRow
 
 REASONS = ("Only 2 periods of 24 chips are in view.", "The correlation is 0.85.")
 

@@ -11,7 +11,7 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.picture.placement import Placement
 from occ_model.photo.reading.load import CHANNELS, Photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
-from occ_model.results import Match
+from occ_model.results.match import Match
 
 
 def test_without_a_photo_all_a_user_can_press_opens_one(view: PhotoView, qtbot: QtBot) -> None:

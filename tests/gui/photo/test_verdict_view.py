@@ -10,7 +10,7 @@ from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.verdict_view import SIGNS, VerdictView
 from occ_gui.widgets.contrast import contrast
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Alternative, Match
+from occ_model.results.match import Alternative, Match
 from occ_model.results.photo_table import DOUBTFUL, SURE, VERDICTS
 
 READABLE = 4.5

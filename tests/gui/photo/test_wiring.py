@@ -9,7 +9,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.photo.wiring import PhotoWiring
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 PARTS = ("photos", "matching", "many", "lamps", "comparison", "chips")
 

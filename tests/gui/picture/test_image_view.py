@@ -18,7 +18,7 @@ from occ_gui.picture.placement import MODES, Placement
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.photo.reading.load import Photo
-from occ_model.results import DecodeResult, Region
+from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene
 
 Grey = NDArray[np.uint8]

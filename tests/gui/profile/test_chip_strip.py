@@ -8,7 +8,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.shell.photo_profile import PhotoProfile
-from occ_model.results import ChipReading, Region
+from occ_model.results.decoding import Region
+from occ_model.results.match import ChipReading
 
 CHIPS = np.array([1, 0, 1, 1, 0], np.uint8)
 

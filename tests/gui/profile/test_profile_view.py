@@ -20,7 +20,8 @@ from occ_gui.simulation.snapshot import Snapshot, Source
 from occ_gui.widgets import first_periods
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Comparison, DecodeResult
+from occ_model.results.decoding import DecodeResult
+from occ_model.results.match import Comparison
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

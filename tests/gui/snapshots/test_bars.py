@@ -17,9 +17,10 @@ from occ_gui.widgets.state_look import State
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import palette_of
 from occ_model.photo.reading.load import Photo
-from occ_model.results import Match, RangeEnd, ReadInterval, Region, Stripes, WorkingRange
 from occ_model.results.advice import EndFacts
-from occ_model.results.limits import Trial
+from occ_model.results.decoding import Region
+from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
+from occ_model.results.match import Match, Stripes
 from occ_model.scene.scene import Scene
 
 Matches = Callable[[QWidget, str], None]

@@ -27,16 +27,12 @@ from occ_gui.photo.match_result import MatchResult
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Snapshot
-from occ_model.results import (
-    Alternative,
-    BitErrors,
-    Forecast,
-    Match,
-    Region,
-    Stripes,
-    SweepPoint,
-)
 from occ_model.results.bench import BenchPoint
+from occ_model.results.bit_errors import BitErrors
+from occ_model.results.decoding import Region
+from occ_model.results.effect_costs import Forecast
+from occ_model.results.match import Alternative, Match, Stripes
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation

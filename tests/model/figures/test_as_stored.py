@@ -28,10 +28,12 @@ from occ_model.figures.lesson_steps import draw_page
 from occ_model.figures.sweep import sweep_drawing
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.figures.wiring import wiring_figure
-from occ_model.results import Frame, Match, Region, Stripes
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import BitErrors
+from occ_model.results.decoding import Region
+from occ_model.results.frame import Frame
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer
+from occ_model.results.match import Match, Stripes
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, Shown, SweepRequest
 from occ_model.study.confidence import wilson_interval

@@ -15,7 +15,7 @@ from occ_model.figures.drawing import figure_bytes, house_style
 from occ_model.figures.lesson_steps import draw_page
 from occ_model.figures.overlay import Difference, PhotoLayer
 from occ_model.figures.window_panes import picture_drawing, profile_drawing
-from occ_model.results import Frame
+from occ_model.results.frame import Frame
 from occ_model.scene.provenance import Provenance
 
 SCENE = occ.load_preset("phone-68us").replace(rows=400, columns=1000, panel_height=2.0)

@@ -11,7 +11,7 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.figures import paper
-from occ_model.results import RateSettings
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import paper_grid
 from occ_model.study.success_rate import right_and_whole

@@ -14,8 +14,8 @@ from occ_model.figures.decoding import _draw_signal
 from occ_model.figures.paper import _padded, _shown_columns
 from occ_model.figures.sweep import _axis_label
 from occ_model.figures.window_panes import _show
-from occ_model.results import DecodeResult
 from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 
 

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 import occ_model as occ
 from occ_model.figures.sweep import sweep_drawing
-from occ_model.results import SweepTable
+from occ_model.results.sweep import SweepTable
 
 FREQUENCIES = np.geomspace(0.97e3, 31e3, 13).tolist()
 EXPOSURES = np.linspace(33e-6, 97e-6, 11).tolist()

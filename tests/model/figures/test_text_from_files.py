@@ -14,8 +14,9 @@ from occ_model.figures.drawing import Drawing
 from occ_model.figures.lesson_report import write_lesson_report
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
-from occ_model.results import DecodeResult, PhotoRow
+from occ_model.results.decoding import DecodeResult
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson, Step
+from occ_model.results.photo_table import PhotoRow
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.provenance import Provenance, scene_inside, scenes_in
 from occ_model.scene.scene import Scene

@@ -14,7 +14,7 @@ from occ_model.photo.many import match_photos as module
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
-from occ_model.results import PhotoRow, PhotoTable
+from occ_model.results.photo_table import PhotoRow, PhotoTable
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.scene import Scene
 

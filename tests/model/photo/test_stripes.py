@@ -14,7 +14,7 @@ from occ_model.camera.projection import panel_corners
 from occ_model.errors import ParameterError
 from occ_model.photo.stripes.lamp_profile import lamp_profile
 from occ_model.photo.stripes.period import autocorrelation, repeat_period, unrepeated_share
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 
 
 @pytest.mark.parametrize("seed", range(12))

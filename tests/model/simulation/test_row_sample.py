@@ -10,7 +10,7 @@ from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import NOISES
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.simulation.render import render_plan
 from occ_model.simulation.row_sample import BAND, BANDS, SystematicNoise, sample_picture

@@ -10,7 +10,7 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.results import ACCURACY_PARTS, AccuracyPoint
+from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.accuracy import SAMPLES, accuracy, point_count

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 import occ_model as occ
 from occ_model.receiver.locate import locate
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.study.drawn_region import BrightShares
 
 ROWS, COLUMNS = 400, 1100

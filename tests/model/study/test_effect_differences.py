@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results import EffectDifference, MeasuredCosts, TimeShares
+from occ_model.results.effect_costs import EffectDifference, MeasuredCosts, TimeShares
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import OBSERVABLES, Observable, SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation, plan_of_effects, rms

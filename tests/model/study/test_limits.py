@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
-from occ_model.results import RangeEnd, RateSettings
+from occ_model.results.limits import RangeEnd
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
 from occ_model.study import working_range as module

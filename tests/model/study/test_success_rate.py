@@ -5,7 +5,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.receiver.locate import locate
-from occ_model.results import RateSettings
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.observation import decode_profile
 
@@ -27,7 +27,7 @@ def test_same_seed_same_rate_other_seed_other_images() -> None:
 def test_rate_is_the_share_of_right_bits_in_percent(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.results import DecodeResult
+    from occ_model.results.decoding import DecodeResult
     from occ_model.study import success_rate as module
 
     sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)
@@ -48,7 +48,7 @@ def test_rate_is_the_share_of_right_bits_in_percent(
 def test_a_payload_that_the_decoder_does_not_accept_is_not_read(
     scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from occ_model.results import DecodeResult
+    from occ_model.results.decoding import DecodeResult
     from occ_model.study import success_rate as module
 
     sent = np.array([1, 0, 1, 1, 0, 0, 1, 1, 1, 0], dtype=np.uint8)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results import DecodeResult, Frame
+from occ_model.results.decoding import DecodeResult
+from occ_model.results.frame import Frame
 from occ_model.teaching.light_over_columns import light_over_columns
 from occ_model.teaching.packet_fields import (
     packet_fields,

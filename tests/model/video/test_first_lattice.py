@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.video.first_lattice import first_lattice
 

@@ -11,7 +11,7 @@ from occ_gui.app.application import Application
 from occ_gui.files.file_controller import sample_photos
 from occ_model.photo.many import match_photos
 from occ_model.photo.many.row import MatchSettings, row_of_file
-from occ_model.results import PhotoRow
+from occ_model.results.photo_table import PhotoRow
 
 Found = dict[tuple[Path, MatchSettings], PhotoRow]
 

@@ -14,7 +14,7 @@ import occ_model as occ
 from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door, check_sentence
 from occ_model import plugins
-from occ_model.results import DecodeResult
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.framings.preamble import FRAMING

@@ -15,7 +15,7 @@ from hard_cases.attack import chance as made
 from hard_cases.attack.doors.typed import check_scene
 from hard_cases.attack.promise import Door
 from occ_model.effects.registry import NAMES
-from occ_model.results import Region
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 

@@ -15,8 +15,8 @@ from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door
 from occ_model.errors import one_line
 from occ_model.photo.many.other_programs import lines_to_paste
-from occ_model.results import RateSettings, SweepRequest
 from occ_model.results.photo_table_csv import csv_text
+from occ_model.results.sweep_request import RateSettings, SweepRequest
 from occ_model.study.bench.data_set import COLUMNS, load_samples, read_samples
 from occ_model.study.sweep.request_check import checked_request
 from occ_model.study.sweep.sweep import run_sweep

@@ -10,8 +10,8 @@ import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
-from occ_model.results import DecodeResult
 from occ_model.results.bench import HEADER, BenchRequest, written
+from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.study.bench.bench import bench, bench_scene, bench_signal
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from occ_model.results import SweepTable
+from occ_model.results.sweep import SweepTable
 
 SLOW = """
 import sys

@@ -10,7 +10,7 @@ import pytest
 from amount import amount
 
 import occ_model as occ
-from occ_model.results import SweepTable
+from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
 

@@ -15,8 +15,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.parallel import process_pool
-from occ_model.results import RateSettings, SweepTable
-from occ_model.results.sweep_request import MOST_AXES
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import MOST_AXES, RateSettings
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import interval_of_pictures

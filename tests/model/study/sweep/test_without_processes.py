@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
-from occ_model.results import SweepTable
+from occ_model.results.sweep import SweepTable
 from occ_model.scene.scene import Scene
 
 AXES = {"distance": [0.6, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0]}

@@ -17,7 +17,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.parallel.job import Job, JobResult
-from occ_model.results import RateSettings, SweepPoint, SweepTable
+from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_request import RateSettings, SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep import points
 from occ_model.study.sweep.points import MeasuredPoints

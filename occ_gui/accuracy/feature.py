@@ -2,6 +2,7 @@
 
 from typing import TYPE_CHECKING
 
+from occ_gui.accuracy.figures import accuracy_figure
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
@@ -30,4 +31,5 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> "Feature[A
         make=make,
         part=part,
         goes_on_hidden=True,
+        figures=(accuracy_figure(),),
     )

@@ -88,7 +88,7 @@ class Application(QObject):
         self.controls = ControlPanel([], [*effects], {name: stages[name] for name in effects})
         self.board = Board()
         self.shell = Shell(workspace, self.board)
-        self.story = StoryView(self.shell.embed(picture(workspace)), [*DECODERS])
+        self.story = StoryView(self.shell.embed(picture(workspace, self.about_photo)), [*DECODERS])
         self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(self.controls, self.story, undo_stack=self.store.undo_stack)
@@ -264,6 +264,11 @@ class Application(QObject):
     def view(self, name: str) -> Any:
         """Give the view of a pane, which is made if it has never been seen."""
         return self.shell.pane(name).view
+
+    def about_photo(self) -> str:
+        """Return the photo's name and what its match is worth; empty if none is open."""
+        pane: PhotoWiring | None = self.shell.made_pane("photo")
+        return "" if pane is None else pane.verdict.about()
 
     @property
     def _photo(self) -> "PhotoWiring":

@@ -13,7 +13,6 @@ from occ_gui.app.video_pane import VideoPane
 from occ_gui.core.workspace import Step
 from occ_gui.export.animation import AnimationExport
 from occ_gui.export.export_controller import ExportController
-from occ_gui.export.figures import Figures
 from occ_gui.files.autosave import Autosave
 from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController
@@ -42,18 +41,12 @@ from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_gui.window.text_size import TextSize
 from occ_gui.window.theme import ThemeController
 from occ_model.photo.reading.load import Photo
-from occ_model.receiver.decoders import QUICK_DECODERS
-from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
 
 if TYPE_CHECKING:
-    from occ_gui.bench.pane import BenchPane
-    from occ_gui.detection_map.map_controller import MapRequest
-    from occ_gui.detection_map.pane import MapPane
-    from occ_gui.detection_map.rate_map import RateMap
     from occ_gui.photo.wiring import PhotoWiring
     from occ_gui.transmitter.transmitter_controller import TransmitterController
 
@@ -97,18 +90,11 @@ class Desktop(QObject):
         self._parts = parts
         self._photo: Path | None = None
         window, preferences = parts.window, parts.preferences
-        self.figures = Figures(
-            parts.settings,
-            parts.shell,
-            QUICK_DECODERS,
-            shown_decoder=self._decoder,
-        )
-        self.figures.add_map(lambda: _mapped(parts.shell), parts.frame_rate)
-        self.figures.add_bench(lambda: _measured(parts.shell), parts.frame_rate)
-        window.menus.add_figures(self.figures.titles)
+        figures = parts.shell.figures.values()
+        window.menus.add_figures({figure.name: figure.title for figure in figures})
         pane = CurrentPane(window, window.docks)
         self.export = ExportController(
-            window, self.figures, parts.present, preferences, pane, self._decoder
+            window, parts.shell, parts.present, preferences, pane, self._decoder
         )
         self.export.connect_actions(window.menus.figures)
         self.animation = AnimationExport(
@@ -138,7 +124,7 @@ class Desktop(QObject):
     def _connect(self) -> None:
         parts, window = self._parts, self._parts.window
         whose = parts.store.store.select(lambda workspace: workspace.whose)
-        for taker in (parts.simulation, parts.files, self.figures):
+        for taker in (parts.simulation, parts.files):
             whose.changed.connect(taker.choose_picture)
         parts.photos.opened.connect(self._on_photo)
         for source in (
@@ -283,7 +269,6 @@ class Desktop(QObject):
 
     def _on_photo(self, photo: Photo | None) -> None:
         self._photo = None if photo is None else photo.path
-        self.figures.show_photo(photo)
         self.document.show_photo(None if photo is None else photo.path.name)
         self.autosave.note_change()
 
@@ -342,15 +327,3 @@ class Desktop(QObject):
         if self.transmitter is not None:
             self.transmitter.stop()
         self.error_reports.remove()
-
-
-def _mapped(shell: Shell) -> "tuple[RateMap, MapRequest] | None":
-    """Give the map; None until it is complete."""
-    pane: MapPane | None = shell.made_pane("map")
-    return None if pane is None else pane.map.full
-
-
-def _measured(shell: Shell) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
-    """Give what the bench has measured; None while some points are missing."""
-    pane: BenchPane | None = shell.made_pane("bench")
-    return None if pane is None else pane.controller.full

@@ -46,6 +46,9 @@ class Parts(Protocol):
     def choose_decoder(self, name: str) -> None:
         """Show what this decoder reads, everywhere."""
 
+    def about_photo(self) -> str:
+        """Return what stands under a figure with the photo; empty if none is open."""
+
 
 def features(parts: Parts) -> tuple[Feature[Any], ...]:
     """Declare the panes, once there is an application to translate their titles."""
@@ -53,7 +56,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
     return (
         decoding(store.store),
         photo(store, photos, lambda: shell.pane("picture").view, parts.board),
-        profile(store.store),
+        profile(store.store, parts.board, parts.about_photo),
         accuracy(store, parts.simulation),
         detection_map(store, parts.frame_rate, parts.measuring, parts.choose_decoder),
         bands(store),

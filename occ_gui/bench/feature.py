@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from occ_gui.background.signals import JobChannel
+from occ_gui.bench.figures import bench_figure
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
@@ -25,4 +26,5 @@ def bench(
         title="Bench",
         help="sweeps.md#the-bench",
         make=make,
+        figures=(bench_figure(frame_rate),),
     )

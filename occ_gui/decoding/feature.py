@@ -1,6 +1,7 @@
 """The pane of decoding, declared."""
 
 from occ_gui.core.store import Store
+from occ_gui.decoding.figures import decoding_figures
 from occ_gui.shell.feature import Feature, Pane
 from occ_gui.simulation.snapshot import Reading
 
@@ -20,4 +21,5 @@ def decoding(store: Store) -> Feature[tuple[Reading | None, str]]:
         make=make,
         part=lambda workspace, results: (results.reading, workspace.decoder),
         goes_on_hidden=True,
+        figures=decoding_figures(),
     )

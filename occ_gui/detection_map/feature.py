@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from occ_gui.detection_map.figures import map_figure
 from occ_gui.detection_map.wiring import Measuring
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
@@ -28,4 +29,5 @@ def detection_map(
         title="Detection map",
         help="sweeps.md#the-detection-map",
         make=make,
+        figures=(map_figure(frame_rate),),
     )

@@ -2,6 +2,7 @@
 
 from collections import deque
 from collections.abc import Callable, Mapping
+from datetime import datetime
 from functools import partial
 from pathlib import Path
 
@@ -10,9 +11,10 @@ from PySide6.QtGui import QAction, QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.task import Task
-from occ_gui.export.figures import Figures, NothingToDraw
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Preferences
+from occ_gui.shell.figures import NothingToDraw
+from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.window.current_pane import PICTURE, CurrentPane
@@ -38,7 +40,7 @@ class ExportController(QObject):
     def __init__(
         self,
         window: QWidget | None,
-        figures: Figures,
+        shell: Shell,
         present: PresentResults,
         preferences: Preferences,
         current_pane: CurrentPane,
@@ -46,7 +48,7 @@ class ExportController(QObject):
     ) -> None:
         super().__init__(window)
         self._window = window
-        self._figures = figures
+        self._shell = shell
         self._present = present
         self._preferences = preferences
         self.current_pane = current_pane
@@ -80,7 +82,7 @@ class ExportController(QObject):
             ".pdf": "PDF document (*.pdf)",
             ".csv": "CSV table of the numbers (*.csv)",
         }
-        title = f"Export: {self._figures.titles[name]}"
+        title = f"Export: {self._shell.figures[name].title}"
         kept = self._preferences.recall(_ENDING)
         first = kept if kept in kinds else ENDINGS[0]
         chosen, kind = QFileDialog.getSaveFileName(
@@ -116,11 +118,11 @@ class ExportController(QObject):
 
     def _draw_all(self, folder: Path, shown: Snapshot) -> None:
         requests, missing = [], []
-        for name, source in self._figures.shown.items():
+        for figure in self._shell.different_figures:
             try:
-                requests.append(source(shown))
+                requests.append(self._requested(figure.name, shown))
             except NothingToDraw as reason:
-                missing.append(f"{self._figures.titles[name]}: {reason}")
+                missing.append(f"{figure.title}: {reason}")
         self._left_out = " ".join(missing)
         if not requests:
             self.status_message.emit(self._left_out)
@@ -138,7 +140,7 @@ class ExportController(QObject):
             self.copy(f"decoding-{self._shown_decoder()}")
             return
         figure = _FIGURE_OF_PANE.get(pane, PICTURE)
-        self.copy(figure if figure in self._figures.sources else PICTURE)
+        self.copy(figure if figure in self._shell.figures else PICTURE)
 
     def _draw(self, name: str, path: Path | None, shown: Snapshot) -> None:
         request = self._request(name, shown)
@@ -147,10 +149,15 @@ class ExportController(QObject):
 
     def _request(self, name: str, shown: Snapshot) -> FigureRequest | None:
         try:
-            return self._figures.sources[name](shown)
+            return self._requested(name, shown)
         except NothingToDraw as reason:
             self.status_message.emit(str(reason))
             return None
+
+    def _requested(self, name: str, shown: Snapshot) -> FigureRequest:
+        now = datetime.now().astimezone().isoformat(timespec="seconds")
+        draw = self._shell.draw(name, shown)
+        return FigureRequest(shown.frame.scene, shown.request.settings, now, draw)
 
     def _put(self, job: ExportJob) -> None:
         self._waiting.append(job)

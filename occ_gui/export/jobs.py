@@ -1,11 +1,12 @@
 """Figures to files, off the window's thread: all that is written is written here."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_gui.export.export_folder import folder_aside, remove_left_behind
+from occ_gui.shell.figures import Draw
 from occ_model.errors import OutputError
 from occ_model.files.writing import check_replaceable, make_folder
 from occ_model.scene.provenance import Provenance
@@ -27,16 +28,18 @@ class FigureRequest:
     scene, settings
         What it shows, for its provenance.
     draw
-        Makes the drawing; it must not touch a widget.
+        Makes the drawing.
     """
 
     scene: Scene
     settings: SimulationSettings
     date: str
-    draw: "Callable[[], Drawing]"
+    draw: Draw
 
     def provenance(self, drawing: "Drawing") -> Provenance:
         """Say where the figure's numbers come from."""
+        if drawing.provenance is not None:
+            return drawing.provenance(self.date)
         from occ_model.figures.drawing import settings_notes
 
         scenes, settings = {"at hand": self.scene}, self.settings

@@ -41,7 +41,7 @@ class ImageView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._photo: Photo | None = None
+        self.shown_photo: Photo | None = None
         self._frame: Frame | None = None
         self._mode = MODES[0]
         self._whose = PICTURES[0]
@@ -141,7 +141,7 @@ class ImageView(QWidget):
             if frame.rows_step > 1:
                 text = "Draft, one row in {step}: {picture}"
                 picture = text.format(step=frame.rows_step, picture=picture)
-        if self._photo is None:
+        if self.shown_photo is None:
             return picture
         if mode == "beside":  # whose picture it is stands in the choice beside it
             is_draft = frame is not None and frame.rows_step > 1
@@ -172,7 +172,7 @@ class ImageView(QWidget):
         self.simulation.show_picture(image, halves, frame.rows_step)
         if frame.rows_step == 1:
             self.overlay.set_simulated(image)
-        elif self._photo is not None:
+        elif self.shown_photo is not None:
             whole = np.repeat(image, frame.rows_step, axis=0)[: frame.scene.camera.rows]
             self.overlay.set_simulated(whole)
         self._show_caption()
@@ -210,7 +210,7 @@ class ImageView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
-        self._photo = photo
+        self.shown_photo = photo
         if photo is not None:
             self.photo.show_picture(photo.image)
             turned = ", its lines shown as columns" if photo.turned else ""
@@ -239,7 +239,7 @@ class ImageView(QWidget):
         self.photo.fit()
 
     def _arrange(self) -> None:
-        there = self._photo is not None
+        there = self.shown_photo is not None
         self.photo.setVisible(there and self._mode == "beside")
         self._row.setVisible(there)
         self.opacity.setVisible(self._mode == "blend")

@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.core.workspace import Workspace
+from occ_gui.shell.figures import Figure
 from occ_gui.shell.results import Results
 
 Part = TypeVar("Part")
@@ -70,3 +71,4 @@ class Feature(Generic[Part]):
     """Whether the pane shows its part while it is hidden, too: others look at what it shows."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)
     """What the entries of the menus do that belong to the pane, by name."""
+    figures: tuple[Figure, ...] = ()

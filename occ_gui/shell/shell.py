@@ -1,4 +1,4 @@
-"""Shell: docks, menu entries, idle and stop of all declared panes."""
+"""Shell: docks, menu entries, figures, idle and stop of all declared panes."""
 
 from collections.abc import Mapping
 from typing import Any, Protocol
@@ -9,7 +9,9 @@ from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
 from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.figures import Draw, Figure
 from occ_gui.shell.results import Board
+from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.event_filters import leave_drops_to_window
 
 
@@ -69,6 +71,28 @@ class Shell(QObject):
     def help_pages(self) -> dict[str, str]:
         """Page and heading of the manual that explain each pane."""
         return {name: place.feature.help for name, place in self._places.items()}
+
+    @property
+    def _figures(self) -> "dict[str, tuple[Figure, _Place]]":
+        places = self._places.values()
+        return {
+            figure.name: (figure, place) for place in places for figure in place.feature.figures
+        }
+
+    @property
+    def figures(self) -> dict[str, Figure]:
+        """The figures of all panes, by name."""
+        return {name: figure for name, (figure, _) in self._figures.items()}
+
+    @property
+    def different_figures(self) -> list[Figure]:
+        """The figures that differ from each other at the moment."""
+        return [figure for figure, place in self._figures.values() if figure.is_another(place.pane)]
+
+    def draw(self, name: str, shown: Snapshot) -> Draw:
+        """Say how a figure is drawn of these results; raises NothingToDraw."""
+        figure, place = self._figures[name]
+        return figure.draw(place.pane, shown)
 
     @property
     def _panes(self) -> list[Pane[Any]]:

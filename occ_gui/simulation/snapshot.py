@@ -87,6 +87,10 @@ class ColumnView:
         """The result of every decoder, the paper's first."""
         return (self.decoded, *self.others)
 
+    def result_of(self, decoder: str) -> DecodeResult | None:
+        """Return what a decoder has read, None if it has not."""
+        return next((result for result in self.results if result.decoder == decoder), None)
+
     @property
     def panel_origin(self) -> tuple[float, float]:
         """Column and row of the panel's upper left corner in the picture.

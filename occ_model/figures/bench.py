@@ -1,6 +1,7 @@
 """Draw the bench: bit error rates and bits a second, over the exposure and over the noise."""
 
 from collections.abc import Sequence
+from functools import partial
 from math import nan
 from pathlib import Path
 from typing import Any
@@ -69,6 +70,7 @@ def bench_drawing(
         lambda: _draw(request, points, bounds, frames_a_second),
         HEADER,
         lambda: written(points, frames_a_second),
+        partial(bench_provenance, request, frames_a_second),
     )
 
 

@@ -118,6 +118,9 @@ class Drawing:
         Function that draws the figure, to be called within :func:`house_style`.
     rows
         Function that gives the table's rows.
+    provenance
+        Function that says at a date where the numbers come from, of a figure that is not of one
+        scene.
     """
 
     name: str
@@ -125,6 +128,7 @@ class Drawing:
     draw: Callable[[], Figure]
     header: Sequence[str]
     rows: Callable[[], Iterable[Sequence[object]]]
+    provenance: Callable[[str], Provenance] | None = None
 
     def write(self, path: Path, provenance: Provenance) -> None:
         """Write the figure, or its table as CSV, in the format of the file's ending.

@@ -417,7 +417,7 @@ class Monkey:
         self._trigger("open_scene")
 
     def export_a_figure(self) -> None:
-        name = self._random.choice(list(self._application.desktop.figures.titles))
+        name = self._random.choice(list(self._application.shell.figures))
         self._dialogs.path = self._folder / f"{name}{self._random.choice(ENDINGS)}"
         self._trigger(f"export_{name}")
 
@@ -425,7 +425,7 @@ class Monkey:
         if self._random.random() < 0.5:
             self._trigger("copy_figure")
         else:
-            titles = self._application.desktop.figures.titles
+            titles = self._application.shell.figures
             self._application.desktop.export.copy(self._random.choice(list(titles)))
 
     def export_all(self) -> None:

@@ -208,7 +208,7 @@ def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> No
 
 
 def test_each_entry_has_a_letter_or_is_a_name(application: Application) -> None:
-    names = {*application.desktop.figures.titles.values()}
+    names = {figure.title for figure in application.shell.figures.values()}
     for path, action in all_entries(application):
         text = action.text()
         lists = ("Open recent", "Open sample photo", "View", "Animation of a slider")

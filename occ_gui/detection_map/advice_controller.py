@@ -9,7 +9,8 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
-from occ_gui.detection_map.worker import advise, left_out, rate_settings
+from occ_gui.detection_map.advice_worker import advise
+from occ_gui.detection_map.worker import left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage

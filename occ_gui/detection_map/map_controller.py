@@ -13,7 +13,7 @@ from occ_gui.background.signals import JobChannel
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
-from occ_gui.detection_map.worker import left_out
+from occ_gui.detection_map.worker import UNSEEN, left_out
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -21,7 +21,6 @@ from occ_model.arrays import FloatArray
 from occ_model.parallel.job import Stage
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.sweep_request import Shown, SweepPoint
-from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -29,13 +28,6 @@ from occ_model.study.sweep.counts import rate_intervals
 from occ_model.study.sweep.points import MeasuredPoints
 
 FIRST_AXES = ("switching_frequency", "distance")
-
-UNSEEN: dict[str, ParameterValue] = {
-    "start_time": 0.0,
-    "flicker_phase": 0.0,
-    "band_reading": "aligned",
-}
-"""Parameters that no rate depends on, as it is a mean over all start times."""
 
 
 class MapPane(Protocol):

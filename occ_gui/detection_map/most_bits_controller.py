@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
-from occ_gui.detection_map.worker import carry_most
+from occ_gui.detection_map.advice_worker import carry_most
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage

@@ -7,9 +7,8 @@ from functools import partial
 from PySide6.QtCore import Signal
 
 from occ_gui.background.signals import JobChannel
-from occ_gui.detection_map.map_controller import UNSEEN
 from occ_gui.detection_map.resting_controller import RateRequest, RestingController
-from occ_gui.detection_map.worker import rate_settings
+from occ_gui.detection_map.worker import UNSEEN, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
-from occ_gui.detection_map.map_controller import UNSEEN
+from occ_gui.detection_map.worker import UNSEEN
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.receiver.decoders import PAPER_DECODER

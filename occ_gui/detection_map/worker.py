@@ -1,4 +1,4 @@
-"""Jobs of the detection map, the slider strips and the advisor; nothing here needs Qt."""
+"""Jobs of the detection map and the slider strips; nothing here needs Qt."""
 
 import math
 from collections.abc import Mapping
@@ -11,17 +11,12 @@ from occ_model.effects.plan import plan
 from occ_model.effects.registry import EFFECTS
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat
-from occ_model.results.advice import Advice
-from occ_model.results.most_bits import MostBits
 from occ_model.results.sweep_request import RateSettings, SignalPath, SweepPoint
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import theory
-from occ_model.study.advice import advice_of
-from occ_model.study.limits import limits
-from occ_model.study.most_bits import most_bits
 from occ_model.study.observation import panel_span
 from occ_model.study.sweep.points import measure_points
 
@@ -30,6 +25,13 @@ IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image
 
 SEED = 1
 """Of all rates: that of :func:`occ_model.sweep`, so that its table is the map's."""
+
+UNSEEN: dict[str, ParameterValue] = {
+    "start_time": 0.0,
+    "flicker_phase": 0.0,
+    "band_reading": "aligned",
+}
+"""Parameters that no rate depends on, as it is a mean over all start times."""
 
 PRELOAD = __name__
 """The module that a worker process needs."""
@@ -134,36 +136,3 @@ def _sides(scene: Scene) -> dict[str, float]:
         "saturation": scene.camera.exposure_time / white if math.isfinite(white) else math.nan,
     }
     return {name: math.log(ratio) for name, ratio in ratios.items()}
-
-
-def advise(
-    scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
-) -> Advice:
-    """Find the limits of a decoder's working range, with those that theory gives.
-
-    Raises
-    ------
-    OccError
-        The scene has no picture, or its path is refused.
-    """
-    found = limits(
-        scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
-        tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
-    )  # fmt: skip
-    return advice_of(found)
-
-
-def carry_most(
-    scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
-) -> MostBits:
-    """Find which code, frequency and number of bits carry most with a decoder.
-
-    Raises
-    ------
-    OccError
-        The scene has no picture.
-    """
-    most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
-    frames = min(frames_a_second, most)
-    (found,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)
-    return found

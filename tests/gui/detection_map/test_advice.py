@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map import advice_controller as module
-from occ_gui.detection_map import map_schedule, wiring, worker
+from occ_gui.detection_map import advice_worker, map_schedule, wiring
 from occ_gui.detection_map.advice_sentences import AdviceSentences
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import row, sentences
@@ -86,7 +86,7 @@ def advised(
     qtbot: QtBot, workers: None, application: Application, monkeypatch: pytest.MonkeyPatch
 ) -> Application:
     """Ask for advice, and wait for it."""
-    monkeypatch.setattr(worker, "limits", found)
+    monkeypatch.setattr(advice_worker, "limits", found)
     application.window.bring_to_front("map")
     application.shell.pane("map").map.set_seen(False)  # it is not what is looked at here
     application.shell.pane("map").view.advise.click()

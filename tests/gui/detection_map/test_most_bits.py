@@ -9,7 +9,7 @@ from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import WorkQueue
-from occ_gui.detection_map import worker
+from occ_gui.detection_map import advice_worker
 from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.most_bits_controller import MostBitsController
 from occ_gui.scene.frame_rate import FrameRate
@@ -121,7 +121,7 @@ def bench(
     ) -> tuple[MostBits]:
         return (found_by(decoders[0], scene, frames_a_second),)
 
-    monkeypatch.setattr(worker, "most_bits", most_bits)
+    monkeypatch.setattr(advice_worker, "most_bits", most_bits)
     made = Bench(small_scene, card, inline_workers)
     yield made
     made.controller.cancel()
@@ -180,8 +180,8 @@ def test_more_pictures_than_can_be_read_out_are_not_counted(small_scene: Scene) 
         return (0,)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(worker, "most_bits", most_bits)
-        worker.carry_most(small_scene, "threshold", 1e4, lambda: None)
+        patch.setattr(advice_worker, "most_bits", most_bits)
+        advice_worker.carry_most(small_scene, "threshold", 1e4, lambda: None)
     camera = small_scene.camera
     assert seen.value == pytest.approx(1.0 / (camera.columns * camera.readout_time))
 

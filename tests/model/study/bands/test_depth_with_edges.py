@@ -18,8 +18,8 @@ def _second_integral(chips: list[int], place: Fraction) -> Fraction:
     """Return the light up to a place, integrated once more; places may be below 0."""
     period, total = len(chips), sum(chips)
     of_period = sum((period - k - Fraction(1, 2)) * lit for k, lit in enumerate(chips))
-    whole, rest = divmod(Fraction(place), period)
-    whole = Fraction(whole)
+    periods, rest = divmod(place, period)
+    whole = Fraction(periods)
     done = int(rest)
     part = rest - done
     lit = sum(chips[:done])

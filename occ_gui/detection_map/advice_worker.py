@@ -1,0 +1,43 @@
+"""Jobs of the advisor, which search for limits; nothing here needs Qt."""
+
+from occ_model.parallel.job import Heartbeat
+from occ_model.results.advice import Advice
+from occ_model.results.most_bits import MostBits
+from occ_model.results.sweep_request import RateSettings
+from occ_model.scene.scene import Scene
+from occ_model.study.advice import advice_of
+from occ_model.study.limits import limits
+from occ_model.study.most_bits import most_bits
+
+
+def advise(
+    scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
+) -> Advice:
+    """Find the limits of a decoder's working range, with those that theory gives.
+
+    Raises
+    ------
+    OccError
+        The scene has no picture, or its path is refused.
+    """
+    found = limits(
+        scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
+        tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
+    )  # fmt: skip
+    return advice_of(found)
+
+
+def carry_most(
+    scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
+) -> MostBits:
+    """Find which code, frequency and number of bits carry most with a decoder.
+
+    Raises
+    ------
+    OccError
+        The scene has no picture.
+    """
+    most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
+    frames = min(frames_a_second, most)
+    (found,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)
+    return found

@@ -1,7 +1,7 @@
 """What things cost, as ratios measured side by side in one run.
 
 ``python tests/benchmarks/report.py`` prints the table; ``--markdown`` prints it as it stands in
-``resources/docs/costs.md``. Absolute times differ from machine to machine and from hour to hour; a
+``resources/docs/measurements.md``. Absolute times differ from machine to machine and from hour to hour; a
 ratio of two things timed in turn, in one process, does so much less. No test asserts a time.
 """
 
@@ -292,7 +292,7 @@ def main() -> None:
     """Print the report."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
-        "--markdown", action="store_true", help="print the table of resources/docs/costs.md"
+        "--markdown", action="store_true", help="print the table of resources/docs/measurements.md"
     )
     markdown = parser.parse_args().markdown
     if markdown:

@@ -127,14 +127,14 @@ def constant(node: ast.expr) -> str | None:
 
 def test_numerical_health_has_every_law_that_is_tried() -> None:
     """``OCC_HARD_CASES=100000 pytest tests/hard_cases`` prints the table anew."""
-    page = page_named("numerical-health")
+    page = page_named("measurements")
     laws = {law for call in calls("hard_cases", "record") if (law := constant(call.args[0]))}
     assert len(laws) > 40
     assert [law for law in sorted(laws) if f"\n| {law} |" not in page] == []
 
 
 def test_numerical_health_has_every_door_that_is_attacked() -> None:
-    page = page_named("numerical-health")
+    page = page_named("measurements")
     doors = {
         name
         for call in calls("hard_cases/attack/doors", "Door")
@@ -146,7 +146,7 @@ def test_numerical_health_has_every_door_that_is_attacked() -> None:
 
 def test_costs_have_every_line_of_the_report() -> None:
     """``python tests/benchmarks/report.py --markdown`` prints the table anew."""
-    page = page_named("costs")
+    page = page_named("measurements")
     rows = {what for call in calls("benchmarks", "Row") if (what := constant(call.args[0]))}
     assert len(rows) > 10
     assert [what for what in sorted(rows) if f"\n| {what} |" not in page] == []

@@ -1,6 +1,6 @@
-"""The window of the manual: list of pages, the page, back and forward, search in the page."""
+"""The window of the manual: list of pages, the page, back and forward, search."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from PySide6.QtCore import QSize, Qt, QUrl
@@ -12,10 +12,12 @@ from PySide6.QtWidgets import (
     QMainWindow,
     QSplitter,
     QToolBar,
+    QVBoxLayout,
     QWidget,
 )
 
 from occ_gui.help.help_browser import HelpBrowser
+from occ_gui.help.manual_search import Section, search, sections
 from occ_gui.help.pages import pages
 
 _SIZE = QSize(960, 720)
@@ -38,19 +40,23 @@ class HelpWindow(QMainWindow):
         self._folder = folder
         self.page_list = QListWidget()
         self.page_list.setAccessibleName("Pages")
-        self.page_list.setToolTip("The pages of the manual.")
-        for title, name in pages(folder):
-            item = QListWidgetItem(title, self.page_list)
-            item.setData(_FILE, name)
+        self.page_list.setToolTip("The pages of the manual, or the places found in them.")
+        self.page_list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self._pages = pages(folder)
+        self._sections: list[Section] = []
+        self.search_all = QLineEdit()
         self.browser = HelpBrowser()
         self.browser.setAccessibleName("Page")
         self.search = QLineEdit()
         self._lay_out()
+        self._list(self._pages)
         self.page_list.itemActivated.connect(self._show_item)
         self.page_list.itemClicked.connect(self._show_item)
         self.browser.sourceChanged.connect(self._on_page)
         self.search.textEdited.connect(self._find_from_start)
         self.search.returnPressed.connect(self.find_next)
+        self.search_all.textChanged.connect(self._search_all)
+        self.search_all.returnPressed.connect(self._show_first)
         self.resize(_SIZE)
 
     def _lay_out(self) -> None:
@@ -66,9 +72,19 @@ class HelpWindow(QMainWindow):
         bar.addWidget(self.search)
         self.addToolBar(bar)
         self._add_key(QKeySequence.StandardKey.Find, self.search.setFocus)
+        self._add_key(QKeySequence("Ctrl+Shift+F"), self.search_all.setFocus)
         self._add_key(QKeySequence.StandardKey.Cancel, self.close)
+        self.search_all.setPlaceholderText("Search all pages")
+        self.search_all.setAccessibleName("Search all pages")
+        self.search_all.setToolTip("Lists the places with all these words; Enter shows the first.")
+        self.search_all.setClearButtonEnabled(True)
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.search_all)
+        column.addWidget(self.page_list)
         parts = QSplitter()
-        parts.addWidget(self.page_list)
+        parts.addWidget(left)
         parts.addWidget(self.browser)
         parts.setStretchFactor(1, 1)
         parts.setSizes([_LIST_WIDTH, _SIZE.width() - _LIST_WIDTH])
@@ -88,7 +104,9 @@ class HelpWindow(QMainWindow):
             action.triggered.connect(go)
             can_go.connect(action.setEnabled)
 
-    def _add_key(self, key: QKeySequence.StandardKey, do: Callable[[], object]) -> None:
+    def _add_key(
+        self, key: QKeySequence.StandardKey | QKeySequence, do: Callable[[], object]
+    ) -> None:
         action = QAction(self)
         action.setShortcut(QKeySequence(key))
         action.triggered.connect(lambda: do())
@@ -116,12 +134,44 @@ class HelpWindow(QMainWindow):
         self.browser.moveCursor(QTextCursor.MoveOperation.Start)
         self.find_next()
 
+    def _list(self, places: Iterable[tuple[str, str]]) -> None:
+        self.page_list.clear()
+        for title, page in places:
+            item = QListWidgetItem(title, self.page_list)
+            item.setToolTip(title)
+            item.setData(_FILE, page)
+
+    def _search_all(self, text: str) -> None:
+        if not text.strip():
+            self._list(self._pages)
+            self._on_page(self.browser.source())
+            return
+        if not self._sections:
+            self._sections = sections(self._folder)
+        found = [(section.title, section.link) for section in search(self._sections, text)]
+        self._list(found)
+        if not found:
+            item = QListWidgetItem("Nothing found", self.page_list)
+            item.setFlags(Qt.ItemFlag.NoItemFlags)
+
+    def _show_first(self) -> None:
+        item = self.page_list.item(0)
+        if item is not None:
+            self._show_item(item)
+
     def _show_item(self, item: QListWidgetItem) -> None:
-        self.show_page(item.data(_FILE))
+        page = item.data(_FILE)
+        if page is None:
+            return
+        self.show_page(page)
+        words = self.search_all.text().split()
+        if words:
+            self.browser.find(words[0])
 
     def _on_page(self, url: QUrl) -> None:
         for place in range(self.page_list.count()):
-            item = self.page_list.item(place)
-            if item.data(_FILE) == url.fileName():
-                self.page_list.setCurrentItem(item)
-                self.setWindowTitle(f"Manual: {item.text()}")
+            if self.page_list.item(place).data(_FILE) == url.fileName():
+                self.page_list.setCurrentRow(place)
+        title = next((title for title, name in self._pages if name == url.fileName()), "")
+        if title:
+            self.setWindowTitle(f"Manual: {title}")

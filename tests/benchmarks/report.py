@@ -1,8 +1,9 @@
 """What things cost, as ratios measured side by side in one run.
 
 ``python tests/benchmarks/report.py`` prints the table; ``--markdown`` prints it as it stands in
-``resources/docs/measurements.md``. Absolute times differ from machine to machine and from hour to hour; a
-ratio of two things timed in turn, in one process, does so much less. No test asserts a time.
+``resources/docs/measurements.md``. Absolute times differ from machine to machine and from hour to
+hour; a ratio of two things timed in turn, in one process, does so much less. No test asserts a
+time.
 """
 
 import argparse

@@ -96,6 +96,10 @@ class Enhancement:
         mean, deviation, _ = self.smoothed(levels, spread)
         return mean, deviation
 
+    def mean(self, levels: FloatArray, spread: FloatArray) -> FloatArray:
+        """Return the first of these alone."""
+        return _mean_passed(self.curve.astype(np.float64), *_steps_passed(levels, spread))
+
     def smoothed(
         self, levels: FloatArray, spread: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -105,11 +109,9 @@ class Enhancement:
         """
         curve = self.curve.astype(np.float64)
         edge, passed = _steps_passed(levels, spread)
-        lowest, beyond = edge[:, 0], np.zeros(edge.shape[1] + 1)
 
         def passed_of(values: FloatArray) -> FloatArray:
-            steps = np.concatenate([np.diff(values), beyond])
-            return np.asarray(values[lowest] + np.einsum("ij,ij->i", steps[edge], passed))
+            return _mean_passed(values, edge, passed)
 
         mean = passed_of(curve)
         jumps = np.concatenate([[0.0], np.cumsum(np.diff(curve) ** 2)])
@@ -173,6 +175,12 @@ def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, F
     passed = _tail((step + (0.5 - levels[:, None])) * scale)
     passed[step >= 255] = 0.0
     return step, passed
+
+
+def _mean_passed(values: FloatArray, edge: IndexArray, passed: FloatArray) -> FloatArray:
+    """Return the mean of what pixels get whose level has some value, from the steps they pass."""
+    steps = np.concatenate([np.diff(values), np.zeros(edge.shape[1] + 1)])
+    return np.asarray(values[edge[:, 0]] + np.einsum("ij,ij->i", steps[edge], passed))
 
 
 def _tail(deviations: FloatArray) -> FloatArray:

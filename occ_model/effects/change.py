@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
@@ -106,6 +106,7 @@ class Changes:
         self.means = [*self._lights, *self._lenses, *self._limits]
         self._light_of: dict[frozenset[str], _Light] = {}
         self._values_of: dict[frozenset[str], FloatArray] = {}
+        self._place_of: dict[int, tuple[FloatArray, tuple[IndexArray, FloatArray]]] = {}
         self._enhancement_of: dict[frozenset[str], Enhancement] = {}
         self.sample = self._sampled()
         self._unit = float(pixel_value(np.ones(1), self._scene.camera)[0])
@@ -205,12 +206,23 @@ class Changes:
         return np.sqrt(sum(own, np.zeros(_LEVELS)))
 
     def _look(self, table: FloatArray, values: FloatArray) -> FloatArray:
+        below, share = self._place(values)
+        steps = table[1:] - table[:-1]
+        return np.asarray(table[below] + share * steps[below])
+
+    def _place(self, values: FloatArray) -> tuple[IndexArray, FloatArray]:
+        """Return the level below each value, and how far the value lies towards the next one."""
+        known = self._place_of.get(id(values))
+        if known is not None and known[0] is values:
+            return known[1]
         low, high = float(self.levels[0]), float(self.levels[-1])
         place = (values - low) * ((_LEVELS - 1) / (high - low))
         place = np.minimum(np.maximum(place, 0.0), _LEVELS - 1.001)
-        below = place.astype(np.int32)
-        steps = np.append(np.diff(table), 0.0)
-        return np.asarray(table[below] + (place - below) * steps[below])
+        below = place.astype(np.intp)
+        found = below, place - below
+        if any(values is kept for kept in self._values_of.values()):  # looked up again and again
+            self._place_of[id(values)] = values, found
+        return found
 
     @cached_property
     def _file(self) -> FileChange | None:
@@ -412,7 +424,7 @@ class Changes:
             spread = self.spread(included)
             if self._file is not None and self._files[0].name in included:
                 spread = self._file.spread(spread)
-            return self._enhancement(included).moments(levels, spread)[0], spread
+            return self._enhancement(included).mean(levels, spread), spread
 
         def seen(included: frozenset[str]) -> FloatArray:
             values, key = self._read_back(included), included - optics
@@ -421,7 +433,7 @@ class Changes:
             mean, spread = smooth[key]
             if float(spread.max()) < _SHARP:
                 flat = np.clip(values.ravel(), 0.0, WHITE)
-                sharp = self._enhancement(included).moments(flat, self._look(spread, flat))[0]
+                sharp = self._enhancement(included).mean(flat, self._look(spread, flat))
                 smoothed = sharp.reshape(values.shape)
             else:
                 smoothed = self._look(mean, values)

@@ -48,8 +48,8 @@ class DepthPlot(QWidget):
             axis = self.plot.setXRange if side == "bottom" else self.plot.setYRange
             axis(float(low), float(high), padding=0)
         self.plot.setMouseEnabled(False, False)
-        room = self.fontMetrics().height() / 2.0  # half of a number lies beyond the map
-        self.plot.getPlotItem().layout.setContentsMargins(0.0, room, 2.0 * room, 0.0)
+        room = self.fontMetrics().height() / 2.0  # numbers and descents reach beyond
+        self.plot.getPlotItem().layout.setContentsMargins(0.0, room, 2.0 * room, room)
         self.valleys = [self.plot.plot(pen=thin(QColor("white"))) for _ in range(_VALLEYS)]
         self.setting = self.plot.plot(
             [], [], pen=None, symbol="o", symbolSize=10, symbolBrush="w", symbolPen="k"

@@ -248,9 +248,8 @@ class Room:
 _LAMP_KEYS = tuple(n for n in RoomLamp.__dataclass_fields__ if n != "transmitter")
 
 
-def _read_place(table: object) -> Place:
-    if not isinstance(table, Mapping):
-        raise SceneFileError("place must be a table: a line '[place]' and its keys.")
+def _read_place(value: object) -> Place:
+    table = toml_format.table_of(value, "place")
     _check_keys(table, tuple(Place.__dataclass_fields__), "Table [place]")
     return Place(**table)
 

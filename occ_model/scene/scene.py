@@ -94,9 +94,7 @@ class Scene:
                 raise SceneFileError(
                     f"A scene file has no table [{one_line(group)}]; known are {', '.join(GROUPS)}."
                 )
-            if not isinstance(values, Mapping):
-                raise SceneFileError(f"{group} must be a table: a line '[{group}]' and its keys.")
-            for name, value in values.items():
+            for name, value in toml_format.table_of(values, group).items():
                 try:
                     parameter_named(name, GROUPS[group])
                 except ParameterError as error:

@@ -50,6 +50,19 @@ def from_toml(text: str) -> dict[str, Any]:
     return content
 
 
+def table_of(value: object, name: str) -> Mapping[str, Any]:
+    """Return the table that a file has under a name.
+
+    Raises
+    ------
+    SceneFileError
+        It is no table.
+    """
+    if not isinstance(value, Mapping):
+        raise SceneFileError(f"{name} must be a table: a line '[{name}]' and its keys.")
+    return value
+
+
 def parse_toml(text: str) -> dict[str, Any]:
     """Read TOML from an untrusted source, in a time that grows with the text's length.
 

@@ -76,6 +76,22 @@ def test_stated_errors_of_phase_and_step_cover_68_percent() -> None:
     assert np.mean(np.abs(found) < 1.0) == pytest.approx(0.68, abs=0.08)
 
 
+def test_light_that_falls_off_as_a_lens_s_shifts_no_edges_of_all_frames_alike() -> None:
+    place = np.linspace(-1.0, 1.0, 1200)
+    fall = np.cos(np.arctan(0.9 * (place - 0.3))) ** 4
+    found = []
+    for seed in range(60):
+        lattice = _lattice(0.5, seed)
+        share, _, _ = lattice.lit(1200)
+        noise = 0.01 * np.random.default_rng(seed).standard_normal(1200)
+        fitted = fit_timing(fall * (0.1 + share) + noise, _rough(lattice, seed))
+        assert fitted is not None
+        found.append((fitted.lattice.step - lattice.step) / fitted.step_error)
+    # The mean of 60 deviates by 0.13 if their errors are only those of the noise.
+    assert abs(np.mean(found)) < 0.4
+    assert 0.6 < np.std(found) < 1.4
+
+
 def test_a_chip_that_was_misread_is_set_right() -> None:
     lattice = _lattice(0.5, 11)
     values = lattice.values.copy()

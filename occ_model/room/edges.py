@@ -36,6 +36,12 @@ _STRAY = 3.5
 """Deviations beyond which a point is left out of a line."""
 
 
+_UPRIGHT = 0.1
+"""Pixels that an upright edge is off as a whole, beside the scatter of its points: its lamp's light
+is known from other columns. In 28 pictures of an office and 28 of a hall half of the 670 points
+were off by more than 0.06, and their errors had been stated as 0.04."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Edge:
     """An edge of a lamp in a picture, by two points on it.
@@ -195,6 +201,8 @@ def _fitted(side: int, points: FloatArray, scene: Scene) -> Edge | None:
     steps = abs(slope) * float(np.ptp(x))
     rounding = 2.0 / 12.0 / (1.0 + steps**2)
     error = float(np.sqrt(2.0 * off.var() / len(x) + rounding)) / float(np.hypot(1.0, slope))
+    if not level:
+        error = float(np.hypot(error, _UPRIGHT))
     ends = np.stack([places, at], axis=1)
     normal = np.array([-slope, 1.0]) / np.hypot(1.0, slope)
     if not level:

@@ -9,11 +9,14 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT, WHITE
-from occ_model.effects.change import Changes, Observed
+from occ_model.effects.change import margins, observed
 from occ_model.effects.cost import seconds_of
 from occ_model.effects.effect import Effect
+from occ_model.effects.observed import Observed
+from occ_model.effects.observed_signal import signal_swing
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.registry import EFFECTS, NAMES
+from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.errors import ProjectionError
 from occ_model.results.plan import Decision, Plan, Way
 from occ_model.scene.scene import Scene, check_scene
@@ -207,21 +210,21 @@ class _Estimates:
         cls, view: PaperView, observable: Observable, effects: tuple[Effect, ...] = EFFECTS
     ) -> "_Estimates":
         """Estimate the changes by effects of a scene."""
-        changes = Changes(view, effects)
+        pixels = SampledPixels(view, effects)
         of_signal = observable in ("signal", "decision")
-        swing = changes.signal_swing if of_signal else view.swing
-        stretch, factors = WHITE / swing, dict.fromkeys(changes.names, 1.0)
-        seen = changes.observed("signal" if of_signal else observable)
+        swing = signal_swing(pixels) if of_signal else view.swing
+        stretch, factors = WHITE / swing, dict.fromkeys(pixels.names, 1.0)
+        seen = observed(pixels, "signal" if of_signal else observable)
         if observable == "decision":
-            margin, step = (max(found, 1e-6) for found in changes.margins(seen))
+            margin, step = (max(found, 1e-6) for found in margins(pixels, seen))
             stretch = _PEAK / margin
-            for name in changes.names:
-                if changes.is_like_noise(name):
+            for name in pixels.names:
+                if pixels.is_like_noise(name):
                     factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
         sizes = {
             effect.name: max(math.sqrt(seen.together(frozenset({effect.name}))), _LEAST)
             * (ALLOWANCE * stretch * factors[effect.name])
-            for effect in changes.effects
+            for effect in pixels.effects
         }
         return cls(sizes, seen, stretch, factors)
 

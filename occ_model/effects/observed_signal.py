@@ -1,0 +1,224 @@
+"""How leaving effects out changes the enhanced signal, estimated from a sample."""
+
+import math
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.photometry import FLAT, WHITE, saturate
+from occ_model.effects.normal import clipped_mean, share_unclipped
+from occ_model.effects.observed import Observed
+from occ_model.effects.sampled_pixels import SampledPixels
+
+_DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
+"""Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
+many columns, and in few."""
+
+_FLUCTUATION = 4.0
+"""Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
+
+_BETWEEN = 0.02
+"""Grey levels from the middle between two levels within which rounding cannot be foretold."""
+
+_LARGE_STEP = 32.0
+"""Levels by which an enhancement can part neighbouring levels, so that one column matters."""
+
+_FEW = 3
+"""Sampled columns near a large step from which the sample shows what happens there."""
+
+_WIDE = 8.0
+"""Noise in grey levels that black and white cut off noticeably."""
+
+_SHARP = 0.5
+"""Noise in grey levels below which the enhancement's steps show between the levels."""
+
+
+def signal_swing(pixels: SampledPixels) -> float:
+    """Largest less smallest value of the enhanced profile without effects, at least 1."""
+    seen = saturate(pixels.view.values)
+    enhanced = Enhancement(seen, pixels.scene.model.enhancement)(seen)
+    return max(float(enhanced.max()) - float(enhanced.min()), FLAT)
+
+
+def observed_signal(pixels: SampledPixels) -> Observed:
+    """Return the means of the columns after the receiver's enhancement."""
+    sample = pixels.sample
+    weights = np.sqrt(sample.weights)
+    levels = np.clip(pixels.levels, 0.0, WHITE)
+
+    optics = frozenset(effect.name for effect in pixels.lenses)
+    smooth: dict[frozenset[str], tuple[FloatArray, FloatArray]] = {}
+
+    def curve(included: frozenset[str]) -> tuple[FloatArray, FloatArray]:
+        spread = pixels.spread(included)
+        if pixels.file is not None and pixels.files[0].name in included:
+            spread = pixels.file.spread(spread)
+        return pixels.enhancement(included).mean(levels, spread), spread
+
+    def seen(included: frozenset[str]) -> FloatArray:
+        values, key = pixels.read_back(included), included - optics
+        if key not in smooth:
+            smooth[key] = curve(included)
+        mean, spread = smooth[key]
+        if float(spread.max()) < _SHARP:
+            flat = np.clip(values.ravel(), 0.0, WHITE)
+            sharp = pixels.enhancement(included).mean(flat, pixels.look(spread, flat))
+            smoothed = sharp.reshape(values.shape)
+        else:
+            smoothed = pixels.look(mean, values)
+        inside = pixels.inside(included)
+        if inside is not None:  # beside the panel nothing is enhanced
+            smoothed = np.where(inside, smoothed, _beside(pixels, included, values))
+        return pixels.mean_of_rows(smoothed) * weights
+
+    found = Observed(pixels.names, seen)
+    found.alone.update(_signal_sampling(pixels))
+    region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
+    method = pixels.scene.model.enhancement
+    jump = contrast if method == "none" else WHITE
+    few = len(sample.columns) >= region.columns
+    part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
+    for name in pixels.outline & pixels.names:
+        share = contrast**2 / (region.rows**2 * region.columns)
+        found.doubt[name] = pixels.doubted_pixels(share)
+        # A pixel of a rim is enhanced or not.
+        found.doubt[name] += pixels.moved_rims(name) * (part * jump / region.rows) ** 2
+    _doubt_sharp_steps(pixels, found)
+    _doubt_large_steps(pixels, found)
+    _doubt_a_cut_file(pixels, found)
+    return found
+
+
+def _beside(pixels: SampledPixels, included: frozenset[str], values: FloatArray) -> FloatArray:
+    """Return the mean of pixels of some mean values that are rounded and not enhanced."""
+    spread = pixels.spread(included)
+    if float(spread.max()) < _SHARP:
+        return np.rint(np.clip(values, 0.0, WHITE))
+    return pixels.look(clipped_mean(pixels.levels, spread, WHITE), values)
+
+
+def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
+    """Doubt how pixels are rounded that no noise spreads over the enhancement's steps.
+
+    Whole plateaus of values that lie between two levels may be rounded otherwise; in a file
+    whatever its own error reaches, since that is alike in blocks of equal rows.
+    """
+    whole = np.clip(pixels.values(pixels.names), 0.0, WHITE)
+    sharp = pixels.look(pixels.spread(pixels.names), whole) < _SHARP
+    if not sharp.any():
+        return
+    enhancement = pixels.enhancement(pixels.names)
+    if pixels.file is None:
+        curve = enhancement.curve.astype(np.float64)
+        below = np.minimum(whole, WHITE - 1.0).astype(np.int64)
+        near = np.abs(whole - below - 0.5) < _BETWEEN
+        reached = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
+    else:
+        error = np.full(whole.size, math.sqrt(pixels.file.own_change()))
+        reached = enhancement.moments(whole.ravel(), error)[1].reshape(whole.shape)
+    square = pixels.mean_of_rows(np.where(sharp, reached, 0.0) ** 2)
+    doubt = float((square * pixels.sample.weights).sum())
+    for name in pixels.names:
+        found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+
+
+def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
+    """Doubt columns near a large step of the enhancement that the sample does not have.
+
+    An equalization makes one where many columns share a value. A change of less than their
+    distance from it carries none of them across.
+    """
+    sample, region = pixels.sample, pixels.view.region
+    if len(sample.columns) >= region.columns:
+        return
+    enhancement = pixels.enhancement(pixels.names)
+    steps = np.diff(enhancement.curve.astype(np.float64))
+    large = np.flatnonzero(steps > _LARGE_STEP)
+    if not len(large):
+        return
+    profile = pixels.light(pixels.names).panel[region.first_column : region.last_column]
+    for limit in pixels.limits:
+        profile = limit.apply(pixels.scene, profile)
+    away = np.abs(profile - large[:, None] - 0.5)
+    sampled = away[:, sample.columns - region.first_column]
+    for name in pixels.names:
+        if name in pixels.variances:
+            own, rest = pixels.noise_without(name)
+            moved, share = own, min(0.5, (own / max(rest, _BETWEEN)) ** 2 / 8.0)
+        else:
+            without = pixels.values(pixels.names - {name})
+            moved = math.sqrt(pixels.mean_of((pixels.values(pixels.names) - without) ** 2))
+            share = min(0.5, 0.4 * moved / max(pixels.noise_with(pixels.names), _BETWEEN))
+        near = max(moved, _BETWEEN)
+        unseen = np.count_nonzero(sampled < near, axis=1) < _FEW
+        doubt = (away < near).mean(axis=1)[unseen] @ (steps[large][unseen] * share) ** 2
+        found.doubt[name] = found.doubt.get(name, 0.0) + float(doubt)
+
+
+def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
+    """Doubt what a file makes of noise that black or white cuts off: it is not normal."""
+    if pixels.file is None:
+        return
+    spread, name = pixels.spread(pixels.names), pixels.files[0].name
+    lost = np.where(spread > _WIDE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0)
+    cut = pixels.mean_of(pixels.look(lost, pixels.values(pixels.names)))
+    gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
+    doubt = cut * pixels.file.own_change() * min(gain, 8.0) ** 2 / 4.0
+    found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+
+
+def _signal_sampling(pixels: SampledPixels) -> dict[str, float]:
+    """Return the mean square of what a mean of few rows deviates by, for each effect.
+
+    A pixel that moves by d passes the curve's steps in proportion to d, which noise spreads
+    over the rows. Where the steps are even, a change of a whole step passes no more than one.
+    """
+    everything, file = pixels.names, pixels.file
+    whole, rows = pixels.values(everything), pixels.view.region.rows
+    spread = pixels.spread(everything)
+    levels = np.clip(pixels.levels, 0.0, WHITE)
+    mean, deviation, jumps = pixels.enhancement(everything).smoothed(levels, spread)
+    step = float(pixels.levels[1] - pixels.levels[0])
+    even = np.gradient(mean, step) ** 2
+    uneven = np.maximum(np.gradient(jumps, step) - even, 0.0)
+    total = spread**2
+    inside = pixels.inside(everything)
+    one = 1.0 / (rows**2 * pixels.view.region.columns)
+    pixel = pixels.mean_of(pixels.look(even + uneven, whole)) * one
+    drawn = pixels.mean_of(pixels.look(even * total, whole)) * one
+    evenly, unevenly = pixels.look(even, whole), pixels.look(uneven, whole)
+    found = {}
+    for effect in pixels.effects:
+        name, linear, moves_few = effect.name, 0.0, True
+        if effect in pixels.noises:
+            own = np.sqrt(pixels.variances[name])
+            moves_few = float(own.max()) < 0.5 * float(spread.max())
+            if file is not None:
+                read, linear = file.of_noise(*pixels.noise_without(name))
+                own = np.maximum(own, math.sqrt(read))
+            part = even * (own**2 + np.tanh(4.8 * own) / 6.0) + uneven * 0.8 * own
+            part = np.where(own**2 > 0.7 * total, deviation**2, np.minimum(part, deviation**2))
+            part = pixels.look(part, whole)
+            if inside is not None:
+                part = np.where(inside, part, pixels.look(own**2, whole))
+        elif file is not None and effect in pixels.files:
+            linear, moves_few = file.own_sampling(), False
+            moved = min(math.sqrt(file.own_change()), 1.0)
+            part = pixels.look(even / 6.0 + uneven * 0.8 * moved, whole)
+        else:
+            without = pixels.values(everything - {name})
+            change = np.abs(whole - without)
+            if file is not None:
+                added, linear = file.added(without)
+                change = np.sqrt(change**2 + max(added, 0.0))
+            change = np.minimum(change, 0.5)
+            part = evenly * change * (1.0 - change) + unevenly * change
+        if linear:
+            part = part + linear * rows * evenly
+        found[name] = pixels.mean_of(part) / rows
+        if effect in pixels.noises:  # one pixel whose noise is drawn otherwise
+            found[name] += drawn
+        if moves_few:
+            found[name] += _FLUCTUATION * math.sqrt(found[name] * pixel)
+    return found

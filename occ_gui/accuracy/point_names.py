@@ -36,7 +36,7 @@ _POINT = 9.0
 _PLATE = 215
 """Opacity of the plate under a name, of 255."""
 
-_LED_FROM = 14.0
+_LEAST_LEADER = 14.0
 """Distance in pixels from which a line leads from a point to its name."""
 
 
@@ -135,7 +135,7 @@ class PointNames:
             text.setPos(box.mapSceneToView(rect.center()))
             text.show()
             end = _nearest(rect, place)
-            if _distance(place, end) >= _LED_FROM:
+            if _distance(place, end) >= _LEAST_LEADER:
                 to = box.mapSceneToView(end)
                 line.setPen(QPen(self._colour, 0))
                 line.setData([point.x, to.x()], [point.y, to.y()])
@@ -185,7 +185,7 @@ class _FreePlaces:
         self._taken.append(rect)
         self._names.append(rect)
         along = _lines_to(centre[None, :], size, at)[0]
-        if np.hypot(*(along[-1] - at)) >= _LED_FROM:
+        if np.hypot(*(along[-1] - at)) >= _LEAST_LEADER:
             self._lines = np.concatenate([self._lines, along])
         return rect
 
@@ -200,7 +200,7 @@ class _FreePlaces:
 
     def _is_by_another(self, centres: FloatArray, size: QSizeF, at: FloatArray) -> BoolArray:
         """Return which names would stand nearer to another point than to their own."""
-        own = np.minimum(_distances(centres, size, at[None, :])[:, 0], _LED_FROM)
+        own = np.minimum(_distances(centres, size, at[None, :])[:, 0], _LEAST_LEADER)
         apart = np.hypot(*(self._points - at).T) > _POINT
         others = _distances(centres, size, self._points[apart])
         return np.asarray((others <= own[:, None]).any(axis=1), dtype=np.bool_)

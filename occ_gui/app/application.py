@@ -14,7 +14,7 @@ from occ_gui.app.features import features
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
-from occ_gui.app.story_wiring import tell_story
+from occ_gui.app.story_wiring import connect_story
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.app.welcome import Welcome
 from occ_gui.core.store import NO_GESTURE, Store
@@ -102,11 +102,11 @@ class Application(QObject):
         self.simulation.picture_ready.connect(self.board.show_picture)
         self.frame_rate = FrameRate(workspace)
         self.measuring = Measuring(self.store, self.slider_strips)
-        self.simulation.let_first(self._is_map_awaited)
+        self.simulation.defer_while(self._is_map_awaited)
         self._declare_panes(workspace)
         self._show_results()
         self.outdated = OutdatedPanes(self.simulation, self.window)
-        tell_story(self)
+        connect_story(self)
         self.shell.made.connect(self._on_made)
         # Before the session is written.
         self.window.closing.connect(self._begin_to_end)

@@ -125,7 +125,6 @@ class OutdatedPanes(QObject):
     def _update(self) -> None:
         text = "of an earlier scene: this one has no picture" if self._is_refused else "computing…"
         runs = bool(self._run) and not self._is_refused
-        runs = bool(self._run) and not self._is_refused
         for request, marks in (
             (self._pictured, self.of_picture),
             (self._read, self.of_readings),

@@ -41,7 +41,7 @@ class Parts(Protocol):
         """Show what this decoder reads, everywhere."""
 
 
-def tell_story(parts: Parts) -> None:
+def connect_story(parts: Parts) -> None:
     """Connect the story with the simulation and with the panes that show the same in detail.
 
     Readings come to it as to all other panes, by ``SimulationController.show_in``.
@@ -154,7 +154,7 @@ class _SimulationNaming(QObject):
         """Name it as the mode and the photo of the moment ask for."""
         in_step = self._modes.mode == "lessons" and self._is_step_about_photo
         is_about_photo = self._modes.mode == "photo" or in_step
-        self._story.be_about_photo(is_about_photo)
+        self._story.show_photo_verdict(is_about_photo)
         has_photo = self._photo is not None and self._photo.has_photo
         self._story.verdict.name_simulation(is_about_photo or has_photo)
 

@@ -19,7 +19,7 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Comparison, Match, Stripes
 
-_FLAT = 0.5
+_LEAST_SWING = 0.5
 """Swing in grey levels below which the simulated columns show no stripes."""
 
 
@@ -150,7 +150,7 @@ class ComparisonController(QObject):
             comparison = self._compare_with(reading)
         except MatchError as error:
             sentence = str(error)
-        if comparison is not None and float(np.ptp(comparison.simulated)) < _FLAT:
+        if comparison is not None and float(np.ptp(comparison.simulated)) < _LEAST_SWING:
             # A photo scaled to no swing at all would agree with any simulation.
             comparison, sentence = None, "The simulation has no stripes there to compare."
         raw = photo.profile

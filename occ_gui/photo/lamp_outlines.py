@@ -16,7 +16,7 @@ from occ_model.results.lamp import Lamp
 _THIN, _THICK = 2, 4
 _ABOVE = 20
 
-_FAR = 1e6
+_HALF_SIDE = 1e6
 """Half the side of the area for drawing, in pixels."""
 
 _HANDLE = 9
@@ -31,7 +31,7 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
         """Return an area larger than any photo."""
-        return QRectF(-_FAR, -_FAR, 2.0 * _FAR, 2.0 * _FAR)
+        return QRectF(-_HALF_SIDE, -_HALF_SIDE, 2.0 * _HALF_SIDE, 2.0 * _HALF_SIDE)
 
     @guarded
     def paint(self, *_arguments: object) -> None:

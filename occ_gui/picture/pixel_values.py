@@ -12,7 +12,7 @@ _WIDEST = "255"
 _MAX_VALUES = 5000
 """Maximum number of values written: more pixels than that cannot be so large on any screen."""
 
-_MIDDLE = 128
+_MIDDLE_GREY = 128
 
 
 def draw_pixel_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> int:
@@ -40,7 +40,7 @@ def draw_pixel_values(painter: QPainter, image: ByteArray, part: QRect, target: 
         line = part.height() - 1 - row if flipped else row
         for column in range(part.width()):
             level = int(image[part.top() + row, part.left() + column])
-            painter.setPen(Qt.GlobalColor.black if level >= _MIDDLE else Qt.GlobalColor.white)
+            painter.setPen(Qt.GlobalColor.black if level >= _MIDDLE_GREY else Qt.GlobalColor.white)
             corner = QPointF(place.left() + column * width, place.top() + line * height)
             box = QRectF(corner.x(), corner.y(), width, height)
             painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(level))

@@ -13,7 +13,7 @@ _TURN_MS = 40
 SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}
 """Seconds from one end to the other."""
 
-_SAME = 1e-9
+_RELATIVE_TOLERANCE = 1e-9
 """Relative difference of a value that the player itself has set."""
 
 
@@ -80,7 +80,7 @@ class Player(QObject):
         if not self.playing or self._set is None:
             return
         value = float(scene.value(self.playing))
-        if abs(value - self._set) > _SAME * abs(self._set):
+        if abs(value - self._set) > _RELATIVE_TOLERANCE * abs(self._set):
             self.stop()
 
     def _advance(self) -> None:

@@ -164,7 +164,7 @@ class SimulationController(QObject):
         """
         self._rows_per_pixel = rows_per_pixel
 
-    def let_first(self, others_first: Callable[[], bool]) -> None:
+    def defer_while(self, others_first: Callable[[], bool]) -> None:
         """Begin exact pictures from now on after short work that the user waits for sooner.
 
         Parameters

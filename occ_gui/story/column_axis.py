@@ -13,7 +13,7 @@ MARGIN = 12
 _LEAST_SPAN = 4.0
 """Fewest columns in view."""
 
-_BESIDE = 0.5
+_MARGIN_FRACTION = 0.5
 """Most empty space beside the picture, as a part of what is in view."""
 
 
@@ -76,7 +76,7 @@ class ColumnAxis(QObject):
 
     def zoom(self, factor: float, at: float) -> None:
         """Show ``factor`` times as many columns; the one at ``at`` stays where it is."""
-        whole = (self._ends[1] - self._ends[0]) * (1.0 + _BESIDE)
+        whole = (self._ends[1] - self._ends[0]) * (1.0 + _MARGIN_FRACTION)
         span = min(max(self.span * factor, _LEAST_SPAN), max(whole, _LEAST_SPAN))
         share = (at - self.first) / self.span
         self._move(at - share * span, at + (1.0 - share) * span)
@@ -98,7 +98,7 @@ class ColumnAxis(QObject):
 
     def _within(self, first: float, last: float) -> tuple[float, float]:
         """Move a range so that the picture stays in view."""
-        beside = _BESIDE * (last - first)
+        beside = _MARGIN_FRACTION * (last - first)
         low, high = self._ends[0] - beside, self._ends[1] + beside
         shift = max(low - first, 0.0) + min(high - last, 0.0)
         return first + shift, last + shift

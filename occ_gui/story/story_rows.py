@@ -29,7 +29,7 @@ from occ_model.results.frame import PICTURES
 RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
 
-_BESIDE = 0.01
+_MARGIN_FRACTION = 0.01
 """Space beside the range, as a part of it."""
 
 
@@ -218,7 +218,7 @@ class StoryRows(QWidget):
             wanted = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
             last = wanted if self._held is None else min(first + self._held, last_column)
         last = max(last, first + 4.0)
-        beside = _BESIDE * (last - first)
+        beside = _MARGIN_FRACTION * (last - first)
         self.axis.set_home(first - beside, last + beside, last_column + 1)
 
     def _on_range(self) -> None:

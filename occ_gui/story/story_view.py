@@ -191,7 +191,7 @@ class StoryView(QWidget):
         self._layout.insertWidget(0, bar)
         self._show_verdicts()
 
-    def be_about_photo(self, about: bool) -> None:
+    def show_photo_verdict(self, about: bool) -> None:
         """Show above the whole picture the verdict on the photo, or that on the simulation."""
         self._is_about_photo = about
         self._show_verdicts()

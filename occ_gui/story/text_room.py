@@ -6,7 +6,7 @@ from PySide6.QtGui import QFont, QFontMetrics
 
 from occ_gui.story.column_axis import GUTTER
 
-_BESIDE = "chips"
+_WIDEST_WORD = "chips"
 """The widest of the words beside a row's name."""
 
 GAPS = 14
@@ -31,5 +31,5 @@ def needed_by(name: str, font: QFont) -> int:
     """Return the width in pixels of a row's name and what stands beside it, without gaps."""
     bold = QFont(font)
     bold.setBold(True)
-    beside = QFontMetrics(font).horizontalAdvance(_BESIDE)
+    beside = QFontMetrics(font).horizontalAdvance(_WIDEST_WORD)
     return QFontMetrics(bold).horizontalAdvance(name) + beside

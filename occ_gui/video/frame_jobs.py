@@ -22,7 +22,7 @@ from occ_model.video.read_frame import read_by_itself
 _SMALLEST = 256
 """Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
 
-_SMALL = 1_000_000
+_MOST_DRAFT_PIXELS = 1_000_000
 """Pixels of a picture up to which it is simulated as soon as a draft."""
 
 
@@ -157,7 +157,7 @@ def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
 def _simulated(request: FrameRequest, start: float | None) -> VideoFrame:
     """Simulate the frame of the film's number, or one that begins at the same phase."""
     camera, scene = request.scene.camera, request.scene
-    step = request.draft_step if camera.rows * camera.columns > _SMALL else 1
+    step = request.draft_step if camera.rows * camera.columns > _MOST_DRAFT_PIXELS else 1
     if start is not None:
         scene = scene.replace(start_time=start)
     video = occ.render_video(

@@ -17,7 +17,7 @@ from occ_gui.video.transport import Transport
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.scroll_pane import ScrollPane
 
-_LARGE = 80
+_LARGE_PICTURE_PERCENT = 80
 """Percent of the height that the pictures take where they are to be seen large."""
 
 _LEAST_FORM = QSize(240, 80)
@@ -74,7 +74,9 @@ class VideoView(QWidget):
     def show_large(self) -> None:
         """Give the pictures most of the pane, and show the whole of them."""
         height = sum(self.split.sizes())
-        self.split.setSizes([_LARGE * height // 100, (100 - _LARGE) * height // 100])
+        self.split.setSizes(
+            [_LARGE_PICTURE_PERCENT * height // 100, (100 - _LARGE_PICTURE_PERCENT) * height // 100]
+        )
         self.pictures.fit()
 
     def show_reading(self, reading: FilmReading, frames: Marks) -> None:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT, WHITE
 
-_SAME = 1e-9
+_LEVEL_TOLERANCE = 1e-9
 """Grey levels within which column values are equal: their own error is no smaller."""
 
 
@@ -56,7 +56,7 @@ class Enhancement:
     def __init__(self, profile: FloatArray, method: str) -> None:
         low, high = float(profile.min()), float(profile.max())
         self._low, self._high = low, high
-        self._is_even = 0.0 < high - low < _SAME
+        self._is_even = 0.0 < high - low < _LEVEL_TOLERANCE
         self.curve: ByteArray = np.arange(256, dtype=np.uint8)
         if method == "none" or high - low < FLAT:
             return
@@ -155,7 +155,7 @@ def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> 
 
 def share_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatArray:
     """Return the share of noisy pixels above a limit, for each mean and standard deviation."""
-    return _tail((limit - levels) / np.maximum(spread, _SAME))
+    return _tail((limit - levels) / np.maximum(spread, _LEVEL_TOLERANCE))
 
 
 def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, FloatArray]:
@@ -171,7 +171,7 @@ def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, F
     reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
     lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
     step = lowest[:, None] + np.arange(2 * reach)
-    scale = (1.0 / np.maximum(spread, _SAME))[:, None]
+    scale = (1.0 / np.maximum(spread, _LEVEL_TOLERANCE))[:, None]
     passed = _tail((step + (0.5 - levels[:, None])) * scale)
     passed[step >= 255] = 0.0
     return step, passed

@@ -65,4 +65,4 @@ class RowMemory:
 
 
 MEMORY = RowMemory(LIMIT)
-"""That of this process."""
+"""Process-wide row cache."""

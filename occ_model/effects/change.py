@@ -10,10 +10,10 @@ from occ_model.effects.observed_signal import observed_signal
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.scene.simulation_settings import Observable
 
-_UNSURE = 0.25
+_UNDITHERED_FRACTION = 0.25
 """Share of a mean square by which a file without noise may change it further."""
 
-_MIDDLE = 0.15
+_READ_FRACTION = 0.15
 """Share of a chip from its middle at which it is read."""
 
 
@@ -24,7 +24,7 @@ def observed(pixels: SampledPixels, observable: Observable) -> Observed:
     else:
         found = observed_profile(pixels) if observable == "profile" else observed_signal(pixels)
     if pixels.file is not None:
-        found.unsure = _UNSURE * pixels.file.undithered_share
+        found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_share
         doubt = pixels.file.undithered()
         rims = pixels.rim_share  # where no noise spreads it, a rim's blocks round otherwise
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
@@ -47,7 +47,7 @@ def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
     camera, frequency = scene.camera, scene.transmitter.switching_frequency
     middle = scene.model.start_time + sample.columns * camera.readout_time
     phase = (middle + camera.exposure_time / 2.0) * frequency % 1.0
-    chips = seen[np.abs(phase - 0.5) < _MIDDLE]
+    chips = seen[np.abs(phase - 0.5) < _READ_FRACTION]
     if high - low < 1.0 or not len(chips):
         return 0.0, 0.0
     scaled = ((seen - low) * (WHITE / (high - low))).astype(np.uint8)

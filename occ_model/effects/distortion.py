@@ -26,7 +26,7 @@ _PARTS = 64
 _MOST_PARTS = 1024
 """Most parts of an edge."""
 
-_NEAR = 0.01
+_CURVE_TOLERANCE = 0.01
 """Largest distance of the straight parts from the curve, in pixels."""
 
 _DIRECTIONS = 64
@@ -121,7 +121,7 @@ def _parts(rays: FloatArray, scene: Scene) -> IndexArray:
     starts, middles = halves[::2], halves[1::2]
     off = np.hypot(*(middles - (starts + np.roll(starts, -1, axis=0)) / 2.0).T)
     # The distance from the curve falls with the square of the number of parts.
-    wanted = _PARTS * np.sqrt(off.reshape(len(rays), _PARTS).max(axis=1) / _NEAR)
+    wanted = _PARTS * np.sqrt(off.reshape(len(rays), _PARTS).max(axis=1) / _CURVE_TOLERANCE)
     parts: IndexArray = np.ceil(np.clip(wanted, _PARTS, _MOST_PARTS)).astype(np.int64)
     return parts
 

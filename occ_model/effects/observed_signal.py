@@ -18,19 +18,19 @@ many columns, and in few."""
 _FLUCTUATION = 4.0
 """Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
 
-_BETWEEN = 0.02
+_ROUNDING_MARGIN = 0.02
 """Grey levels from the middle between two levels within which rounding cannot be foretold."""
 
 _LARGE_STEP = 32.0
 """Levels by which an enhancement can part neighbouring levels, so that one column matters."""
 
-_FEW = 3
+_LEAST_SAMPLED_COLUMNS = 3
 """Sampled columns near a large step from which the sample shows what happens there."""
 
-_WIDE = 8.0
+_CLIPPED_NOISE = 8.0
 """Noise in grey levels that black and white cut off noticeably."""
 
-_SHARP = 0.5
+_LEAST_SMOOTHING_NOISE = 0.5
 """Noise in grey levels below which the enhancement's steps show between the levels."""
 
 
@@ -61,7 +61,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
         if key not in smooth:
             smooth[key] = curve(included)
         mean, spread = smooth[key]
-        if float(spread.max()) < _SHARP:
+        if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
             flat = np.clip(values.ravel(), 0.0, WHITE)
             sharp = pixels.enhancement(included).mean(flat, pixels.look(spread, flat))
             smoothed = sharp.reshape(values.shape)
@@ -93,7 +93,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
 def _beside(pixels: SampledPixels, included: frozenset[str], values: FloatArray) -> FloatArray:
     """Return the mean of pixels of some mean values that are rounded and not enhanced."""
     spread = pixels.spread(included)
-    if float(spread.max()) < _SHARP:
+    if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
         return np.rint(np.clip(values, 0.0, WHITE))
     return pixels.look(clipped_mean(pixels.levels, spread, WHITE), values)
 
@@ -105,14 +105,14 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
     whatever its own error reaches, since that is alike in blocks of equal rows.
     """
     whole = np.clip(pixels.values(pixels.names), 0.0, WHITE)
-    sharp = pixels.look(pixels.spread(pixels.names), whole) < _SHARP
+    sharp = pixels.look(pixels.spread(pixels.names), whole) < _LEAST_SMOOTHING_NOISE
     if not sharp.any():
         return
     enhancement = pixels.enhancement(pixels.names)
     if pixels.file is None:
         curve = enhancement.curve.astype(np.float64)
         below = np.minimum(whole, WHITE - 1.0).astype(np.int64)
-        near = np.abs(whole - below - 0.5) < _BETWEEN
+        near = np.abs(whole - below - 0.5) < _ROUNDING_MARGIN
         reached = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
     else:
         error = np.full(whole.size, math.sqrt(pixels.file.own_change()))
@@ -145,13 +145,13 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     for name in pixels.names:
         if name in pixels.variances:
             own, rest = pixels.noise_without(name)
-            moved, share = own, min(0.5, (own / max(rest, _BETWEEN)) ** 2 / 8.0)
+            moved, share = own, min(0.5, (own / max(rest, _ROUNDING_MARGIN)) ** 2 / 8.0)
         else:
             without = pixels.values(pixels.names - {name})
             moved = math.sqrt(pixels.mean_of((pixels.values(pixels.names) - without) ** 2))
-            share = min(0.5, 0.4 * moved / max(pixels.noise_with(pixels.names), _BETWEEN))
-        near = max(moved, _BETWEEN)
-        unseen = np.count_nonzero(sampled < near, axis=1) < _FEW
+            share = min(0.5, 0.4 * moved / max(pixels.noise_with(pixels.names), _ROUNDING_MARGIN))
+        near = max(moved, _ROUNDING_MARGIN)
+        unseen = np.count_nonzero(sampled < near, axis=1) < _LEAST_SAMPLED_COLUMNS
         doubt = (away < near).mean(axis=1)[unseen] @ (steps[large][unseen] * share) ** 2
         found.doubt[name] = found.doubt.get(name, 0.0) + float(doubt)
 
@@ -161,7 +161,9 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     if pixels.file is None:
         return
     spread, name = pixels.spread(pixels.names), pixels.files[0].name
-    lost = np.where(spread > _WIDE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0)
+    lost = np.where(
+        spread > _CLIPPED_NOISE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0
+    )
     cut = pixels.mean_of(pixels.look(lost, pixels.values(pixels.names)))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change() * min(gain, 8.0) ** 2 / 4.0

@@ -31,7 +31,7 @@ _PEAK, _NOISE_PEAK = 2.0, 3.0
 _FARTHEST = 1.5
 """Times that changes that are added may exceed the tolerance where together they are within it."""
 
-_LEAST = 1e-9
+_LEAST_ESTIMATE = 1e-9
 """Estimate in grey levels of an effect that a scene has and a sample does not show."""
 
 
@@ -222,7 +222,7 @@ class _Estimates:
                 if pixels.is_like_noise(name):
                     factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
         sizes = {
-            effect.name: max(math.sqrt(seen.together(frozenset({effect.name}))), _LEAST)
+            effect.name: max(math.sqrt(seen.together(frozenset({effect.name}))), _LEAST_ESTIMATE)
             * (ALLOWANCE * stretch * factors[effect.name])
             for effect in pixels.effects
         }

@@ -38,7 +38,7 @@ _MOVED_NODES, _BLURRED_NODES = 2, 3
 _SIDE_NODES = 10
 """Columns across an upright rim."""
 
-_BESIDE = 33
+_RIM_COLUMNS = 33
 """Columns in which a panel is to reach beyond the picture for no rim to be seen."""
 
 _UNSEEN = 0.1
@@ -47,7 +47,7 @@ _UNSEEN = 0.1
 _STEEP = 1.5
 """Slope from which a rim is steep."""
 
-_FAR = 1e6
+_FAR_RIM = 1e6
 """Pixels from a rim, where it does not matter."""
 
 _GAIN_ROWS = 9
@@ -214,7 +214,7 @@ def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool
     """Return whether each outline encloses a rectangle with all that a blur carries into it."""
     reach = _REACH * blur + 1.0
     low, high = region.first_row - reach, region.last_row + reach
-    lines = np.linspace(region.first_column - reach, region.last_column + reach, _BESIDE)
+    lines = np.linspace(region.first_column - reach, region.last_column + reach, _RIM_COLUMNS)
     for outline in outlines:
         found = _spans(outline, lines, 0)
         if found.missed.any() or (found.first > low).any() or (found.last < high).any():
@@ -340,7 +340,7 @@ def _distances(
     top, bottom = _within(down, rows.T, blur)
     left, right = (distance.reshape(rows.shape) for distance in _within(along, lines.ravel(), blur))
     lost = down.missed[:, None] & along.missed.reshape(rows.shape)
-    return np.where(lost, -_FAR, top.T), bottom.T, left, right
+    return np.where(lost, -_FAR_RIM, top.T), bottom.T, left, right
 
 
 def _within(spans: _Spans, places: FloatArray, blur: float) -> tuple[FloatArray, FloatArray]:
@@ -359,7 +359,7 @@ def _within(spans: _Spans, places: FloatArray, blur: float) -> tuple[FloatArray,
             slant = np.where(slope < _STEEP, 1.0, slant)
         distance = sign * (places - _between(rim)) * slant
         beside = spans.missed | ((slope > _STEEP) & (distance > 0.0))
-        found.append(np.where(beside, _FAR, distance))
+        found.append(np.where(beside, _FAR_RIM, distance))
     return found[0], found[1]
 
 

@@ -37,7 +37,7 @@ from occ_model.effects.sample import Sample, sample_of
 
 _LEVELS = 129
 
-_DOUBTED = 1.0
+_UNSAMPLED_RIM_PIXELS = 1.0
 """Pixels of a rim that may change and that no sample shows."""
 
 _SEEN_SHARE = 0.003
@@ -248,7 +248,7 @@ class SampledPixels:
         """
         if self.sample.is_covered:
             return 0.0
-        doubt = _DOUBTED * square
+        doubt = _UNSAMPLED_RIM_PIXELS * square
         if self.file is not None:
             pixels = self.view.region.rows * self.view.region.columns
             doubt += self.file.added_at_rims(min(64.0 / pixels, self.rim_share), doubt)

@@ -7,7 +7,7 @@ from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError, ParameterError
 from occ_model.results.match import Comparison
 
-_FLAT = 1e-9
+_LEAST_DEVIATION = 1e-9
 """Standard deviation below which a profile differs by rounding only."""
 
 
@@ -58,7 +58,7 @@ def compare(
     seen = np.interp(place, np.arange(len(flattened)), flattened)
     under = simulated[first : last + 1]
     about_mean, swing = seen - seen.mean(), under - under.mean()
-    if about_mean.std() < _FLAT or swing.std() < _FLAT:
+    if about_mean.std() < _LEAST_DEVIATION or swing.std() < _LEAST_DEVIATION:
         return Comparison(first, np.full(len(under), under.mean()), under, 0.0)
     photo = under.mean() + about_mean * (swing.std() / about_mean.std())
     return Comparison(first, photo, under, _correlation(seen, under))
@@ -86,6 +86,6 @@ def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str
 def _correlation(seen: FloatArray, under: FloatArray) -> float:
     """Return the correlation of two profiles, 0 where one has no stripes."""
     about_mean, swing = seen - seen.mean(), under - under.mean()
-    if about_mean.std() < _FLAT or swing.std() < _FLAT:
+    if about_mean.std() < _LEAST_DEVIATION or swing.std() < _LEAST_DEVIATION:
         return 0.0
     return float(np.mean(about_mean * swing) / (about_mean.std() * swing.std()))

@@ -106,10 +106,10 @@ class ChipReading:
 _BY_EXPOSURE = ("exposure_time", "start_time", "gamma")
 """Estimates that another exposure changes: a column's start is half of it before its middle."""
 
-_SAME = 5e-7
+_SHOWN_TOLERANCE = 5e-7
 """Relative difference of two values that are the same in the six digits that are shown."""
 
-_SAME_OF_ERROR = 1e-3
+_ERROR_TOLERANCE = 1e-3
 """Share of an estimate's deviation by which two values may differ and yet be the same."""
 
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
@@ -209,8 +209,8 @@ class Match:
     def _is_same(self, name: str, there: object, here: object) -> bool:
         if not isinstance(there, float) or not isinstance(here, float):
             return there == here
-        step = _SAME_OF_ERROR * self.uncertainties.get(name, 0.0)
-        return math.isclose(there, here, rel_tol=_SAME, abs_tol=step)
+        step = _ERROR_TOLERANCE * self.uncertainties.get(name, 0.0)
+        return math.isclose(there, here, rel_tol=_SHOWN_TOLERANCE, abs_tol=step)
 
     @property
     def columns_per_chip(self) -> float:

@@ -32,7 +32,7 @@ _ENDS = 0.06
 _LEAST_POINTS = 16
 """Points from which a line is fitted."""
 
-_STRAY = 3.5
+_MOST_DEVIATIONS = 3.5
 """Deviations beyond which a point is left out of a line."""
 
 
@@ -186,7 +186,7 @@ def _fitted(side: int, points: FloatArray, scene: Scene) -> Edge | None:
         slope, offset = np.polyfit(x - x.mean(), y, 1)
         off = y - offset - slope * (x - x.mean())
         spread = 1.48 * float(np.median(np.abs(off))) + 1e-6
-        kept = np.abs(off) < _STRAY * spread + 0.5
+        kept = np.abs(off) < _MOST_DEVIATIONS * spread + 0.5
         if kept.sum() < _LEAST_POINTS:
             return None
         x, y = x[kept], y[kept]

@@ -27,7 +27,7 @@ _LEAST_EDGES = 4
 
 Each gives two numbers; what three give, many places explain exactly."""
 
-_MOST = 4.0
+_MOST_MEAN_SQUARE = 4.0
 """Mean squared deviation, in standard errors, above which a place does not explain the edges."""
 
 _LEFT_OUT = 3
@@ -35,7 +35,7 @@ _LEFT_OUT = 3
 
 _ONE_LAMP = "Only one lamp tells the place: it can be farther off than the stated errors."
 
-_SAME = 1e-3
+_PLACE_TOLERANCE = 1e-3
 """Metres and radians within which two places are the same."""
 
 
@@ -186,7 +186,7 @@ def _explanations(
         tried = [
             fitted for start in starts if (fitted := _refined(start, measured, room)) is not None
         ]
-        fits = [one for one in tried if one.deviations <= _MOST * (one.freedom + 4)]
+        fits = [one for one in tried if one.deviations <= _MOST_MEAN_SQUARE * (one.freedom + 4)]
         if fits or not tried:
             return fits
         best = min(tried, key=lambda one: one.deviations)
@@ -212,7 +212,7 @@ def _without_worst(
 
 
 def _is_same(one: Located, other: Located) -> bool:
-    return bool(np.abs(_numbers(one.place) - _numbers(other.place)).max() < _SAME)
+    return bool(np.abs(_numbers(one.place) - _numbers(other.place)).max() < _PLACE_TOLERANCE)
 
 
 def _numbers(place: Place) -> FloatArray:

@@ -17,7 +17,7 @@ from occ_model.scene.scene import Pose, Scene
 _DISC_CORNERS = 96
 """Corners of the polygon of a disc: it lies within 0.06 % of the radius of the circle."""
 
-_NEAR = 1e-3
+_LEAST_DEPTH = 1e-3
 """Depth in metres before which nothing is seen."""
 
 _DISTORTED = 0.15
@@ -146,9 +146,9 @@ def _clipped(points: FloatArray) -> FloatArray:
     """Return the part of a polygon in space that is before the camera."""
     kept: list[FloatArray] = []
     for start, end in zip(points, np.roll(points, -1, axis=0), strict=True):
-        if start[2] >= _NEAR:
+        if start[2] >= _LEAST_DEPTH:
             kept.append(start)
-        if (start[2] >= _NEAR) != (end[2] >= _NEAR):
-            along = (_NEAR - start[2]) / (end[2] - start[2])
+        if (start[2] >= _LEAST_DEPTH) != (end[2] >= _LEAST_DEPTH):
+            along = (_LEAST_DEPTH - start[2]) / (end[2] - start[2])
             kept.append(start + along * (end - start))
     return np.array(kept).reshape(-1, 3)

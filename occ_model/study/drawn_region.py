@@ -16,7 +16,7 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.receiver.locate import grid_of, least_bright_share
 from occ_model.results.decoding import Region
 
-_SURE = 1.0 - 1e-12
+_MOST_PROBABILITY = 1.0 - 1e-12
 """Largest probability of a bright pixel of which a logarithm is taken."""
 
 
@@ -94,8 +94,8 @@ class BrightShares:
         top, bottom = _marked_ends(np.any(marked, axis=1), self.rows)
         left, right = _marked_ends(np.any(marked, axis=0), len(self.around))
         rows, seen = bottom.beyond - top.beyond, slice(left.beyond, right.beyond)
-        dark_crossed = np.log1p(-np.minimum(self._crossed()[seen], _SURE))
-        dark_around = np.log1p(-np.minimum(self.around[seen], _SURE))
+        dark_crossed = np.log1p(-np.minimum(self._crossed()[seen], _MOST_PROBABILITY))
+        dark_around = np.log1p(-np.minimum(self.around[seen], _MOST_PROBABILITY))
         first, last = np.clip((span.first_row, span.last_row), top.beyond, bottom.beyond).tolist()
         dark_column = (last - first) * dark_crossed + (rows - last + first) * dark_around
         dark_row = np.full(rows, dark_around.sum())

@@ -46,7 +46,7 @@ def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
     return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
 
 
-_BESIDE = 50
+_LENS_SHIFT_PART = 50
 """The share of a picture's larger side by which a lens may move the panel: one in so many."""
 
 
@@ -182,7 +182,7 @@ def shows_region(sample: SampledPicture, view: PaperView) -> bool:
     found = locate(image, scene.receiver.bright_fraction)
     if found is None:
         return True
-    margin = max(scene.camera.rows, scene.camera.columns) // _BESIDE
+    margin = max(scene.camera.rows, scene.camera.columns) // _LENS_SHIFT_PART
     left = max(0, view.region.first_column - margin)
     for part in (image[:, :left], image[:, view.region.last_column + margin :]):
         if not part.size:

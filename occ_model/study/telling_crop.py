@@ -20,7 +20,7 @@ _OUTLIERS = 1.0
 """Percent of the pixels at either end that the stretching to the full range may clip."""
 
 _MOST_AMPLIFIED = 256
-_MIDDLE = 128.0
+_MIDDLE_GREY = 128.0
 
 
 def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
@@ -47,7 +47,7 @@ def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = C
         shown = [values[place] for values in (with_effect, without, difference)]
     one, other = _stretched(shown[0], shown[1])
     factor = _amplification(shown[2])
-    amplified = np.clip(_MIDDLE + factor * shown[2], 0.0, WHITE)
+    amplified = np.clip(_MIDDLE_GREY + factor * shown[2], 0.0, WHITE)
     return EffectCrop(one, other, amplified.astype(np.uint8), factor, is_averaged)
 
 
@@ -82,6 +82,6 @@ def _amplification(difference: Pixels) -> int:
     """Return the largest power of two that leaves the difference within the range of grey."""
     largest = float(np.percentile(np.abs(difference), 100.0 - _OUTLIERS))
     factor = 1
-    while factor < _MOST_AMPLIFIED and 2 * factor * largest < _MIDDLE:
+    while factor < _MOST_AMPLIFIED and 2 * factor * largest < _MIDDLE_GREY:
         factor *= 2
     return factor

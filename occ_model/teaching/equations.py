@@ -14,7 +14,7 @@ from occ_model.teaching.result_text import result_text
 
 _LIGHT = ("luminance", "illuminance", "reflectance")
 
-_ON = (
+_ON_TIME_PARAMETERS = (
     "code", "bits", "pattern", "switching_frequency", "readout_time", "exposure_time", "start_time",
 )  # fmt: skip
 """Parameters that determine how long the LED is on while a column is exposed."""
@@ -98,20 +98,20 @@ def _column_value(scene: Scene) -> Equation:
     symbols = (
         Term("("),
         Term("PV<sub>max</sub>", light),
-        Term("t<sub>on</sub>", _ON),
+        Term("t<sub>on</sub>", _ON_TIME_PARAMETERS),
         Term("+"),
         Term("PV<sub>min</sub>", light),
-        Term("t<sub>off</sub>", _ON),
+        Term("t<sub>off</sub>", _ON_TIME_PARAMETERS),
         Term(") /"),
         Term("t", exposure),
     )
     numbers = (
         Term("("),
         Term(f"{high:.1f}", light),
-        Term("t<sub>on</sub>", _ON),
+        Term("t<sub>on</sub>", _ON_TIME_PARAMETERS),
         Term("+"),
         Term(f"{low:.1f}", light),
-        Term("t<sub>off</sub>", _ON),
+        Term("t<sub>off</sub>", _ON_TIME_PARAMETERS),
         Term(") /"),
         _shown(scene, "exposure_time"),
     )

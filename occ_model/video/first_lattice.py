@@ -12,7 +12,7 @@ from occ_model.video.chip_timing import ChipLattice
 _FEWEST_EDGES = 4
 """Fewest edges between chips that show a lattice."""
 
-_OFF = 0.3
+_MOST_EDGE_ERROR = 0.3
 """Chips off the lattice from which an edge shows that chips were miscounted."""
 
 _SEARCHED_FRACTION = 0.05
@@ -54,7 +54,7 @@ def first_lattice(
     places, numbers = starts[edges], edges.astype(np.float64)
     rising = result.chips[edges] == 1
     step, offsets = _regular(places, numbers, rising)
-    if step <= 0.0 or np.abs(offsets).max() > _OFF:
+    if step <= 0.0 or np.abs(offsets).max() > _MOST_EDGE_ERROR:
         expected = scene.camera.readout_time * scene.transmitter.switching_frequency
         step = _most_coherent(places, rising, expected)
         numbers = _numbered(places, rising, step)

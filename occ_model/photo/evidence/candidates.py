@@ -18,7 +18,7 @@ from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-_NEAR = np.arange(-4, 5) / 8.0
+_SHIFTS = np.arange(-4, 5) / 8.0
 """Shifts of the last chip, in chips, of the steps that are tried near a known step."""
 
 _EXPLAINED = 0.98
@@ -209,7 +209,7 @@ class Candidates:
         return checked
 
     def _near(self, step: float) -> FloatArray:
-        return step + _NEAR / len(self.stripes.profile)
+        return step + _SHIFTS / len(self.stripes.profile)
 
     def _named(self, chips: ByteArray) -> str:
         """Name chips by their code where they are a packet, else by their number."""

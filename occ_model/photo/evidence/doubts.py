@@ -35,7 +35,7 @@ _MORE_THAN_REPEATED = 2.0
 _WELL_EXPLAINED = 0.02
 """Share of the variance below which that ratio says nothing: cameras differ from the model."""
 
-_LEAST_ALIKE = 0.85
+_LEAST_ROW_CORRELATION = 0.85
 """Correlation of the rows' stripes with each other below which they may be a picture's objects."""
 
 _MOST_FOR_DUTY = 0.02
@@ -137,10 +137,10 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"The fit is better than one by chance by {found.information:.0f} bits only; at least "
             f"{least:.0f} are needed."
         )
-    if rows_alike < _LEAST_ALIKE:
+    if rows_alike < _LEAST_ROW_CORRELATION:
         reasons.append(
             f"The rows show the same stripes only with a correlation of {rows_alike:.2f}; at least "
-            f"{_LEAST_ALIKE} is needed."
+            f"{_LEAST_ROW_CORRELATION} is needed."
         )
     if found.rate != 1.0 and saturated > _MOST_FOR_DUTY:
         reasons.append(

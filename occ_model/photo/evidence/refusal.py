@@ -17,7 +17,7 @@ _LEAST_INFORMATION = 30.0
 """Bits by which a fit must be better than chance: so many timings are tried that the best of them
 is better by about 15 to 20 bits in any picture."""
 
-_LEAST_ALIKE = 0.7
+_LEAST_ROW_CORRELATION = 0.7
 """Correlation of the rows' stripes with each other from which they can be those of the time."""
 
 
@@ -98,9 +98,9 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
             "Light that varies slowly, without any code, explains the stripes better than "
             f"{found.sent}."
         )
-    if beside.rows_alike < _LEAST_ALIKE:
+    if beside.rows_alike < _LEAST_ROW_CORRELATION:
         reasons.append(
             "The rows do not show the same stripes: their correlation is "
-            f"{beside.rows_alike:.2f}; at least {_LEAST_ALIKE} is needed."
+            f"{beside.rows_alike:.2f}; at least {_LEAST_ROW_CORRELATION} is needed."
         )
     return reasons

@@ -11,14 +11,14 @@ _HARMONICS = 2
 """Multiples of the number of chips up to which a harmonic is the explained pattern's own: the
 model's error of a pattern repeats with it, too."""
 
-_NEAR = 2
+_LINE_BINS = 2
 """Bins of the spectrum on either side that belong to a line: a Hann window spreads it so."""
 
-_BESIDE = (-4, -3, 3, 4)
+_NEIGHBOUR_HARMONICS = (-4, -3, 3, 4)
 """Harmonics of the pattern near one of them: an error at its edges is in all of them alike. The
 nearest ones may be sidebands of a light that the pattern modulates."""
 
-_ALIKE = 4.0
+_MOST_POWER_RATIO = 4.0
 """Ratio of powers up to which harmonics count as alike."""
 
 _LEAST_COLUMNS = 64
@@ -85,7 +85,7 @@ def strongest_line(
     power = np.abs(np.fft.rfft(window * (relative - relative.mean()))) ** 2
     possible = np.arange(len(power)) >= _LEAST_CYCLES
     for place, beside in _harmonics(power, columns / pattern_period, _HARMONICS * chips):
-        around = slice(max(0, place - _NEAR), place + _NEAR + 1)
+        around = slice(max(0, place - _LINE_BINS), place + _LINE_BINS + 1)
         possible[around] &= power[around] > beside
     if not possible.any():
         return None
@@ -93,7 +93,7 @@ def strongest_line(
     around = slice(max(1, line // 2), 2 * line + 2 * _LEAST_CYCLES)
     noise = max(float(np.median(power[around])) / math.log(2.0), 1e-12)
     amplitude = 2.0 * float(np.sqrt(power[line])) / float(window.sum())
-    own = float(power[max(0, line - _NEAR) : line + _NEAR + 1].sum())
+    own = float(power[max(0, line - _LINE_BINS) : line + _LINE_BINS + 1].sum())
     share = own / max(float(power.sum()), 1e-300)
     return Repetition(columns / line, amplitude, float(power[line] / noise), share)
 
@@ -101,15 +101,21 @@ def strongest_line(
 def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, float]]:
     """Give the bin of each harmonic of the pattern, and the power that it may have by itself."""
     places = [round(number * first) for number in range(1, int((len(power) - 1) / first) + 1)]
-    strongest = [float(power[max(0, place - _NEAR) : place + _NEAR + 1].max()) for place in places]
+    strongest = [
+        float(power[max(0, place - _LINE_BINS) : place + _LINE_BINS + 1].max()) for place in places
+    ]
     return [
         (
             place,
             np.inf
             if index < own
-            else _ALIKE
+            else _MOST_POWER_RATIO
             * max(
-                (strongest[index + step] for step in _BESIDE if index + step < len(places)),
+                (
+                    strongest[index + step]
+                    for step in _NEIGHBOUR_HARMONICS
+                    if index + step < len(places)
+                ),
                 default=0.0,
             ),
         )

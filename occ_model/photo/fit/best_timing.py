@@ -26,7 +26,7 @@ _BEST, _SHORTEST = 4, 4
 _ROUGH_ROUNDS = 4
 """Steps after which fits are compared, to finish the promising ones."""
 
-_HOPELESS = 4.0
+_MOST_RESIDUAL_RATIO = 4.0
 """Ratio to the least residual from which a rough fit is not finished."""
 
 _MOST_FINISHED = 6
@@ -34,7 +34,7 @@ _MOST_FINISHED = 6
 _AROUND = (0.85, 0.93, 1.07, 1.15)
 """Factors by which an exposure is changed to fit it again."""
 
-_BESIDE = (0.8, 1.25)
+_EXPOSURE_FACTORS = (0.8, 1.25)
 """Factors by which an exposure is changed to explain other chips."""
 
 _VALLEY = 1e-3
@@ -164,7 +164,9 @@ def explain_near(
     Explanation or None
         None where no fit has the levels of a picture.
     """
-    starts = [replace(timing, exposure=share * timing.exposure) for share in (1.0, *_BESIDE)]
+    starts = [
+        replace(timing, exposure=share * timing.exposure) for share in (1.0, *_EXPOSURE_FACTORS)
+    ]
     best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
     if best is None:
         return None
@@ -217,7 +219,7 @@ def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> lis
     rough = [model.fit(start, with_gamma, rounds=_ROUGH_ROUNDS) for start in starts]
     # What needs darker than black so far may come to need none.
     rough.sort(key=lambda fit: (not fit.is_possible, fit.residual))
-    good = [fit for fit in rough if fit.residual <= _HOPELESS * rough[0].residual]
+    good = [fit for fit in rough if fit.residual <= _MOST_RESIDUAL_RATIO * rough[0].residual]
     apart = _apart(good)[:_MOST_FINISHED]
     return _distinct([model.fit(fit.timing, with_gamma) for fit in apart])
 

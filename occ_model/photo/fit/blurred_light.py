@@ -17,7 +17,7 @@ from occ_model.photo.fit.timing import Timing
 _REACH = 8
 """Columns to which blur spreads a column."""
 
-_SHARP = 0.05
+_LEAST_BLUR = 0.05
 """Columns of blur below which a picture is sharp."""
 
 _CHANGE = 1e-5
@@ -156,7 +156,7 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
     from column to column.
     """
     off = np.abs(np.arange(-_REACH, _REACH + 1)).astype(np.float64)
-    blur = max(blur, _SHARP)
+    blur = max(blur, _LEAST_BLUR)
     if shape == "box":
         half = math.sqrt(3.0) * blur
         kernel = np.clip(np.minimum(off + 0.5, half) - np.maximum(off - 0.5, -half), 0.0, None)

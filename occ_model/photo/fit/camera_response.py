@@ -18,7 +18,7 @@ _BRIGHT = 1000.0
 _DARKEST = 0.5
 """Grey levels below which dark columns are black."""
 
-_STEADY = np.ones(1)
+_STEADY_LIGHT = np.ones(1)
 
 _RANK_RESOLUTION = 0.5
 """Columns: a smaller change of the timing changes hardly any column's rank."""
@@ -86,7 +86,7 @@ def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
 
     def tone(lit: FloatArray, gamma: float) -> FloatArray:
         camera, black, white = levels(gamma)
-        values = panel_values(camera, ColumnLight(lit, _STEADY))
+        values = panel_values(camera, ColumnLight(lit, _STEADY_LIGHT))
         return np.asarray((values - black) / (white - black))
 
     return tone

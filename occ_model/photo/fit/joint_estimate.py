@@ -30,13 +30,13 @@ from occ_model.transmitter.waveform import Waveform
 _CHIPS_LIT = 8
 """Chips within which an LED is surely on for once; a whole period where that is shorter."""
 
-_HOPELESS = 60.0
+_MOST_EXCESS_MISFIT = 60.0
 """Excess of the misfit from which an exposure is not refined."""
 
 _AS_LIKELY, _RATIO = 9.0, 1.3
 """Excess of the misfit, three deviations, and its ratio, to which another exposure is as likely."""
 
-_ALIKE = 3.0
+_MOST_SQUARE_WAVE_RATIO = 3.0
 """The same ratio from which another exposure of a square wave is surely worse: their stripes differ
 by blur and white only. An exposure of 2.2 chips had 1.5 to 2.4 times the misfit of one of 0.23,
 where 2.15 was right (seed 730036)."""
@@ -171,9 +171,9 @@ def _modes(
         exposures += [fit.exposure for fit in alike]
         if any(abs(other.exposure - exposure) <= APART_CHIPS for exposure in exposures):
             continue
-        if other.misfit < least + _HOPELESS:
+        if other.misfit < least + _MOST_EXCESS_MISFIT:
             groups.append([Possible(first, other)])
-        elif is_square and other.misfit < _ALIKE * least:
+        elif is_square and other.misfit < _MOST_SQUARE_WAVE_RATIO * least:
             alike.append(other)
     likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
     likely.model.estimate_noise(likely.fit.values)
@@ -181,7 +181,7 @@ def _modes(
         model.take_noise(likely.model)
     means, tried = [], list[JointFit]()
     for group in groups:
-        most = min(one.fit.misfit for one in group) + _HOPELESS
+        most = min(one.fit.misfit for one in group) + _MOST_EXCESS_MISFIT
         fits = [fit for one in group if one.fit.misfit <= most for fit in one.again()]
         means.append(averaged(fits))
         tried += fits
@@ -194,7 +194,7 @@ def _modes(
         alike += alike_among(
             tried,
             [*kept, *alike],
-            _ALIKE * least,
+            _MOST_SQUARE_WAVE_RATIO * least,
             lambda fit: is_possible(first.timing(fit.values)),
         )
     return sorted(kept, key=lambda fit: fit.misfit), alike

@@ -23,7 +23,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.transmitter.waveform import Waveform
 
-_SMALL = 0.02
+_TIMING_STEP = 0.02
 """Columns by which the timing is changed for finite differences."""
 
 Tone = Callable[[FloatArray, float], FloatArray]
@@ -120,7 +120,7 @@ class StripeModel:
         self._profile = profile
         self._waveform = waveform
         self._tone = tone
-        self._change = max(_SMALL, rank_resolution) * step
+        self._change = max(_TIMING_STEP, rank_resolution) * step
         # The same number for both levels, or else the mean would fit better than the swing.
         self._shapes = smooth_shapes(len(profile), level_freedom(step * len(profile)))
         kept: NDArray[np.bool_] = profile < _FULL

@@ -18,7 +18,7 @@ _LONGEST = 4.2
 """Longest exposure in chips to start from."""
 
 _MOST_SCANNED = 2
-_HOPELESS = 4.0
+_MOST_MISFIT_RATIO = 4.0
 """Ratio to the misfit of the exposure found from which another one is no start."""
 
 _BUT_EXPOSURE = (0, 3, 4, 5, 6, 7, 8)
@@ -65,7 +65,7 @@ def scanned_starts(
         fit = model.fit(values, _BUT_EXPOSURE, _ROUGH_ROUNDS)
         return fit.misfit, fit.values
 
-    most = _HOPELESS * rough(float(found[1]))[0]
+    most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]
     fits = sorted((rough(one) for one in EXPOSURES if one < _LONGEST), key=lambda fit: fit[0])
     kept: list[FloatArray] = []
     for misfit, values in fits:

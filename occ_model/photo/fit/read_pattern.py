@@ -59,11 +59,11 @@ _DIP = 0.5
 _PARTS = (1, 2, 3, 4)
 _LEAST_OTHERWISE = 5
 _OTHERS_A_COUNT = 2
-_ALIKE = 0.85
+_LEAST_HARMONIC_CORRELATION = 0.85
 """Parts of the numbers of chips read, the least number, how many sequences of each are tried where
 what was read explains the stripes badly, and the correlation of their harmonics from which."""
 
-_BESIDE = (-3, -2, -1, 1, 2, 3)
+_NEIGHBOUR_COUNTS = (-3, -2, -1, 1, 2, 3)
 
 
 def read_patterns(
@@ -146,7 +146,7 @@ def read_otherwise(
             continue
         for one in chips_by_descent(lines, count, check)[:_OTHERS_A_COUNT]:
             short = _shortened(one)
-            if one.explained > _ALIKE and short.chips.tobytes() not in known:
+            if one.explained > _LEAST_HARMONIC_CORRELATION and short.chips.tobytes() not in known:
                 found[short.chips.tobytes()] = short
     return list(found.values())
 
@@ -204,7 +204,7 @@ def _chips_by_lines(
     left = {count: 1.0 if one is None else _unexplained(one) for count, one in read.items()}
     enough = _enough(list(left.values()))
     for count, one in read.items():
-        beside = [left[count + step] for step in _BESIDE if count + step in left]
+        beside = [left[count + step] for step in _NEIGHBOUR_COUNTS if count + step in left]
         stands_out = bool(beside) and left[count] <= _DIP * float(np.median(beside))
         if one is not None and left[count] <= enough and stands_out:
             return refined(lines, one, column and count * column)

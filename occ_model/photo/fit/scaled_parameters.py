@@ -15,7 +15,7 @@ _HIGH = np.array([2.0, np.inf, np.inf, np.inf, 0.3, 0.9, 1.5, 3.0, 0.3])
 _EXPOSURE = 0.05
 """Scale of the exposure's logarithm: it is positive, and known by ratio."""
 
-_MOST = 5.0
+_MOST_LOG_CHANGE = 5.0
 """Largest change of that logarithm."""
 
 
@@ -67,7 +67,7 @@ class ScaledParameters:
         """
         unbounded = self._unbounded(scaled)
         inside = (unbounded >= self._low) & (unbounded < self._high)
-        inside[1] &= unbounded[1] < self._first[1] * math.exp(_MOST)
+        inside[1] &= unbounded[1] < self._first[1] * math.exp(_MOST_LOG_CHANGE)
         signs = np.ones(9)
         signs[7] = -1.0 if self._changed(scaled)[7] < 0.0 else 1.0
         return np.asarray((inside * signs)[self._index] * self.rates(unbounded))
@@ -79,6 +79,6 @@ class ScaledParameters:
 
     def _unbounded(self, scaled: FloatArray) -> FloatArray:
         values = self._changed(scaled)
-        values[1] = self._first[1] * math.exp(min(values[1] - self._first[1], _MOST))
+        values[1] = self._first[1] * math.exp(min(values[1] - self._first[1], _MOST_LOG_CHANGE))
         values[7] = abs(values[7])
         return values

@@ -12,11 +12,11 @@ _ABOVE_NOISE = 6.0
 LEAST_SWING = 6.0
 """Grey levels that a step must have."""
 
-_BESIDE = 0.15
+_LEAST_STEP_FRACTION = 0.15
 """Share of a neighbouring step below which a step is ringing, scatter or texture beside it."""
 
 
-_ALIKE = 0.5
+_LEAST_SWING_RATIO = 0.5
 """Ratio to the swing around it from which an edge is one of the same lamp."""
 
 
@@ -102,7 +102,7 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
         left, right = np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0)
-        small = steps < _BESIDE * np.maximum(left, right)
+        small = steps < _LEAST_STEP_FRACTION * np.maximum(left, right)
         outer = np.zeros(len(kept), dtype=bool)
         outer[[0, -1]] = small[[0, -1]]
         # Both ends of a small step go; of small steps side by side the smallest goes first.
@@ -128,7 +128,7 @@ def _middle(low: FloatArray, high: FloatArray) -> FloatArray:
     lowest = np.minimum(np.minimum(lows[:-2], lows[2:]), low)
     highest = np.maximum(np.maximum(highs[:-2], highs[2:]), high)
     middle = 0.5 * (lowest + highest)
-    alike = high - low > _ALIKE * (highest - lowest)
+    alike = high - low > _LEAST_SWING_RATIO * (highest - lowest)
     inside = (middle > low) & (middle < high)
     return np.where(alike & inside, middle, 0.5 * (low + high))
 

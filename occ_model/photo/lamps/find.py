@@ -21,7 +21,7 @@ from occ_model.results.lamp import Lamp
 _FAINT = 0.45
 """Share of a lamp's light below which what blinks in time with it is its reflection."""
 
-_DOUBTED = 0.25
+_REFLECTION_FRACTION = 0.25
 """Share of the brightest modulated lamp's light below which a lamp may be a reflection."""
 
 _SILENT, _SELDOM = 0.1, 3.0
@@ -44,13 +44,13 @@ _LEAST_STRIPS = 2
 _LEAST_COLUMNS, _REPEATED = 16, 2.0
 """Columns, and periods, that a lamp has at least."""
 
-_SEEN = 0.3
+_LEAST_PERIODIC_STRIPS = 0.3
 """Share of a lamp's strips that must show its period by themselves."""
 
 _OWN = 0.65
 """Share of a segment's edges that are a lamp's where the segment is of that lamp."""
 
-_ALIKE = 0.02
+_CHIP_TOLERANCE = 0.02
 """Share by which the chips of one lamp's segments may differ."""
 
 _WITHIN = 0.5
@@ -147,7 +147,7 @@ def _is_seen(
         one.strip for one in segments
         if first <= one.strip <= last and _is_of(one, timing)
     }  # fmt: skip
-    return len(shown) >= _SEEN * len(spans)
+    return len(shown) >= _LEAST_PERIODIC_STRIPS * len(spans)
 
 
 def _is_of(segment: Segment, timing: LampTiming) -> bool:
@@ -157,7 +157,7 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
     """
     if (segment.period is None) != timing.is_code:
         return False
-    if abs(segment.chip - timing.chip) > _ALIKE * timing.chip:
+    if abs(segment.chip - timing.chip) > _CHIP_TOLERANCE * timing.chip:
         return False
     near = np.count_nonzero(matches(segment.edges, timing.edges, _near(timing)))
     return bool(near > 2 and near >= _OWN * len(segment.edges))
@@ -250,7 +250,7 @@ def _with_doubts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
     """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
     brightest = max((one.light for one in blinking), default=0.0)
     return [
-        replace(one, lamp=replace(one.lamp, is_faint=one.light < _DOUBTED * brightest))
+        replace(one, lamp=replace(one.lamp, is_faint=one.light < _REFLECTION_FRACTION * brightest))
         for one in blinking
         if one.light >= _SILENT * brightest or (one.lamp.periods or _SELDOM) >= _SELDOM
     ]

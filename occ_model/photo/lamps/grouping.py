@@ -11,20 +11,20 @@ import numpy as np
 from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.segments import Segment
 
-_NEAR = 2
+_MOST_STRIP_DISTANCE = 2
 """Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""
 
-_ALIKE = 0.65
+_LEAST_EQUAL_FRACTION = 0.65
 """Share of the edges of two segments that must agree.
 
 Of the longer one: in a strip, noise or a rim can join the edges of two lamps side by side, and such
 a segment must not join the lamps.
 """
 
-_LEAST_ALIKE = 3
+_LEAST_EQUAL_EDGES = 3
 """Fewest edges that must agree."""
 
-_OFF = 0.06
+_EDGE_TOLERANCE = 0.06
 """Share of a chip, besides a column, by which edges of one lamp may differ."""
 
 _LEAST_STRIPS = 2
@@ -50,7 +50,7 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
     for index, segment in enumerate(segments):
         by_strip.setdefault(segment.strip, []).append(index)
     for index, segment in enumerate(segments):
-        for strip in range(segment.strip + 1, segment.strip + 1 + _NEAR):
+        for strip in range(segment.strip + 1, segment.strip + 1 + _MOST_STRIP_DISTANCE):
             for other in by_strip.get(strip, ()):
                 if _agree(segment, segments[other]):
                     parents[root(other)] = root(index)
@@ -64,10 +64,10 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
 
 def _agree(one: Segment, other: Segment) -> bool:
     """Whether the edges of two segments lie at the same columns."""
-    off = 1.0 + _OFF * min(one.chip, other.chip)
+    off = 1.0 + _EDGE_TOLERANCE * min(one.chip, other.chip)
     counts = len(one.edges), len(other.edges)
     near = np.count_nonzero(matches(one.edges, other.edges, off))
-    return bool(near >= max(_LEAST_ALIKE, _ALIKE * max(counts)))
+    return bool(near >= max(_LEAST_EQUAL_EDGES, _LEAST_EQUAL_FRACTION * max(counts)))
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
@@ -75,7 +75,7 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
 
     The rim of a round lamp lies at other columns in each strip, and so is not among them.
     """
-    off = 1.0 + _OFF * float(np.median([one.chip for one in group]))
+    off = 1.0 + _EDGE_TOLERANCE * float(np.median([one.chip for one in group]))
     place = np.concatenate([one.edges.place for one in group])
     rises = np.concatenate([one.edges.rises for one in group])
     low = np.concatenate([one.edges.low for one in group])

@@ -25,10 +25,10 @@ _LEAST_EDGES = 4
 _RIM_EDGES = 4
 """Edges by which a code must explain more than a progression does: a lamp's rim has two of them."""
 
-_MOST = 64
+_MOST_LAMPS = 64
 """Largest number of lamps beside each other in a strip: of more, those of the strongest stripes."""
 
-_WIDE = 5.0
+_GAP_RATIO = 5.0
 """Ratio to the median distance of edges from which a gap lies between two lamps."""
 
 _LONG_EDGES, _ALL = 6, 0.9
@@ -115,9 +115,9 @@ def segments_of(
         for left, right in ((first, begin), (end, last)):
             if right - left >= _LEAST_EDGES:
                 waiting.append((left, right, _clipped(progressions, left, right)))
-    if len(found) > _MOST:
+    if len(found) > _MOST_LAMPS:
         found.sort(key=lambda one: -float((one.edges.high - one.edges.low).sum()))
-    return found[:_MOST]
+    return found[:_MOST_LAMPS]
 
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
@@ -193,7 +193,7 @@ def _stretches(edges: Edges) -> list[tuple[int, int]]:
     """Split edges at wide gaps, and where steps become much smaller or larger."""
     gaps, swings = np.diff(edges.place), edges.high - edges.low
     ratio = np.minimum(swings[1:], swings[:-1]) / np.maximum(swings[1:], swings[:-1])
-    cuts = np.flatnonzero((gaps > _WIDE * np.median(gaps)) | (ratio < _UNLIKE)) + 1
+    cuts = np.flatnonzero((gaps > _GAP_RATIO * np.median(gaps)) | (ratio < _UNLIKE)) + 1
     return list(itertools.pairwise([0, *cuts.tolist(), len(edges)]))
 
 

@@ -9,7 +9,7 @@ from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
-_OFF = 0.06
+_EDGE_TOLERANCE = 0.06
 """Share of a chip, besides a column, by which an edge may lie off the lamp's."""
 
 _FAINT = 0.4
@@ -96,7 +96,7 @@ def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float]
     swing = edges.high - edges.low
     least = _FAINT * float(np.median(timing.edges.high - timing.edges.low))
     shared = np.flatnonzero(
-        matches(edges, timing.edges, 1.0 + _OFF * timing.chip) & (swing > least)
+        matches(edges, timing.edges, 1.0 + _EDGE_TOLERANCE * timing.chip) & (swing > least)
     )
     if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None

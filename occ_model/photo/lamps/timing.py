@@ -8,7 +8,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import Segment, segments_of
 
-_FAR = 0.12
+_LATTICE_TOLERANCE = 0.12
 """Share of the spacing by which an edge may lie off a lattice and still count."""
 
 
@@ -88,7 +88,7 @@ class LampTiming:
         for kind, start in ((True, self.rise), (False, self.fall)):
             turns = (other.edges.place[other.edges.rises == kind] - start) / self.spacing
             offs.append(np.abs(turns - np.rint(turns)))
-        return bool(np.median(np.concatenate(offs)) < _FAR)
+        return bool(np.median(np.concatenate(offs)) < _LATTICE_TOLERANCE)
 
 
 def timings_of(edges: Edges, weights: FloatArray) -> list[LampTiming]:

@@ -23,13 +23,13 @@ _BANDS = 64
 _CLIPPED = 0.98
 """Share of white from which a pixel may have been clipped: compression changes it a little."""
 
-_MANY = 0.002
+_CLIPPED_FRACTION = 0.002
 """Share of clipped pixels from which a profile is no longer fitted as if it had none."""
 
 _SOME, _ALL = 0.005, 0.9
 """Shares of a column's pixels up to which it counts as not clipped, and from which as clipped."""
 
-_BESIDE = 3
+_BLURRED_COLUMNS = 3
 """Columns beside a clipped one that blur may have darkened."""
 
 _EVEN = 0.6
@@ -45,7 +45,7 @@ _CORES = 2
 """Number of groups into which the pixels that are clipped while lit are divided."""
 
 _MOST_GROUPS = 3
-_ALIKE = 16.0
+_HALF_WEIGHT_ROWS = 16.0
 """Rows that tell half of what any number of them would: their noise is averaged out, and what the
 camera's processing does to the stripes is the same in all of them."""
 
@@ -78,7 +78,7 @@ class EvenProfile:
     @property
     def tells(self) -> float:
         """How much it tells: its columns, each by the share of noise that its rows average out."""
-        return float(self.kept.sum()) * self.rows / (self.rows + _ALIKE)
+        return float(self.kept.sum()) * self.rows / (self.rows + _HALF_WEIGHT_ROWS)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -130,7 +130,7 @@ class Cells:
         lit = cv2.blur(lit, (width, 1), borderType=cv2.BORDER_REFLECT)
         rows = np.quantile(lit, _USUAL, axis=1)
         shows = lit > _EVEN * rows[:, None]
-        if float(self.clipped.mean()) < _MANY:
+        if float(self.clipped.mean()) < _CLIPPED_FRACTION:
             groups = [rows > _EVEN * rows.max()]
         else:
             groups = self._groups(rows)
@@ -160,7 +160,7 @@ class Cells:
         values = np.where(group, self.means, 0.0).sum(axis=0, dtype=np.float64) / count
         share = np.where(group, self.clipped, 0.0).sum(axis=0, dtype=np.float64) / count
         near = cv2.dilate(
-            (share > _SOME).astype(np.uint8)[None], np.ones((1, 2 * _BESIDE + 1), np.uint8)
+            (share > _SOME).astype(np.uint8)[None], np.ones((1, 2 * _BLURRED_COLUMNS + 1), np.uint8)
         )[0]
         kept = seen & (near == 0)
         if kept.sum() < _LEAST_COLUMNS:

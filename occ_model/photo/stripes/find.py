@@ -24,7 +24,7 @@ from occ_model.results.match import Stripes
 _BANDS = 64
 """Number of bands of rows whose means are compared with each other."""
 
-_ALIKE = 0.25
+_LEAST_STRENGTH_FRACTION = 0.25
 """Share of the median strength with which a row must show the common stripes."""
 
 _EDGE = 0.3
@@ -145,7 +145,9 @@ def _striped_rows(photo: Photo) -> tuple[int, int]:
     common, strengths = _common_slopes(slopes)
     if bands > 1 and strengths @ strengths < _LEAST_COHERENCE * float((slopes**2).sum()):
         raise MatchError("No stripes: the rows of the photo do not vary together.")
-    shows = strengths > _ALIKE * np.median(np.sort(strengths)[-(bands // 2 + 1) :])
+    shows = strengths > _LEAST_STRENGTH_FRACTION * np.median(
+        np.sort(strengths)[-(bands // 2 + 1) :]
+    )
     best = int(strengths.argmax())
     first, last = best, best + 1
     while first > 0 and shows[first - 1]:

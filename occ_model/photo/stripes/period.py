@@ -8,13 +8,13 @@ from occ_model.photo.stripes.envelope import smooth_shapes
 _SHORTEST = 3
 """Shortest period in columns: anything shorter is noise."""
 
-_LEAST_ALIKE = 0.5
+_LEAST_AUTOCORRELATION = 0.5
 """Autocorrelation after one period below which nothing repeats."""
 
 _AS_GOOD = 0.06
 """Difference from the best by which the autocorrelation after the shortest period may be lower."""
 
-_SEEN = 0.67
+_LONGEST_PERIOD_FRACTION = 0.67
 """Longest period as a share of the columns: part of it must be seen twice."""
 
 _HARMONICS = 24
@@ -41,7 +41,7 @@ def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
 def _rough_period(flattened: FloatArray) -> float | None:
     """Find the shortest lag whose autocorrelation is about the best."""
     alike = autocorrelation(flattened)
-    count = int(_SEEN * len(alike))
+    count = int(_LONGEST_PERIOD_FRACTION * len(alike))
     negative = np.flatnonzero(alike[:count] < 0.0)
     start = max(_SHORTEST, int(negative[0]) if negative.size else _SHORTEST)
     inner = alike[start : count - 1]
@@ -57,7 +57,7 @@ def _rough_period(flattened: FloatArray) -> float | None:
     bend = np.minimum(before - 2.0 * here + after, -1e-12)
     aside = np.clip(0.5 * (before - after) / bend, -0.5, 0.5)
     height = here - 0.25 * (before - after) * aside
-    if height.max() < _LEAST_ALIKE:
+    if height.max() < _LEAST_AUTOCORRELATION:
         return None
     first = int(np.flatnonzero(height >= height.max() - _AS_GOOD)[0])
     return float(peaks[first] + aside[first])

@@ -220,11 +220,11 @@ def test_an_exact_picture_begins_after_what_the_user_waits_for_sooner(
         looks.append(len(pictures))
         return len(looks) < 4
 
-    bench.controller.let_first(others_first)
+    bench.controller.defer_while(others_first)
     bench.store.change(iso=200.0)
     bench.wait_until_idle()
     assert looks == [1] * 4  # the draft is there, the exact picture is not
-    bench.controller.let_first(lambda: True)  # for ever, which is not waited for
+    bench.controller.defer_while(lambda: True)  # for ever, which is not waited for
     bench.store.change(iso=210.0)
     bench.wait_until_idle()
     assert [picture.is_draft for picture in pictures] == [True, False] * 2

@@ -53,8 +53,11 @@ def is_reason(failure: object) -> bool:
 
 
 def plain_reason(failure: str | None) -> str | None:
-    """Return a plug-in's failure in one line."""
-    return None if failure is None else one_line(failure)
+    """Return a plug-in's failure in one line that ends as a sentence does."""
+    if failure is None:
+        return None
+    line = one_line(failure)
+    return line if line.endswith((".", "?", "!")) else f"{line}."
 
 
 def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArray:

@@ -55,6 +55,7 @@ def controls_of(window: QWidget) -> Iterator[QWidget]:
             and not isinstance(widget, QScrollBar)
             and not isinstance(parent, QAbstractSpinBox | QComboBox | QTabBar)
             and not widget.objectName().startswith("qt_")
+            and widget.metaObject().className() != "QTableCornerButton"
             and not isinstance(widget, QTabBar)
         ):
             yield widget

@@ -86,6 +86,7 @@ huge_payload = spoiled("huge_payload", payload="x" * 10**7)
 huge_runs = spoiled("huge_runs", runs=Runs(endless, endless))
 huge_counts = spoiled("huge_counts", histograms=(RunHistogram(endless, None),) * 2)
 wordy = decoder("wordy", lambda *_: occ.DecodeResult("wordy", failure="Two\\nlines."))
+curt = decoder("curt", lambda *_: occ.DecodeResult("curt", failure="dark"))
 listed = replace(decoder("listed", fail), name=np.array(["listed", "listed"]))
 misnamed = decoder("another", fail)
 threshold = decoder("threshold", fail)
@@ -124,8 +125,8 @@ frame_lines = replace(FRAMING, name="frame_lines", encode=two_lines)
 DECODERS = [
     "raises", "leaves", "mute", "nothing", "empty", "floats", "lists", "no_sentence", "overwrites",
     "misnamed", "threshold", "gone", "beyond", "worded", "coded", "placed", "paired", "masked",
-    "run", "counted", "wordy", "listed", "huge_bits", "huge_chips", "huge_model", "huge_headers",
-    "huge_code", "huge_payload", "huge_runs", "huge_counts",
+    "run", "counted", "wordy", "curt", "listed", "huge_bits", "huge_chips", "huge_model",
+    "huge_headers", "huge_code", "huge_payload", "huge_runs", "huge_counts",
 ]  # fmt: skip
 CODES = [
     "code_raises", "code_short", "code_grey", "code_blocks", "code_run", "code_preamble",
@@ -221,8 +222,9 @@ def test_a_decoder_that_is_none_is_refused_by_name(decoder: str, said: str) -> N
     assert str(caught.value).startswith(expected)
 
 
-def test_the_failure_of_a_plug_in_is_one_line() -> None:
+def test_the_failure_of_a_plug_in_is_one_line_with_an_end() -> None:
     assert decode("wordy").failure == r"Two\nlines."
+    assert decode("curt").failure == "dark."
 
 
 @pytest.mark.parametrize("name", ["a\x1b[31m", "", "x" * 61, "a\u202e"])

@@ -17,13 +17,17 @@ _PHONE = occ.load_preset("phone-136us").replace(illuminance=0.0)
 def _second_integral(chips: list[int], place: Fraction) -> Fraction:
     """Return the light up to a place, integrated once more; places may be below 0."""
     period, total = len(chips), sum(chips)
-    of_period = sum((period - k - Fraction(1, 2)) * lit for k, lit in enumerate(chips))
+    of_period = sum(
+        (Fraction(2 * (period - k) - 1, 2) * lit for k, lit in enumerate(chips)), Fraction()
+    )
     periods, rest = divmod(place, period)
     whole = Fraction(periods)
     done = int(rest)
     part = rest - done
     lit = sum(chips[:done])
-    inside = sum((done - k - Fraction(1, 2)) * lit for k, lit in enumerate(chips[:done]))
+    inside = sum(
+        (Fraction(2 * (done - k) - 1, 2) * lit for k, lit in enumerate(chips[:done])), Fraction()
+    )
     inside += lit * part + chips[done] * part * part / 2
     before = whole * of_period + total * period * whole * (whole - 1) / 2
     return before + whole * total * rest + inside

@@ -16,6 +16,10 @@ _Made = TypeVar("_Made")
 LIMIT = 24 * 2**20
 """Most bytes that are remembered: the rows of one large picture and of its draft."""
 
+MOST_ENTRIES = 256
+"""Most things that are remembered: of small pictures thousands would fill the bytes, and each takes
+as much again in objects that are no arrays."""
+
 
 class RowMemory:
     """Arrays by what they depend on; those used longest ago are forgotten first.
@@ -24,10 +28,12 @@ class RowMemory:
     ----------
     limit
         Most bytes that they have together.
+    entries
+        How many there are at most.
     """
 
-    def __init__(self, limit: int) -> None:
-        self._limit = limit
+    def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
+        self._limit, self._entries = limit, entries
         self._lock = Lock()
         self._known: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
         self.size = 0
@@ -59,7 +65,7 @@ class RowMemory:
             if key not in self._known and size <= self._limit:
                 self._known[key] = made, size
                 self.size += size
-            while self.size > self._limit:
+            while self.size > self._limit or len(self._known) > self._entries:
                 self.size -= self._known.popitem(last=False)[1][1]
         return made
 

@@ -34,6 +34,15 @@ def test_what_was_used_longest_ago_is_forgotten_first() -> None:
     assert memory.recall(0, kilobyte, tuple) is not memory.recall("other", kilobyte, tuple)
 
 
+def test_of_small_things_no_more_are_remembered_than_entries() -> None:
+    memory = RowMemory(10**6, entries=5)
+    for key in range(100):
+        memory.recall(key, kilobyte, tuple)
+    assert memory.size == 5 * 1024
+    kept = memory.recall(99, kilobyte, tuple)
+    assert memory.recall(99, kilobyte, tuple) is kept
+
+
 def test_what_is_larger_than_the_memory_is_not_remembered() -> None:
     memory = RowMemory(1000)
     assert memory.recall("a", kilobyte, tuple) is not memory.recall("a", kilobyte, tuple)

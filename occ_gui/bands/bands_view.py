@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.bands.depth_plot import DepthPlot
 from occ_gui.bands.jobs import ShownBands
+from occ_gui.bands.risk_plot import RiskPlot
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth
 from occ_model.scene.units import HERTZ, SECOND
@@ -48,9 +49,14 @@ class BandsView(QWidget):
         self._make_table()
         self.table.setMinimumHeight(_LEAST_HEIGHT)
         self.map.setMinimumHeight(_LEAST_HEIGHT)
+        self.risk = RiskPlot()
+        self.risk.setMinimumHeight(_LEAST_HEIGHT)
+        beside = QVBoxLayout()
+        beside.addWidget(self.table, 3)
+        beside.addWidget(self.risk, 2)
         row = QHBoxLayout()
         row.addWidget(self.map, 3)
-        row.addWidget(self.table, 2)
+        row.addLayout(beside, 2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.addWidget(self.headline)
@@ -69,8 +75,10 @@ class BandsView(QWidget):
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + _ROOM)
-        self.table.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        self.table.horizontalHeader().setStretchLastSection(True)
+        header = self.table.horizontalHeader()
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setResizeContentsPrecision(-1)  # of all rows, not of those in view
+        header.setSectionResizeMode(header.count() - 1, QHeaderView.ResizeMode.Stretch)
         self.table.itemActivated.connect(self._take)
         self._speeds: tuple[SpeedDepth, ...] = ()
 
@@ -86,29 +94,34 @@ class BandsView(QWidget):
         self.headline.setText(self._headline(found))
         self.sentences.setText("\n".join(self._sentences(found)))
         self.map.show_depths(found)
+        self.risk.show_flicker(found)
         is_first = not self._speeds
         self._speeds = found.advice.speeds
         self.table.setRowCount(len(self._speeds))
         for row, speed in enumerate(self._speeds):
             cells = (
                 speed.name, _percent(speed.at_nominal), _percent(speed.at_real),
-                "none" if speed.is_free else self._kept(speed),
+                *_verdict(speed),
             )  # fmt: skip
-            for column, text in enumerate(cells):
+            *texts, meaning = cells
+            for column, text in enumerate(texts):
                 item = QTableWidgetItem(text)
-                item.setToolTip(text)
+                item.setToolTip(meaning)
                 self.table.setItem(row, column, item)
+        self._fit_table()
         if is_first:
             usual = next(row for row, speed in enumerate(self._speeds) if speed.nominal <= _USUAL)
             middle = QAbstractItemView.ScrollHint.PositionAtCenter
             self.table.scrollTo(self.table.model().index(usual, 0), middle)
 
-    def _kept(self, speed: SpeedDepth) -> str:
-        if not speed.is_doubtful:
-            return "yes"
-        if speed.at_nominal < speed.at_real:
-            return "none as written"
-        return "none as power of two"
+    def _fit_table(self) -> None:
+        """Make the table so wide that no column is cut."""
+        header, bar = self.table.horizontalHeader(), self.table.verticalScrollBar()
+        columns = sum(
+            max(header.sectionSizeHint(column), self.table.sizeHintForColumn(column))
+            for column in range(header.count())
+        )
+        self.table.setMinimumWidth(columns + bar.sizeHint().width() + 2 * self.table.frameWidth())
 
     def _headline(self, found: ShownBands) -> str:
         depth, exposure = found.depth, SECOND.format(found.scene.camera.exposure_time, _DIGITS)
@@ -136,12 +149,20 @@ class BandsView(QWidget):
             lines.append("The map is of sharp edges: the LED's own make weaker bars.")
         lines.append(
             f"For the eye: percent flicker {eye.percent_flicker:.3g} %, flicker index "
-f"{eye.flicker_index:.2g}, "
-                f"SVM {eye.visibility:.2g}; by IEEE 1789-2015 {eye.risk} as a whole "
-f"({HERTZ.format(eye.frequency, 3)}), "
-                f"{eye.parts_risk} by each of its sines."
-        )  # fmt: skip
+            f"{eye.flicker_index:.2g}, SVM {eye.visibility:.2g}; by IEEE 1789-2015 {eye.risk} "
+            f"as a whole ({HERTZ.format(eye.frequency, 3)}), {eye.parts_risk} by each of its sines."
+        )
         return lines
+
+
+def _verdict(speed: SpeedDepth) -> tuple[str, str]:
+    """Return in a word and in a sentence whether a speed shows bars."""
+    if speed.is_free:
+        return "none", f"{speed.name} shows no bars."
+    if not speed.is_doubtful:
+        return "yes", f"{speed.name} shows bars."
+    which = "the time that is written" if speed.at_nominal < speed.at_real else "a power of two"
+    return "depends", f"{speed.name} shows no bars if the camera keeps {which}."
 
 
 def _percent(share: float) -> str:

@@ -6,11 +6,11 @@ from PySide6.QtCore import QPointF, QRectF, Signal
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from occ_gui.bands.jobs import EXPOSURES, FREQUENCIES, ShownBands
+from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.pens import thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.scene.parameters import quantity
-from occ_model.scene.units import HERTZ, SECOND
+from occ_model.scene.units import HERTZ, SECOND, Unit
 
 _VALLEYS = 8
 """Lines that are drawn: those above lie closer than the cells."""
@@ -36,17 +36,6 @@ class DepthPlot(QWidget):
         self.image = pg.ImageItem()
         self.image.setLookupTable(pg.colormap.get("viridis").getLookupTable(nPts=256))
         self.plot.addItem(self.image)
-        for side, unit, ends in (("bottom", HERTZ, FREQUENCIES), ("left", SECOND, EXPOSURES)):
-            low, high = np.log10(ends)
-            values = [
-                kind * 10.0**power
-                for power in range(int(np.floor(low)), int(np.ceil(high)) + 1)
-                for kind in (_KINDS if side == "bottom" else _KINDS[:1])
-            ]
-            named = [(float(np.log10(v)), unit.format(v)) for v in values]
-            self.plot.getAxis(side).setTicks([named])
-            axis = self.plot.setXRange if side == "bottom" else self.plot.setYRange
-            axis(float(low), float(high), padding=0)
         self.plot.setMouseEnabled(False, False)
         room = self.fontMetrics().height() / 2.0  # numbers and descents reach beyond
         self.plot.getPlotItem().layout.setContentsMargins(0.0, room, 2.0 * room, room)
@@ -69,13 +58,17 @@ class DepthPlot(QWidget):
     def show_depths(self, found: ShownBands) -> None:
         """Show the map of a scene."""
         low, high = np.log10(_DEPTHS)
-        shares = (np.log10(np.maximum(found.least, _DEPTHS[0])) - low) / (high - low)
+        shares = (np.log10(np.maximum(found.map.least, _DEPTHS[0])) - low) / (high - low)
         self.image.setImage(np.clip(255.0 * shares, 0.0, 255.0), levels=(0.0, 255.0))
-        left, right = np.log10(FREQUENCIES)
-        bottom, top = np.log10(EXPOSURES)
+        left, right = np.log10(found.map.frequencies[[0, -1]])
+        bottom, top = np.log10(found.map.exposures[[0, -1]])
         self.image.setRect(QRectF(left, bottom, right - left, top - bottom))
+        self._name_ticks("bottom", HERTZ, _KINDS, left, right)
+        self._name_ticks("left", SECOND, _KINDS[:1], bottom, top)
+        self.plot.setXRange(left, right, padding=0)
+        self.plot.setYRange(bottom, top, padding=0)
         for order, line in enumerate(self.valleys, 1):
-            above = np.log10(order * found.period)
+            above = np.log10(order * found.map.period)
             line.setData([left, right], [above - left, above - right])
         scene = found.scene
         self.setting.setData(
@@ -86,8 +79,15 @@ class DepthPlot(QWidget):
             f"Bars vanish at whole multiples of {SECOND.format(found.advice.valley, 4)}"
         )
 
+    def _name_ticks(
+        self, side: str, unit: Unit, kinds: tuple[float, ...], low: float, high: float
+    ) -> None:
+        powers = range(int(np.floor(low)), int(np.ceil(high)) + 1)
+        values = [kind * 10.0**power for power in powers for kind in kinds]
+        self.plot.getAxis(side).setTicks([[(float(np.log10(v)), unit.format(v)) for v in values]])
+
     def _on_click(self, event: object) -> None:
         place: QPointF = self.plot.getViewBox().mapSceneToView(event.scenePos())  # type: ignore[attr-defined]
-        exposure = 10.0 ** float(place.y())
-        if EXPOSURES[0] <= exposure <= EXPOSURES[1]:
-            self.chosen.emit(exposure)
+        # The numbers beside the map are within the view box's scene, but not within the map.
+        if self.image.mapRectToView(self.image.boundingRect()).contains(place):
+            self.chosen.emit(10.0 ** float(place.y()))

@@ -1,5 +1,6 @@
 """The pane of the bars, declared."""
 
+from occ_gui.bands.figures import bands_figures
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
 from occ_model.scene.scene import Scene
@@ -19,4 +20,5 @@ def bands(scenes: SceneStore) -> Feature[Scene]:
         help="bands.md",
         make=make,
         part=lambda workspace, _: workspace.scene,
+        figures=bands_figures(),
     )

@@ -21,8 +21,8 @@ from occ_gui.window.current_pane import PICTURE, CurrentPane
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
 
-_FIGURE_OF_PANE = {"profile": "profile", "accuracy": "accuracy", "map": "map", "bench": "bench"}
-"""Figures by the names of their panes; for any other pane the picture is copied."""
+_WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands")
+"""Panes with a figure of their own, of the same name; for any other the picture is copied."""
 
 _ENDING = "export/ending"
 """Under this key the ending of the last exported file is stored."""
@@ -139,8 +139,7 @@ class ExportController(QObject):
         if pane == "decode":
             self.copy(f"decoding-{self._shown_decoder()}")
             return
-        figure = _FIGURE_OF_PANE.get(pane, PICTURE)
-        self.copy(figure if figure in self._shell.figures else PICTURE)
+        self.copy(pane if pane in _WITH_FIGURE else PICTURE)
 
     def _draw(self, name: str, path: Path | None, shown: Snapshot) -> None:
         request = self._request(name, shown)

@@ -275,7 +275,8 @@ class MatchController(QObject):
         self.match, self._known = found, self._asked_known
         self._matched_region = self._region
         self._pane.show_match(found)
-        self._pane.show_cure(cure_of(found.scene))
+        error = found.uncertainties.get("exposure_time", 0.0)
+        self._pane.show_cure(cure_of(found.scene, error))
         self._show_age()
         self.matched.emit(found)
 

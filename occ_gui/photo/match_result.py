@@ -120,10 +120,11 @@ class MatchResult(QWidget):
             self._show_figures(self._match)
 
     def _show_cure(self, found: Cure, match: Match) -> None:
-        text = (f"This lamp's light repeats at {HERTZ.format(found.repeats, 4)}: bars vanish at "
-"whole multiples "
-                       "of "
-                       f"{SECOND.format(1.0 / found.repeats, 4)}.")  # fmt: skip
+        text = (
+            f"This lamp repeats at {HERTZ.format(found.repeats, 4)} and is lit for "
+            f"{100.0 * found.duty:.2g} % of the time: {self._depth(found, match)}none at whole "
+            f"multiples of {SECOND.format(1.0 / found.repeats, 4)}."
+        )
         first, kept = (
             " or ".join(each.name for each in speeds) for speeds in (found.speeds, found.kept)
         )
@@ -134,6 +135,13 @@ class MatchResult(QWidget):
             text += f", else {kept}." if kept else "."
         assumed = condition_of(match, self._certain).rstrip(": ")
         self.cure.setText(f"{text} ({assumed})" if assumed else text)
+
+    def _depth(self, found: Cure, match: Match) -> str:
+        if match.exposure_verdict != "sure":
+            return ""  # the bars are as deep as the exposure lets them
+        ends = dict.fromkeys(f"{100.0 * depth:.3g}" for depth in found.depth)
+        exposure = SECOND.format(match.exposure_time, 3)
+        return f"bars of {' to '.join(ends)} % of its light at {exposure}, "
 
     def show_certain(self, certain: Mapping[str, float]) -> None:
         """Show which known values, in SI units by name, are confirmed and not only assumed."""

@@ -129,6 +129,40 @@ class BandAdvice:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class DepthMap:
+    """Least depth of the bars over frequency and exposure, both in even steps of logarithms.
+
+    Parameters
+    ----------
+    frequencies, exposures : ndarray of float64, shapes (n + 1,), (m + 1,)
+        Ends of the cells, in Hz and s.
+    least : ndarray of float64, shape (n, m)
+        Least depth within the exposures of each cell, at its middle frequency.
+    period
+        Chips after which the code repeats: bars vanish at whole multiples of it.
+    """
+
+    frequencies: FloatArray
+    exposures: FloatArray
+    least: FloatArray
+    period: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RiskLines:
+    """The lines of IEEE 1789-2015 over the frequencies that they divide, each with its end.
+
+    Parameters
+    ----------
+    no_effect, low_risk : ndarray of float64, shape (n, 2)
+        Corners: frequency in Hz, modulation in percent.
+    """
+
+    no_effect: FloatArray
+    low_risk: FloatArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class EyeFlicker:
     """Measures of how a lamp's light flickers for the eye.
 
@@ -185,6 +219,11 @@ class Cure:
     ----------
     repeats
         How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it.
+    duty
+        Share of the time in which the lamp is lit.
+    depth
+        Least and largest peak to peak depth of the bars that the lamp's own light, without that of
+        others, has now: within two standard deviations of the exposure.
     speeds, kept
         The shortest usual shutter speeds that show no bars, at most two: as they are written, and
         also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
@@ -193,6 +232,8 @@ class Cure:
     """
 
     repeats: float
+    duty: float
+    depth: tuple[float, float]
     speeds: tuple[ShutterSpeed, ...]
     kept: tuple[ShutterSpeed, ...]
     scene: Scene

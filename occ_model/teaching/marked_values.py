@@ -4,6 +4,7 @@ from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.theory import band_model_frequency, null_frequency
+from occ_model.transmitter.packet import sent_chips
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
@@ -12,26 +13,31 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     Returns
     -------
     tuple of MarkedValue
-        Of the switching frequency and the exposure time: where both are equal, t = t_LED, and the
-        first null of an alternating pattern, t = 2 t_LED, or of a raw pattern the shortest exposure
-        without bars; of others none.
+        Of the switching frequency and the exposure time: where both are equal, t = t_LED; of codes
+        the first null of alternating chips, t = 2 t_LED; and where the exposure is a whole period
+        of what is sent, so that there are no bars. Of others none.
     """
     check_scene(scene)
-    camera = scene.camera
-    ends = {
-        "switching_frequency": (band_model_frequency(scene), null_frequency(scene)),
-        "exposure_time": tuple(k * scene.transmitter.switching_period for k in (1.0, 2.0)),
-    }.get(parameter)
-    if ends is None or camera.exposure_time <= 0.0:
+    exposure, transmitter = scene.camera.exposure_time, scene.transmitter
+    if exposure <= 0.0:
         return ()
-    equal, null = ends
+    is_raw = bool(transmitter.pattern)
+    # A pattern can hold shorter ones; a packet's header comes once.
+    period = DepthOver.of(scene).period if is_raw else len(sent_chips(transmitter))
+    ends = {
+        "switching_frequency": (
+            band_model_frequency(scene), null_frequency(scene), period / exposure
+        ),
+        "exposure_time": tuple(k * transmitter.switching_period for k in (1.0, 2.0, float(period))),
+    }.get(parameter)  # fmt: skip
+    if ends is None:
+        return ()
+    equal, null, barless = ends
     ends_there = "Exposure and switching period are equal: the band model ends."
-    first = MarkedValue(equal, "t = t_LED", ends_there)
-    if scene.transmitter.pattern and parameter == "exposure_time":
-        period = DepthOver.of(scene).period * scene.transmitter.switching_period
-        why = "A whole period of the pattern: no bars, here and at its whole multiples."
-        return first, MarkedValue(period, "no bars", why)
-    return (
-        first,
-        MarkedValue(null, "null", "The exposure is two chips long: the first null of 0101."),
-    )
+    what = "pattern" if is_raw else "packet"
+    why = f"The exposure is a whole {what}: no bars, here and at its whole multiples."
+    marks = [MarkedValue(equal, "t = t_LED", ends_there), MarkedValue(barless, "no bars", why)]
+    if not is_raw:
+        nulls = "The exposure is two chips long: the first null of 0101."
+        marks.insert(1, MarkedValue(null, "null", nulls))
+    return tuple(marks)

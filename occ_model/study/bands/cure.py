@@ -5,14 +5,24 @@ import numpy as np
 from occ_model.results.bands import BARELY, Cure
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
+from occ_model.study.bands.depth import duty
 from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.bands.shutter_speeds import shutter_speeds
 
 _NAMED = 2
 
+_SAMPLES = 65
+"""Of the depth over the error of an exposure."""
 
-def cure_of(scene: Scene) -> Cure:
-    """Return the shutter speeds without bars, and the scene at the shortest of them."""
+
+def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
+    """Return the shutter speeds without bars, and the scene at the shortest of them.
+
+    Parameters
+    ----------
+    exposure_error
+        Standard deviation of the scene's exposure time in s, for the present depth.
+    """
     over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
     repeats = frequency / over.period
 
@@ -24,7 +34,21 @@ def cure_of(scene: Scene) -> Cure:
     kept = [each for each in as_written if depth(each.real) < BARELY]
     exposure = as_written[0].nominal if as_written else 1.0 / repeats
     cured = as_bright(scene, exposure)
-    return Cure(repeats, tuple(as_written[:_NAMED]), tuple(kept[:_NAMED]), cured)
+    return Cure(
+        repeats, duty(scene), _present_depth(scene, over, exposure_error),
+        tuple(as_written[:_NAMED]), tuple(kept[:_NAMED]), cured,
+    )  # fmt: skip
+
+
+def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, float]:
+    """Return between which depths the bars in the lamp's own light are."""
+    exposure, frequency = scene.camera.exposure_time, scene.transmitter.switching_frequency
+    ends = frequency * np.clip(exposure + np.array([-2.0, 2.0]) * error, 0.01 * exposure, None)
+    # Linear over the exposure between whole chips, but for the mean.
+    nodes = np.arange(np.ceil(ends[0]), min(ends[1], ends[0] + over.period) + 0.5)
+    chips = np.concatenate([np.linspace(*ends, _SAMPLES), nodes[nodes < ends[1]]])
+    depths = over.swing_in(chips) / chips / duty(scene)
+    return float(depths.min()), float(depths.max())
 
 
 def as_bright(scene: Scene, exposure: float) -> Scene:

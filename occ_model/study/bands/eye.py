@@ -9,7 +9,7 @@ dependence on illumination level, J. Opt. Soc. Am. A 35 (2018) 309.
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.results.bands import EyeFlicker
+from occ_model.results.bands import EyeFlicker, RiskLines
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.depth import edge_in_chips
 from occ_model.study.bands.exposed_light import exposed_light
@@ -65,13 +65,23 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
     )
 
 
-def risk_lines(frequencies: FloatArray) -> tuple[FloatArray, FloatArray]:
+def risk_limits(frequencies: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return the largest modulation in percent of no effect and of low risk at some frequencies."""
     lines = []
     for slow, fast, end in (_NO_EFFECT, _LOW_RISK):
         line = np.where(frequencies < _SLOW, slow, fast) * frequencies
         lines.append(np.where(frequencies > end, np.inf, line))
     return lines[0], lines[1]
+
+
+def risk_lines() -> RiskLines:
+    """Return the corners of both lines on a chart of logarithms, from 1 Hz on."""
+    lines = [
+        np.array([(at, rate * at) for rate, ends in ((slow, (1.0, _SLOW)), (fast, (_SLOW, end)))
+                  for at in ends])
+        for slow, fast, end in (_NO_EFFECT, _LOW_RISK)
+    ]  # fmt: skip
+    return RiskLines(*lines)
 
 
 def threshold(frequencies: FloatArray) -> FloatArray:
@@ -86,7 +96,7 @@ def _visibility(frequencies: FloatArray, modulations: FloatArray) -> float:
 
 
 def _risk(frequencies: FloatArray, modulations: FloatArray) -> str:
-    no_effect, low_risk = risk_lines(frequencies)
+    no_effect, low_risk = risk_limits(frequencies)
     if (modulations <= no_effect).all():
         return NO_EFFECT
     return LOW_RISK if (modulations <= low_risk).all() else ABOVE

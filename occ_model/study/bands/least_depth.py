@@ -7,12 +7,20 @@ from typing import Self
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.results.bands import DepthMap
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.depth import light_shares
 from occ_model.transmitter.packet import sent_chips
 
 _MOST_NODES = 10_000
 """Whole chips of a range that are looked at; by then bars are far below what is seen."""
+
+_EXPOSURES = (1e-5, 0.1)
+"""Ends of the map's exposures in s: up to usual shutter speeds, past the slider."""
+
+_CELLS = 120
+"""On each side of the map."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -60,9 +68,12 @@ class DepthOver:
 
     def of_code(self, chips: FloatArray) -> FloatArray:
         """Return the depth of the code's bars in exposures of some chips."""
+        return np.asarray(self.of_lamp * self.swing_in(chips) / chips)
+
+    def swing_in(self, chips: FloatArray) -> FloatArray:
+        """Return the largest less the smallest number of lit chips in exposures of some chips."""
         period = len(self.swing) - 1
-        swing = np.interp(chips % period, np.arange(period + 1), self.swing)
-        return np.asarray(self.of_lamp * swing / chips)
+        return np.asarray(np.interp(chips % period, np.arange(period + 1), self.swing))
 
     def flicker(self, exposures: FloatArray) -> FloatArray:
         """Return the depth that the surroundings' flicker has in some exposures, in seconds."""
@@ -99,6 +110,18 @@ class DepthOver:
                 least = np.where(inside, np.minimum(least, depth), least)
                 node = node + 1.0
         return np.asarray(least)
+
+
+def depth_map(scene: Scene) -> DepthMap:
+    """Return the least depth of a scene's bars over frequency and exposure."""
+    over = DepthOver.of(scene)
+    frequencies, exposures = (
+        np.geomspace(*ends, _CELLS + 1)
+        for ends in (quantity("switching_frequency").slider, _EXPOSURES)
+    )
+    middles = np.sqrt(frequencies[:-1] * frequencies[1:])
+    least = np.stack([over.least(float(each), exposures) for each in middles])
+    return DepthMap(frequencies, exposures, least, over.period)
 
 
 @lru_cache(maxsize=16)

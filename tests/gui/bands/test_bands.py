@@ -1,14 +1,17 @@
 """The pane of the bars shows what the model counts, and sets speeds without bars."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from gui.user import User
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.bands.bands_view import BandsView
-from occ_gui.bands.jobs import EXPOSURES, shown_bands
+from occ_gui.bands.jobs import shown_bands
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.cure import as_bright, cure_of
 
@@ -43,23 +46,22 @@ def test_the_pane_shows_the_depth_and_the_speeds_of_the_model(view: BandsView) -
     assert "whole multiples of 520.8 µs" in view.sentences.text()
     rows = _rows(view)
     assert rows["1/60 s"] == ["0 %", "0 %", "none"]
-    assert rows["1/125 s"][2] == "none as power of two"
+    assert rows["1/125 s"][2] == "depends"
     assert rows["1/500 s"][2] == "yes"
     assert rows["1/1000 s"][2] == "yes"
 
 
 def test_the_map_is_dark_along_the_valleys() -> None:
     found = shown_bands(_LAMP)
-    shape = found.least.shape
-    places = np.geomspace(500.0, 100e3, shape[0] + 1)
+    depths = found.map
     for order in (1, 2, 3):
-        middles = np.sqrt(places[:-1] * places[1:])
-        exposures = order * found.period / middles
-        share = np.log(exposures / EXPOSURES[0]) / np.log(EXPOSURES[1] / EXPOSURES[0])
-        inside = (share > 0) & (share < 1)
-        cells = (share[inside] * shape[1]).astype(int)
-        assert found.least[np.flatnonzero(inside), cells].max() < 1e-9
-    assert found.least[:, 0].max() > 0.5
+        middles = np.sqrt(depths.frequencies[:-1] * depths.frequencies[1:])
+        exposures = order * depths.period / middles
+        cells = np.searchsorted(depths.exposures, exposures) - 1
+        inside = (cells >= 0) & (cells < depths.least.shape[1])
+        assert inside.any()
+        assert depths.least[np.flatnonzero(inside), cells[inside]].max() < 1e-9
+    assert depths.least[:, 0].max() > 0.5
 
 
 def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
@@ -78,6 +80,55 @@ def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
     user.wait_until_idle()
     application.store.undo_stack.undo()
     assert application.store.scene.camera.exposure_time == pytest.approx(136e-6)
+
+
+def test_the_table_shows_all_of_its_columns_in_a_narrow_pane(view: BandsView) -> None:
+    view.resize(760, 620)
+    view.show_bands(shown_bands(_LAMP))
+    QApplication.processEvents()
+    table = view.table
+    needed = table.sizeHintForColumn(3), table.horizontalHeader().sectionSizeHint(3)
+    assert table.columnWidth(3) >= max(needed)
+    assert table.horizontalScrollBar().maximum() == 0
+    assert view.width() == 760
+
+
+def test_the_chart_shows_each_sine_beside_the_lines(view: BandsView) -> None:
+    view.show_bands(shown_bands(_LAMP.replace(pattern="1110", switching_frequency=800.0)))
+    at, modulations = view.risk.sines.getData()
+    assert 10.0 ** at[0] == pytest.approx(200.0)
+    # The first sine of a pulse of duty D has 2 sin(pi D) / (pi D) of its mean.
+    assert 10.0 ** modulations[0] == pytest.approx(200.0 * np.sin(0.75 * np.pi) / (0.75 * np.pi))
+    places, limits = view.risk.low_risk.getData()
+    assert np.interp(np.log10(200.0), places, limits) == pytest.approx(np.log10(16.0))
+    assert np.interp(np.log10(50.0), places, limits) == pytest.approx(np.log10(1.25))
+    assert "not checked" in view.risk.source.text()
+
+
+def test_both_figures_are_exported_of_the_scene(
+    application: Application, qtbot: QtBot, tmp_path: Path
+) -> None:
+    application.store.put(_LAMP, "lamp")
+    export = application.desktop.export
+    for name in ("bands", "flicker"):
+        export.export(name, tmp_path / f"{name}.csv")
+        qtbot.waitUntil(lambda name=name: (tmp_path / f"{name}.csv").exists(), timeout=20_000)
+    rows = [
+        line.split(",") for line in (tmp_path / "flicker.csv").read_text().splitlines()
+        if line[0] != "#"
+    ]  # fmt: skip
+    part, *numbers, low_risk = rows[1]
+    assert (part, low_risk) == ("whole", "")  # which ends at 1250 Hz
+    assert [float(number) for number in numbers] == pytest.approx([1920.0, 100.0, 63.936])
+    cells = [
+        [float(cell) for cell in line.split(",")]
+        for line in (tmp_path / "bands.csv").read_text().splitlines() if line[0].isdigit()
+    ]  # fmt: skip
+    assert len(cells) == 120 * 120
+    frequency, low, high, least = max(cells, key=lambda row: row[3] - 1e3 * row[1])
+    scene = _LAMP.replace(switching_frequency=frequency)
+    middle = occ.band_depth(scene.replace(exposure_time=(low * high) ** 0.5)).peak_to_peak
+    assert least <= 100.0 * middle < 1.1 * least
 
 
 @pytest.mark.parametrize("exposure", [1 / 60, 1 / 8000, 1e-5])

@@ -13,6 +13,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.units import SECOND
 from occ_model.study.bands.cure import cure_of
 
 READOUT = PARAMETERS["readout_time"]
@@ -75,10 +76,21 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_match(replace(match, scene=scene))
     view.show_cure(cure_of(scene))
-    assert view.result.cure.text() == (
-        "This lamp's light repeats at 1.92 kHz: bars vanish at whole multiples of 520.8 µs. "
+    rest = (
+        "none at whole multiples of 520.8 µs. "
         "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."
     )
+    # So short an exposure is all lit or all dark: twice the mean of a lamp that is lit by half.
+    depth = f"bars of 200 % of its light at {SECOND.format(match.exposure_time, 3)}, "
+    lamp = "This lamp repeats at 1.92 kHz and is lit for 50 % of the time: "
+    assert view.result.cure.text() == lamp + depth + rest
+    # Half a period is left of 1.5: (1/2) / (1.5 / 2), and less with 0.05 more or fewer.
+    longer = scene.replace(exposure_time=1.5 / 1920.0)
+    view.show_cure(cure_of(longer, exposure_error=0.025 / 1920.0))
+    assert "bars of 58.1 to 66.7 % of its light" in view.result.cure.text()
+    view.show_match(replace(match, scene=scene, exposure_reasons=("Two exposures fit.",)))
+    view.show_cure(cure_of(scene))
+    assert view.result.cure.text() == lamp + rest
     view.result.show_certain({})
     assert view.result.cure.text().endswith("1/120 s. (if f = 2 kHz)")
 

@@ -19,11 +19,22 @@ def test_the_band_model_ends_and_stripes_vanish_at_the_marks() -> None:
     assert marked_values(scene, "distance") == ()
 
 
-@pytest.mark.parametrize("pattern", ["10", "1110", "1010", "110100"])
-def test_a_pattern_s_bars_vanish_at_its_mark_and_not_before(pattern: str) -> None:
+@pytest.mark.parametrize("parameter", ["exposure_time", "switching_frequency"])
+@pytest.mark.parametrize("pattern", ["10", "1110", "1010", "110100", ""])
+def test_bars_vanish_at_their_mark_and_not_before(pattern: str, parameter: str) -> None:
     scene = occ.load_preset("phone-136us").replace(pattern=pattern, switching_frequency=8192.0)
-    mark = marked_values(scene, "exposure_time")[1]
+    mark = marked_values(scene, parameter)[-1]
     assert mark.label == "no bars"
-    assert occ.band_depth(scene.replace(exposure_time=mark.value)).peak_to_peak < 1e-12
+    assert occ.band_depth(scene.replace(**{parameter: mark.value})).peak_to_peak < 1e-12
     for part in (0.3, 0.5, 0.9):
-        assert occ.band_depth(scene.replace(exposure_time=part * mark.value)).peak_to_peak > 0.01
+        assert occ.band_depth(scene.replace(**{parameter: part * mark.value})).peak_to_peak > 0.005
+
+
+def test_only_a_code_has_a_mark_at_two_chips() -> None:
+    scene = occ.load_preset("phone-136us")
+    for pattern, labels in (
+        ("", ["t = t_LED", "null", "no bars"]),
+        ("10", ["t = t_LED", "no bars"]),
+    ):
+        marks = marked_values(scene.replace(pattern=pattern), "exposure_time")
+        assert [mark.label for mark in marks] == labels

@@ -6,7 +6,7 @@ import pytest
 import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
-from occ_model.study.bands.eye import risk_lines, threshold
+from occ_model.study.bands.eye import risk_limits, threshold
 
 _PHONE = occ.load_preset("phone-136us")
 _SAMPLES = 400
@@ -63,7 +63,7 @@ def test_a_sine_at_the_threshold_measures_one() -> None:
 
 
 def test_the_lines_of_risk_are_those_quoted_at_their_ends() -> None:
-    no_effect, low_risk = risk_lines(np.array([50.0, 100.0, 120.0, 1250.0, 1251.0, 3001.0]))
+    no_effect, low_risk = risk_limits(np.array([50.0, 100.0, 120.0, 1250.0, 1251.0, 3001.0]))
     assert no_effect[:3] == pytest.approx([0.5, 3.33, 4.0], abs=0.01)
     assert low_risk[:4] == pytest.approx([1.25, 8.0, 9.6, 100.0])
     assert np.isinf(low_risk[4:]).all()

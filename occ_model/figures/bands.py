@@ -1,0 +1,131 @@
+"""Draw the bars for print: the map of their least depth, and the flicker for the eye."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
+
+from occ_model import colours
+from occ_model.figures.drawing import Drawing
+from occ_model.figures.window_panes import write_caption
+from occ_model.results.bands import DepthMap, EyeFlicker
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND, Unit
+from occ_model.study.bands.eye import eye_flicker, risk_limits, risk_lines
+from occ_model.study.bands.least_depth import depth_map
+
+_VALLEYS = 8
+"""Lines that are drawn: those above lie closer than the cells."""
+
+_DEPTHS = (0.1, 100.0)
+"""Percent at the ends of the colours."""
+
+_LEAST_MODULATION = 0.01
+"""Percent at the lower end of the chart."""
+
+
+def bands_drawing(scene: Scene) -> Drawing:
+    """Draw the least depth of the bars over frequency and exposure."""
+    found = depth_map(scene)
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        for i, of_frequency in enumerate(found.least.tolist()):
+            middle = float(np.sqrt(found.frequencies[i] * found.frequencies[i + 1]))
+            for j, depth in enumerate(of_frequency):
+                yield middle, *found.exposures[j : j + 2].tolist(), 100.0 * depth
+
+    header = (
+        "switching frequency (Hz)", "exposure from (s)", "exposure to (s)", "least depth (%)"
+    )  # fmt: skip
+    title = "Least depth of the bars over frequency and exposure"
+    return Drawing("bands", title, lambda: _draw_map(scene, found), header, rows)
+
+
+def flicker_drawing(scene: Scene) -> Drawing:
+    """Draw the modulation of the lamp's light over frequency, and the lines of IEEE 1789-2015."""
+    eye = eye_flicker(scene)
+
+    def rows() -> Iterable[tuple[object, ...]]:
+        parts = (
+            ("whole", np.array([eye.frequency]), np.array([eye.percent_flicker])),
+            ("sine", eye.frequencies, eye.modulations),
+        )
+        for part, frequencies, modulations in parts:
+            limits = (np.where(np.isinf(each), np.nan, each) for each in risk_limits(frequencies))
+            for row in np.stack([frequencies, modulations, *limits], axis=1).tolist():
+                yield part, *(None if value != value else value for value in row)
+
+    header = ("part", "frequency (Hz)", "modulation (%)", "no effect to (%)", "low risk to (%)")
+    return Drawing(
+        "flicker", "Flicker of the lamp for the eye", lambda: _draw_chart(scene, eye), header, rows
+    )
+
+
+def _draw_map(scene: Scene, found: DepthMap) -> Figure:
+    figure = Figure(figsize=(5.6, 4.2))
+    ax = figure.subplots()
+    mesh = ax.pcolormesh(
+        found.frequencies, found.exposures, 100.0 * np.maximum(found.least, 1e-30).T,
+        norm=LogNorm(*_DEPTHS), cmap="viridis", rasterized=True,
+    )  # fmt: skip
+    ends = found.frequencies[[0, -1]]
+    for order in range(1, _VALLEYS + 1):
+        label = "exposures of whole periods" if order == 1 else None
+        valley = order * found.period / ends
+        ax.plot(ends, valley, color="white", linewidth=0.5, label=label)
+    ax.plot(
+        [scene.transmitter.switching_frequency], [scene.camera.exposure_time], "o",
+        markerfacecolor="white", markeredgecolor="black", label="the scene", linestyle="",
+        clip_on=True,
+    )  # fmt: skip
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlim(*ends.tolist())
+    ax.set_ylim(*found.exposures[[0, -1]].tolist())
+    for axis, name, unit in (
+        (ax.xaxis, "switching_frequency", HERTZ), (ax.yaxis, "exposure_time", SECOND)
+    ):  # fmt: skip
+        axis.set_label_text(quantity(name).label)
+        axis.set_major_formatter(_in(unit))
+    ax.legend(loc="upper right", fontsize=7, facecolor="0.75")
+    figure.colorbar(mesh, ax=ax, label="least depth (%), peak to peak", extend="both")
+    write_caption(figure, scene)
+    return figure
+
+
+def _in(unit: Unit) -> FuncFormatter:
+    return FuncFormatter(lambda value, _: unit.format(value))
+
+
+def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
+    figure = Figure(figsize=(5.6, 4.2))
+    ax = figure.subplots()
+    lines = risk_lines()
+    for line, name, look in (
+        (lines.low_risk, "below: low risk", "-"),
+        (lines.no_effect, "below: no observable effect", "--"),
+    ):  # fmt: skip
+        ax.plot(line[:, 0], line[:, 1], look, color=colours.BAND, label=name)
+    seen = eye.modulations > _LEAST_MODULATION
+    ax.plot(
+        eye.frequencies[seen], eye.modulations[seen], ".", color=colours.SIMULATION, linestyle="",
+        label="its sines",
+    )  # fmt: skip
+    ax.plot(
+        [eye.frequency], [eye.percent_flicker], "o", markerfacecolor="none", color="black",
+        linestyle="", label="the lamp as a whole",
+    )  # fmt: skip
+    ax.set_xscale("log")
+    ax.set_yscale("log")
+    ax.set_xlim(1.0, max(1e4, 2.0 * eye.frequency))
+    ax.set_ylim(_LEAST_MODULATION, 200.0)
+    ax.set_xlabel("frequency of the flicker (Hz)")
+    ax.set_ylabel("modulation (%)")
+    ax.legend(loc="lower right", fontsize=7)
+    ax.grid(linewidth=0.3)
+    about = "lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked"
+    write_caption(figure, scene, about)
+    return figure

@@ -1,9 +1,10 @@
 """View of the bars: how deep they are, the map of the least depth, and the shutter speeds."""
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QHBoxLayout,
+    QBoxLayout,
     QHeaderView,
     QLabel,
     QTableWidget,
@@ -54,14 +55,21 @@ class BandsView(QWidget):
         beside = QVBoxLayout()
         beside.addWidget(self.table, 3)
         beside.addWidget(self.risk, 2)
-        row = QHBoxLayout()
-        row.addWidget(self.map, 3)
-        row.addLayout(beside, 2)
+        self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._row.addWidget(self.map, 3)
+        self._row.addLayout(beside, 2)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.addWidget(self.headline)
         layout.addWidget(self.sentences)
-        layout.addLayout(row, 1)
+        layout.addLayout(self._row, 1)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Place map and table one below the other where they are too narrow side by side."""
+        super().resizeEvent(event)
+        is_narrow = self.width() < self.table.minimumWidth() + _LEAST_HEIGHT
+        direction = QBoxLayout.Direction
+        self._row.setDirection(direction.TopToBottom if is_narrow else direction.LeftToRight)
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 4)

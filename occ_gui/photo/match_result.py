@@ -60,11 +60,13 @@ class MatchResult(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
-        for part in (self.verdict, self.stale, self.figures, self.paste):
+        # The cure is what most photographers came for: it needs no scrolling.
+        for part in (self.verdict, self.stale, self.cure):
+            layout.addWidget(part)
+        layout.addWidget(self.without_bars, alignment=Qt.AlignmentFlag.AlignLeft)
+        for part in (self.figures, self.paste):
             layout.addWidget(part)
         layout.addLayout(buttons)
-        layout.addWidget(self.cure)
-        layout.addWidget(self.without_bars, alignment=Qt.AlignmentFlag.AlignLeft)
         layout.addStretch()
 
     def _make_buttons(self) -> None:
@@ -122,8 +124,8 @@ class MatchResult(QWidget):
     def _show_cure(self, found: Cure, match: Match) -> None:
         text = (
             f"This lamp repeats at {HERTZ.format(found.repeats, 4)} and is lit for "
-            f"{100.0 * found.duty:.2g} % of the time: {self._depth(found, match)}none at whole "
-            f"multiples of {SECOND.format(1.0 / found.repeats, 4)}."
+            f"{100.0 * found.duty:.2g} % of the time: {self._depth(found, match)}no bars at "
+            f"whole multiples of {SECOND.format(1.0 / found.repeats, 4)}."
         )
         first, kept = (
             " or ".join(each.name for each in speeds) for speeds in (found.speeds, found.kept)

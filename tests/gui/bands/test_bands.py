@@ -91,6 +91,11 @@ def test_the_table_shows_all_of_its_columns_in_a_narrow_pane(view: BandsView) ->
     assert table.columnWidth(3) >= max(needed)
     assert table.horizontalScrollBar().maximum() == 0
     assert view.width() == 760
+    assert view.map.width() > 260
+    view.resize(400, 900)
+    QApplication.processEvents()
+    assert view.map.width() > 360
+    assert table.horizontalScrollBar().maximum() == 0
 
 
 def test_the_chart_shows_each_sine_beside_the_lines(view: BandsView) -> None:

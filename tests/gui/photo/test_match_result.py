@@ -77,7 +77,7 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(
     view.show_match(replace(match, scene=scene))
     view.show_cure(cure_of(scene))
     rest = (
-        "none at whole multiples of 520.8 µs. "
+        "no bars at whole multiples of 520.8 µs. "
         "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."
     )
     # So short an exposure is all lit or all dark: twice the mean of a lamp that is lit by half.

@@ -17,6 +17,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.cost_measurement import SceneCosts
+from occ_gui.bands.bands_view import BandsView
+from occ_gui.bands.jobs import shown_bands
 from occ_gui.bench.bench_choice import PUBLISHED, BenchChoice
 from occ_gui.bench.bench_measurement import request_of
 from occ_gui.bench.bench_view import BenchView
@@ -168,3 +170,13 @@ def test_the_bench_looks_as_stored(
     )  # fmt: skip
     view.show_ended("")
     matches_its_picture(view, "bench")
+
+
+def test_the_bars_look_as_stored(
+    qtbot: QtBot, small_scene: Scene, matches_its_picture: Matches
+) -> None:
+    view = BandsView()
+    show(qtbot, view, 760, 620)
+    lamp = small_scene.replace(pattern="1110", switching_frequency=800.0, exposure_time=2e-3)
+    view.show_bands(shown_bands(lamp))
+    matches_its_picture(view, "bands")

@@ -5,6 +5,7 @@ were looked at. A description is text, so that a commit shows what has changed.
 """
 
 from collections.abc import Callable
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,7 @@ from occ_model.boards.pico import PICO
 from occ_model.boards.transmission import transmission
 from occ_model.figures import paper
 from occ_model.figures.accuracy import accuracy_drawing
+from occ_model.figures.bands import bands_drawing, flicker_drawing
 from occ_model.figures.bench import bench_drawing
 from occ_model.figures.decoding import decode_drawing
 from occ_model.figures.drawing import Drawing, house_style
@@ -238,3 +240,10 @@ def test_a_page_of_a_report(is_as_stored: Compare) -> None:
     with house_style():
         figure = draw_page("A sheet", "by somebody", "page 1 of 1", steps, 3)
     is_as_stored("report", figure)
+
+
+def test_the_bars_and_the_flicker(is_as_stored: Compare) -> None:
+    lamp = SCENE.replace(pattern="1110", switching_frequency=800.0, exposure_time=2e-3)
+    bars, flicker = bands_drawing(lamp), flicker_drawing(lamp)
+    is_as_stored("bands", drawn(bars), *bars.header, *islice(bars.rows(), 3))
+    is_as_stored("flicker", drawn(flicker), *flicker.header, *flicker.rows())

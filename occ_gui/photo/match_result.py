@@ -61,8 +61,8 @@ class MatchResult(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         # The cure is what most photographers came for: it needs no scrolling.
-        for part in (self.verdict, self.stale, self.cure):
-            layout.addWidget(part)
+        for label in (self.verdict, self.stale, self.cure):
+            layout.addWidget(label)
         layout.addWidget(self.without_bars, alignment=Qt.AlignmentFlag.AlignLeft)
         for part in (self.figures, self.paste):
             layout.addWidget(part)

@@ -46,7 +46,9 @@ def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, 
     ends = frequency * np.clip(exposure + np.array([-2.0, 2.0]) * error, 0.01 * exposure, None)
     # Linear over the exposure between whole chips, but for the mean.
     nodes = np.arange(np.ceil(ends[0]), min(ends[1], ends[0] + over.period) + 0.5)
-    chips = np.concatenate([np.linspace(*ends, _SAMPLES), nodes[nodes < ends[1]]])
+    chips = np.concatenate(
+        [np.linspace(float(ends[0]), float(ends[1]), _SAMPLES), nodes[nodes < ends[1]]]
+    )
     depths = over.swing_in(chips) / chips / duty(scene)
     return float(depths.min()), float(depths.max())
 

@@ -116,8 +116,9 @@ def test_both_figures_are_exported_of_the_scene(
     application.store.put(_LAMP, "lamp")
     export = application.desktop.export
     for name in ("bands", "flicker"):
-        export.export(name, tmp_path / f"{name}.csv")
-        qtbot.waitUntil(lambda name=name: (tmp_path / f"{name}.csv").exists(), timeout=20_000)
+        path = tmp_path / f"{name}.csv"
+        export.export(name, path)
+        qtbot.waitUntil(path.exists)
     rows = [
         line.split(",") for line in (tmp_path / "flicker.csv").read_text().splitlines()
         if line[0] != "#"

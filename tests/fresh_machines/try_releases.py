@@ -12,6 +12,7 @@ import io
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tarfile
@@ -48,6 +49,8 @@ def main() -> int:
         sys.exit("Making and entering a root needs root: start this with sudo.")
     if shutil.which("mmdebstrap") is None:
         sys.exit("mmdebstrap is missing: apt-get install mmdebstrap")
+    # Leave by the way that unmounts what was mounted.
+    signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))
     with ExitStack() as stack:
         folder = options.keep or Path(stack.enter_context(tempfile.TemporaryDirectory()))
         rows = [try_release(release, folder.resolve()) for release in options.releases]

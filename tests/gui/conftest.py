@@ -14,12 +14,14 @@ from gui.starts import Starts
 from gui.user import PatientQtBot, User
 from numpy.typing import NDArray
 from PIL import Image
+from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.app.garbage_collection import give_memory_back
 from occ_gui.detection_map import wiring
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot
@@ -92,6 +94,16 @@ def garbage_is_collected_on_this_thread() -> Iterator[None]:
     yield
     gc.collect(1)
     gc.enable()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def memory_is_given_back() -> Iterator[None]:
+    """Keep what a file's tests have left, of which pictures are the most, for no other file."""
+    yield
+    # Those of a test that ran no event loop wait for one.
+    QCoreApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete.value)
+    gc.collect()
+    give_memory_back()
 
 
 @pytest.fixture(autouse=True)

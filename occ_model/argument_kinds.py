@@ -81,7 +81,7 @@ def _refuse_wrong(
         hint = hints.get(name, Any)
         is_left = value is form.parameters[name].default or (at_once and not _is_of_objects(hint))
         if not is_left and not _fits(value, hint):
-            raise ParameterError(f"{name} is {shown(value)}; allowed: {_allowed(hint)}.")
+            raise ParameterError.of(name, shown(value), _allowed(hint))
 
 
 def _parts(hint: Any) -> tuple[Any, ...]:

@@ -2,6 +2,8 @@
 
 import reprlib
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
 
 _LONGEST_VALUE = 80
 """Characters of a value that a sentence quotes."""
@@ -29,8 +31,71 @@ class OccError(Exception):
         self.parameters = tuple(parameters)
 
 
+@dataclass(frozen=True, slots=True)
+class RefusedValue:
+    """A value that a parameter cannot have, with its unit, and what is allowed.
+
+    Parameters
+    ----------
+    verb
+        Between the name and the value: "is", "has" or "varies over".
+    condition
+        Of what is allowed, such as "with 10 bits"; empty where it is allowed ever.
+    place
+        Where the value stands, such as "Table [camera]"; empty where that is known.
+    """
+
+    parameter: str
+    verb: str
+    value: str
+    allowed: str
+    condition: str = ""
+    place: str = ""
+
+    def sentence(self, name: str = "", verb: str = "") -> str:
+        """Return the refusal in words, by another name and verb where they are given."""
+        begin = f"{self.place}: " if self.place else ""
+        condition = f" {self.condition}" if self.condition else ""
+        return (
+            f"{begin}{name or self.parameter} {verb or self.verb} {self.value}; "
+            f"allowed{condition}: {self.allowed}."
+        )
+
+
 class ParameterError(OccError, ValueError):
-    """A parameter is unknown, not of its kind, or outside its allowed range."""
+    """A parameter is unknown, not of its kind, or outside its allowed range.
+
+    Attributes
+    ----------
+    refused : RefusedValue or None
+        The parameter, its value and what is allowed; None where it is no single value.
+    """
+
+    refused: RefusedValue | None = None
+
+    @classmethod
+    def of(
+        cls,
+        parameter: str,
+        value: str,
+        allowed: str,
+        *,
+        verb: str = "is",
+        condition: str = "",
+        parameters: Sequence[str] = (),
+    ) -> Self:
+        """Return the error of a value that is not allowed; see :class:`RefusedValue`."""
+        refused = RefusedValue(parameter, verb, value, allowed, condition)
+        error = cls(refused.sentence(), parameters=parameters)
+        error.refused = refused
+        return error
+
+    def within(self, place: str) -> Self:
+        """Return the same error, of a value at a place such as a table or a frame."""
+        error = type(self)(f"{place}: {self}", parameters=self.parameters)
+        if self.refused is not None:
+            error.refused = replace(self.refused, place=place)
+        return error
 
 
 class SceneFileError(OccError, ValueError):

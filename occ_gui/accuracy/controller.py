@@ -71,10 +71,6 @@ class AccuracyController(QObject):
 
     Parameters
     ----------
-    scenes, settings
-        The scene and the simulation settings that are measured.
-    simulation
-        The simulation of pictures, which takes precedence.
     pane
         Shows what is measured; nothing is measured while it is hidden.
     """

@@ -25,15 +25,9 @@ class SceneCosts:
 
     Parameters
     ----------
-    request
-        The scene and the settings.
     pictures
         The times of pictures that were made in turn: with the effects of the request's plan, with
         all of the scene, with none.
-    differences
-        What leaving out each effect changes, by its name, as far as measured.
-    errors
-        Errors measured as a whole, by the effects included.
     """
 
     request: SimulationRequest
@@ -75,13 +69,7 @@ class CostMeasurement:
         self._complete: tuple[object, CompleteSimulation] | None = None
 
     def __call__(self, request: SimulationRequest, report: Report) -> None:
-        """Measure the effects' costs, then the points of a study, and report each.
-
-        Raises
-        ------
-        ProjectionError
-            The scene has no picture.
-        """
+        """Measure the effects' costs, then the points of a study, and report each."""
         timer = _CancellableTimer(report)
         complete = self._complete_of(request, timer)
         chosen = plan_with(request.scene, request.settings)

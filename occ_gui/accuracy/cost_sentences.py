@@ -10,17 +10,7 @@ from occ_model.results.plan import Decision
 
 
 def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | None) -> str:
-    """Say what the picture takes and how exact it is.
-
-    Parameters
-    ----------
-    costs
-        Its times, and what has been measured of the scene.
-    made
-        The seconds that it took when it was made.
-    expected
-        The forecast for the same effects, None where there is none yet.
-    """
+    """Say what the picture takes and how exact it is."""
     now, then = milliseconds(costs.picture.seconds), milliseconds(made)
     time = f"This picture: {now} ms"
     if costs.is_comparable and now != then:
@@ -32,11 +22,6 @@ def ends_sentence(costs: MeasuredCosts) -> str:
     """Say what other ends of the slider take: no effects, and all.
 
     It is empty until they are measured, in turn with the picture.
-
-    Parameters
-    ----------
-    costs
-        What has been measured of the scene.
     """
     if not costs.is_comparable:
         return ""
@@ -54,15 +39,7 @@ def ends_sentence(costs: MeasuredCosts) -> str:
 
 
 def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> str:
-    """Say what the next picture will take, how exact it will be, and what is switched.
-
-    Parameters
-    ----------
-    frame, times
-        The picture that is shown, and its times.
-    expected
-        The forecast.
-    """
+    """Say what the next picture will take, how exact it will be, and what is switched."""
     before, after = set(frame.plan.included), set(expected.plan.included)
     now = milliseconds(times.seconds)
     if expected.seconds is None:

@@ -41,15 +41,7 @@ def image_of(pixels: ByteArray) -> QImage:
 
 
 class PictureCell(QStyledItemDelegate):
-    """Draws the small pictures of an effect, with it and without it.
-
-    Parameters
-    ----------
-    rows
-        Returns the contents of all rows.
-    parent
-        The parent.
-    """
+    """Draws the small pictures of an effect, with it and without it."""
 
     def __init__(self, rows: Rows, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -83,15 +75,7 @@ def _fitted(area: QRect, image: QImage) -> QRect:
 
 
 class TimeCell(QStyledItemDelegate):
-    """Draws a time as a bar, hollow where the effect is left out, and the number beside it.
-
-    Parameters
-    ----------
-    rows
-        Returns the contents of all rows.
-    parent
-        The parent.
-    """
+    """Draws a time as a bar, hollow where the effect is left out, and the number beside it."""
 
     def __init__(self, rows: Rows, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -156,15 +140,6 @@ class ErrorCell(QStyledItemDelegate):
 
     A dot is what was measured; a whisker goes from it to what the plan estimates. The tolerance is
     a line through all rows; those beyond it have a colour.
-
-    Parameters
-    ----------
-    rows
-        Returns the contents of all rows.
-    tolerance
-        Returns the tolerance.
-    parent
-        The parent.
     """
 
     def __init__(

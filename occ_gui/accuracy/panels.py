@@ -24,10 +24,6 @@ class Panel:
 
     Parameters
     ----------
-    title
-        Its title, for a tab.
-    widget
-        The panel.
     width
         The width in pixels that it needs beside others.
     weight
@@ -41,15 +37,7 @@ class Panel:
 
 
 class Panels(QWidget):
-    """Three panels: the main one, and two that share the remaining space or take turns in it.
-
-    Parameters
-    ----------
-    main, second, third
-        The panels, the most important first.
-    parent
-        The parent widget.
-    """
+    """Three panels: the main one, and two that share the remaining space or take turns in it."""
 
     def __init__(
         self, main: Panel, second: Panel, third: Panel, parent: QWidget | None = None

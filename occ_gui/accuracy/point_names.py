@@ -42,15 +42,7 @@ _LEAST_LEADER = 14.0
 
 @dataclass(frozen=True, slots=True)
 class NamedPoint:
-    """A point of a plot.
-
-    Parameters
-    ----------
-    x, y
-        Its place in the plot's own units.
-    name
-        What stands beside it.
-    """
+    """A point of a plot."""
 
     x: float
     y: float
@@ -62,11 +54,6 @@ class PointNames:
 
     Where there is no room beside a point, its name stands apart, and a line leads to it. A name for
     which there is no room at all is left out.
-
-    Parameters
-    ----------
-    plot
-        The plot.
     """
 
     def __init__(self, plot: pg.PlotWidget) -> None:
@@ -143,15 +130,7 @@ class PointNames:
 
 
 class _FreePlaces:
-    """The places of a plot at which no point and no name stands yet.
-
-    Parameters
-    ----------
-    area
-        The plot.
-    points
-        Its points.
-    """
+    """The places of a plot at which no point and no name stands yet."""
 
     def __init__(self, area: QRectF, points: Sequence[QPointF]) -> None:
         self._area = _ends([area])[0]

@@ -27,8 +27,6 @@ def arranged(
 
     Parameters
     ----------
-    rows
-        The rows as light travels, everything else last, where it stays.
     order
         What to sort by. Rows without a value come last.
     present
@@ -65,8 +63,6 @@ def slowest_of(rows: Sequence[EffectRow], before: str = "") -> str:
 
     Parameters
     ----------
-    rows
-        The rows.
     before
         The effect that took most time so far: it still does where another takes about as much.
     """

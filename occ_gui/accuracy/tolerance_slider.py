@@ -125,13 +125,7 @@ class ToleranceSlider(QWidget):
 
 
 def marks_of(ways: Sequence[Way]) -> tuple[float, ...]:
-    """Return the tolerances from which plans hold that neither end of the slider has.
-
-    Parameters
-    ----------
-    ways
-        What the plan chooses among, the fastest first.
-    """
+    """Return the tolerances from which plans hold that neither end of the slider has."""
     errors = (way.error for way in ways[1:] if 0.0 < way.error < math.inf)
     return tuple(error for error in errors if error > TOLERANCE.at(0.0))
 

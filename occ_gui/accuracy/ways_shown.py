@@ -11,15 +11,7 @@ _EVERY = 4
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A way to compute that is shown as a point.
-
-    Parameters
-    ----------
-    point
-        What was measured.
-    name
-        Its name in the plot.
-    """
+    """A way to compute that is shown as a point."""
 
     point: AccuracyPoint
     name: str

@@ -77,13 +77,7 @@ class Parts(Protocol):
 
 
 class Desktop(QObject):
-    """The controllers of the desktop features, connected with the menus.
-
-    Parameters
-    ----------
-    parts
-        The application's parts.
-    """
+    """The controllers of the desktop features, connected with the menus."""
 
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
@@ -235,19 +229,7 @@ class Desktop(QObject):
         )
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
-        """Restore the last session before the window is shown, and store this one.
-
-        Parameters
-        ----------
-        file
-            The file of this window's session, which also contains that of a crash.
-        session
-            The last session; its scene and settings are in the stores already.
-        scene_wins
-            Whether the command line names the scene.
-        fresh
-            Whether the window is to look as at its first start.
-        """
+        """Restore the last session before the window is shown, and store this one."""
         preferences = self._parts.preferences
         if not fresh:
             self.layout.restore()

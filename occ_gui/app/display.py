@@ -57,13 +57,7 @@ def unlisted_library(names: tuple[str, ...]) -> str | None:
 
 
 def first_place(screen: QRect) -> QRect:
-    """Return where the first window opens: in the middle, or over all of a small screen.
-
-    Parameters
-    ----------
-    screen
-        The part of the screen that is free for windows.
-    """
+    """Return where the first window opens: in the middle, or over all of a small screen."""
     wanted = (screen.size() * _SHARE).boundedTo(_LARGEST)
     if wanted != wanted.expandedTo(_LEAST):
         return screen
@@ -73,15 +67,7 @@ def first_place(screen: QRect) -> QRect:
 
 
 def open_first(window: QWidget, screen: QRect) -> None:
-    """Give a window its first place; one that takes the whole screen is maximized.
-
-    Parameters
-    ----------
-    window
-        Not shown yet.
-    screen
-        The part of the screen that is free for windows.
-    """
+    """Give a window its first place; one that takes the whole screen is maximized."""
     place = first_place(screen)
     window.setGeometry(place)
     if place == screen:  # its frame too must fit

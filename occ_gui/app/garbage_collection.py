@@ -34,13 +34,7 @@ def give_memory_back() -> None:
 
 
 class GarbageCollector(QObject):
-    """Collects by Python's own thresholds, on this thread and at regular intervals.
-
-    Parameters
-    ----------
-    parent
-        The owner, which exists as long as the window.
-    """
+    """Collects by Python's own thresholds, on this thread and at regular intervals."""
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)

@@ -32,13 +32,6 @@ def report_text(scene: Scene, settings: SimulationSettings, messages: Iterable[s
     """Return the report.
 
     The user's own folder is written as ``~`` in it; a message may still name a file.
-
-    Parameters
-    ----------
-    scene, settings
-        What is shown.
-    messages
-        What was logged last, the oldest first.
     """
     screen = QGuiApplication.primaryScreen()
     home = str(Path.home())

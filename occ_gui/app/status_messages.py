@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject
 
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.window.main_window import MainWindow
 from occ_model.scene.parameters import PARAMETERS
 
@@ -21,13 +20,6 @@ class StatusMessages(QObject):
     """Shows messages in the status line of a window until the event that makes them obsolete.
 
     A refused value's is shown at its field, too.
-
-    Parameters
-    ----------
-    window
-        The window.
-    controls
-        The fields of the scene.
     """
 
     def __init__(self, window: MainWindow, controls: ControlPanel) -> None:
@@ -43,19 +35,19 @@ class StatusMessages(QObject):
 
     def show_refusal(self, sentence: str) -> None:
         """Show why an input is not valid, until the next change of scene or settings."""
-        self._window.say(refusal_of(sentence), until=_CHANGE)
+        self._window.say(sentence, until=_CHANGE)
 
     def show_note(self, sentence: str) -> None:
         """Show what the user should know of the present scene, until it changes."""
-        self._window.say(with_labels(sentence), until=_CHANGE)
+        self._window.say(sentence, until=_CHANGE)
 
     def show_refusal_for(self, sentence: str, parameters: Sequence[str]) -> None:
         """Show at the fields of parameters why their values were refused, until as above."""
-        self._controls.show_refusal(sentence, parameters)
+        self._controls.show_problem(sentence, parameters)
 
     def show_failure(self, sentence: str, parameters: Sequence[str] = ()) -> None:
         """Show why a scene has no picture, also at the fields it is about, until the next one."""
-        self._window.say(with_labels(sentence), until=_PICTURE)
+        self._window.say(sentence, until=_PICTURE)
         self._controls.end_refusals(self._failing)
         self._failing = tuple(parameters)
         self._controls.show_problem(sentence, parameters)

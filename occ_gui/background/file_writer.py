@@ -18,8 +18,6 @@ class FileWriter(QObject, Generic[Request]):
     ----------
     write
         Writes what a request asks for and returns the file; what is given up leaves nothing.
-    name
-        What it does, for the thread's name and the log.
     """
 
     status_message = Signal(str)

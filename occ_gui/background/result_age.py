@@ -16,13 +16,7 @@ _REMEMBERED_REQUESTS = 64
 
 
 class ResultAges(Generic[Request]):
-    """The present request, and when each of the former ones ceased to be it.
-
-    Parameters
-    ----------
-    clock
-        Returns the time in seconds.
-    """
+    """The present request, and when each of the former ones ceased to be it."""
 
     def __init__(self, request: Request, clock: Callable[[], float] = monotonic) -> None:
         self.present = request

@@ -93,13 +93,7 @@ class JobChannel(QObject):
 
 
 class WorkQueue(QObject):
-    """Channels of work and the scheduler that shares workers among them.
-
-    Parameters
-    ----------
-    start
-        Starts the workers: called off the window's thread, at the first job.
-    """
+    """Channels of work and the scheduler that shares workers among them."""
 
     _results_ready = Signal(int, int, list)
     _ended = Signal(int, int, str)

@@ -14,13 +14,7 @@ _left: list[QThread] = []
 
 
 class WorkerThread:
-    """A thread for one worker: much that could be worked on never is, and needs no thread.
-
-    Parameters
-    ----------
-    worker
-        What works on the thread, in slots that are called by queued signals.
-    """
+    """A thread for one worker: much that could be worked on never is, and needs no thread."""
 
     _waited_ms = 0
 

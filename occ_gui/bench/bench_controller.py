@@ -47,13 +47,7 @@ class BenchPane(Protocol):
 
 
 class BenchController(QObject):
-    """Connects the stores, the job channel and the pane.
-
-    Parameters
-    ----------
-    scenes, frame_rate
-        Whose code is measured, and the pictures a second.
-    """
+    """Connects the stores, the job channel and the pane."""
 
     def __init__(
         self, scenes: SceneStore, frame_rate: FrameRate, channel: JobChannel, pane: BenchPane

@@ -18,13 +18,6 @@ def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
     scene
         Its scheme, number of bits, switching frequency, readout time and the columns of its
         panel are used, where its own code is measured.
-
-    Raises
-    ------
-    ParameterError
-        The scene sends a raw pattern, or its picture shows no panel.
-    ProjectionError
-        Part of the panel is behind the camera.
     """
     request = BenchRequest(decoders=choice.decoders, bits=choice.bits)
     if choice.whose == PUBLISHED:

@@ -13,13 +13,7 @@ FIRST_DECODERS = ("threshold", "equalizer", "sequence")
 
 
 class BenchPane(Pane[None]):
-    """The view and its controller, connected; a measurement goes on while the pane is hidden.
-
-    Parameters
-    ----------
-    scenes, frame_rate
-        Whose code is measured, and the pictures a second.
-    """
+    """The view and its controller, connected; a measurement goes on while the pane is hidden."""
 
     def __init__(self, scenes: SceneStore, frame_rate: FrameRate, channel: JobChannel) -> None:
         view = BenchView(decoders(), FIRST_DECODERS)

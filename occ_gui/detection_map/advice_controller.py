@@ -39,17 +39,7 @@ before further images of them."""
 
 @dataclass(frozen=True, slots=True)
 class AdviceRequest:
-    """What the advice depends on.
-
-    Parameters
-    ----------
-    scene
-        The scene.
-    settings
-        How the window simulates.
-    with_image_effects
-        Whether rows of the picture are simulated where the scene calls for them.
-    """
+    """What the advice depends on."""
 
     scene: Scene
     settings: SimulationSettings
@@ -89,25 +79,13 @@ class AdvicePane(Protocol):
 
         Parameters
         ----------
-        outdated
-            Whether it is.
         reachable
             The parameters whose limits hold all the same: only they were changed.
         """
 
 
 class AdvisorController(QObject):
-    """Connects the stores, the job channel and the pane.
-
-    Parameters
-    ----------
-    scenes, settings
-        The scene that is searched, and how it is simulated.
-    queue, channel
-        Do the work.
-    pane
-        Shows the limits.
-    """
+    """Connects the stores, the job channel and the pane."""
 
     went = Signal(str)
     """The scene was set to a limit; the decoder that reads there."""

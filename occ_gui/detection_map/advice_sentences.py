@@ -21,12 +21,8 @@ class AdviceLine:
 
     Parameters
     ----------
-    text
-        The sentences.
     destination
         The change that its button makes: a parameter, its value in SI units, and as text.
-    is_title
-        Whether it is the title of the lines that follow.
     is_common
         Whether it is the same for every decoder of a scene.
     """

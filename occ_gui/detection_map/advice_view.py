@@ -23,15 +23,7 @@ _LEAST = QSize(200, 60)
 
 
 class AdviceView(QWidget):
-    """Sentences on the highest frequency and the working exposures of each decoder.
-
-    Parameters
-    ----------
-    decoders
-        The decoders' names.
-    parent
-        The parent widget.
-    """
+    """Sentences on the highest frequency and the working exposures of each decoder."""
 
     asked = Signal()
     """The user asks for advice on the current scene."""
@@ -138,15 +130,7 @@ class AdviceView(QWidget):
         self._show_running(False)
 
     def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
-        """Show whether the scene has changed since the advice was given.
-
-        Parameters
-        ----------
-        outdated
-            Whether it has.
-        reachable
-            The parameters whose limits hold all the same: only they were changed.
-        """
+        """Show whether the scene has changed since the advice was given."""
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self._lines:
             return

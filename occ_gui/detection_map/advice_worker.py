@@ -13,13 +13,7 @@ from occ_model.study.most_bits import most_bits
 def advise(
     scene: Scene, settings: RateSettings, decoder: str, rate: float, heartbeat: Heartbeat
 ) -> Advice:
-    """Find the limits of a decoder's working range, with those that theory gives.
-
-    Raises
-    ------
-    OccError
-        The scene has no picture, or its path is refused.
-    """
+    """Find the limits of a decoder's working range, with those that theory gives."""
     found = limits(
         scene, decoder, rate=rate, images=settings.images, seed=settings.seed,
         tolerance=settings.tolerance, force=settings.force, path=settings.path, heartbeat=heartbeat,
@@ -30,13 +24,7 @@ def advise(
 def carry_most(
     scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
 ) -> MostBits:
-    """Find which code, frequency and number of bits carry most with a decoder.
-
-    Raises
-    ------
-    OccError
-        The scene has no picture.
-    """
+    """Find which code, frequency and number of bits carry most with a decoder."""
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     frames = min(frames_a_second, most)
     (found,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)

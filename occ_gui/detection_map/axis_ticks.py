@@ -39,15 +39,7 @@ def axis_title(quantity: Quantity, short: bool = False) -> str:
 
 
 def ticks(quantity: Quantity, most: int) -> list[Tick]:
-    """Return ticks at round values over the slider's range.
-
-    Parameters
-    ----------
-    quantity
-        The declaration of the parameter.
-    most
-        Largest number of ticks.
-    """
+    """Return ticks at round values over the slider's range."""
     factor = axis_unit(quantity)[1]
     values = _log_values if quantity.scale == "log" else _linear_values
     low, high = (end / factor for end in quantity.slider)

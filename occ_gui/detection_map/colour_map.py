@@ -35,10 +35,6 @@ def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteAr
     ----------
     values : ndarray of float64, shape (points along x, points along y)
         Not-a-number becomes transparent.
-    low, high
-        The values at both ends of the colour map.
-    name
-        The colour map.
 
     Returns
     -------
@@ -85,8 +81,6 @@ class ColourBar(QWidget):
             One pixel wide, the upper end first.
         numbers
             Positions from 0, at the bottom, to 1, and the text at each.
-        name
-            What it shows: its accessible name and tooltip.
         """
         self._colours, self._numbers = colours, numbers
         self.setAccessibleName(name)

@@ -31,15 +31,7 @@ _MOST_IN_A_ROW, _LEAST_OF_TWO_ROWS = 2, 360
 
 
 class MapPlots(QWidget):
-    """The maps of the decoders, or of their difference.
-
-    Parameters
-    ----------
-    decoders
-        The decoders' names.
-    parent
-        The parent widget.
-    """
+    """The maps of the decoders, or of their difference."""
 
     picked = Signal(object)
     """The point that the user chose, by its indices along both axes."""

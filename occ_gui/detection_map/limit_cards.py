@@ -23,15 +23,7 @@ _REST_MS = 800
 
 
 class LimitCards(QWidget):
-    """A card for each decoder; while they are seen, the limits of a new scene are asked for.
-
-    Parameters
-    ----------
-    decoders
-        The decoders' names.
-    parent
-        The parent widget.
-    """
+    """A card for each decoder; while they are seen, the limits of a new scene are asked for."""
 
     asked = Signal()
     """The limits of the present scene are wanted."""
@@ -121,15 +113,7 @@ class LimitCards(QWidget):
 
 
 class LimitCard(QFrame):
-    """The frequencies that a decoder reads.
-
-    Parameters
-    ----------
-    decoder
-        Its name.
-    parent
-        The parent widget.
-    """
+    """The frequencies that a decoder reads."""
 
     chosen = Signal(float, str)
     """The user goes to the frequency, in hertz, at which the decoder read every bit."""
@@ -206,10 +190,6 @@ class LimitCard(QFrame):
 
         Parameters
         ----------
-        end
-            The end.
-        text
-            What it is, as in the advice.
         rate
             The success rate, in percent, from which on a decoder counts as reading.
         """

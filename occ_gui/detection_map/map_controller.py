@@ -69,10 +69,6 @@ class MapRequest:
     ----------
     scene
         The scene, with everything that the map does not depend on at its default.
-    x, y
-        The parameters that it is over.
-    settings
-        How the window simulates.
     with_image_effects
         Whether rows of the picture are simulated where the scene calls for them.
     """
@@ -101,19 +97,7 @@ class MapRequest:
 
 
 class DetectionMapController(QObject):
-    """Connects the stores, the job channel and the pane.
-
-    Parameters
-    ----------
-    scenes, settings
-        What is measured, and what a click changes.
-    channel
-        Does the work.
-    pane
-        Shows the map; nothing is measured before :meth:`set_seen`.
-    frame_rate
-        The pictures a second.
-    """
+    """Connects the stores, the job channel and the pane."""
 
     def __init__(
         self,

@@ -38,23 +38,7 @@ def map_request(
     images: int = IMAGES[0],
     with_image_effects: bool = True,
 ) -> SweepRequest:
-    """Make the request for a map's sweep.
-
-    Parameters
-    ----------
-    scene
-        The scene; parameters that the map does not depend on may have any value.
-    x, y
-        The parameters that the map is over.
-    settings
-        How the window simulates.
-    decoders
-        The decoders.
-    images
-        Images a point.
-    with_image_effects
-        Whether rows of the picture are simulated where the scene calls for them.
-    """
+    """Make the request for a map's sweep."""
     axes = {x: lattice(x, SHAPE[0]), y: lattice(y, SHAPE[1])}
     measured = rate_settings(settings, images, decoders, with_image_effects)
     return SweepRequest(scene, axes, measured)
@@ -67,14 +51,8 @@ def map_stages(
 
     Parameters
     ----------
-    requests
-        The same map with an increasing number of images a point.
     images : ndarray of int64, shape (points along x, points along y)
         Images that were read at each point already.
-    with_theory
-        Whether the limits of theory are computed, too.
-    slow
-        Whether points take long.
     """
     first, *others = requests
     order = list(first.in_order_of_work())

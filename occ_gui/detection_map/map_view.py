@@ -33,17 +33,7 @@ _LEAST_WITH_CARDS = 480
 
 
 class MapView(QWidget):
-    """The map with its choices, and a second page with the advice.
-
-    Parameters
-    ----------
-    decoders
-        The decoders that the map measures.
-    advised
-        The decoders whose limits are searched; by default the map's.
-    parent
-        The parent widget.
-    """
+    """The map with its choices, and a second page with the advice."""
 
     axes_chosen = Signal(str, str)
     """The parameters that the user chose for the axes, x and y."""

@@ -11,13 +11,7 @@ _DIGITS = 3
 
 
 class MostBitsCard(QFrame):
-    """One line: the best that was found, a button to search or cancel, and one to go there.
-
-    Parameters
-    ----------
-    parent
-        The parent widget.
-    """
+    """One line: the best that was found, a button to search or cancel, and one to go there."""
 
     asked = Signal()
     """The user asks for the search."""

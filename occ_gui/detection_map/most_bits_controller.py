@@ -28,15 +28,7 @@ _LOOK_MS = 200
 
 @dataclass(frozen=True, slots=True)
 class MostBitsRequest:
-    """What the search depends on.
-
-    Parameters
-    ----------
-    scene
-        The scene without what the search chooses.
-    frames_a_second
-        Pictures a second.
-    """
+    """What the search depends on."""
 
     scene: Scene
     frames_a_second: float
@@ -68,17 +60,7 @@ class MostBitsPane(Protocol):
 
 
 class MostBitsController(QObject):
-    """Connects the scene, the job channel and the pane.
-
-    Parameters
-    ----------
-    scenes, frame_rate
-        What is searched for.
-    queue, channel
-        Do the work.
-    pane
-        Shows it.
-    """
+    """Connects the scene, the job channel and the pane."""
 
     went = Signal(str)
     """The scene has become what carries most; the decoder that reads it."""

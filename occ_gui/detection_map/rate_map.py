@@ -81,14 +81,6 @@ class PointFacts:
         of its rate, percent.
     sent
         Bits sent; 0 if nothing is known.
-    images
-        Images in which they were sent.
-    note
-        Why the model refuses the point, empty if it does not.
-    whole
-        Images of which each decoder read every bit.
-    most_bits
-        Bits a second if all were read.
     """
 
     x: float
@@ -107,12 +99,6 @@ class RateMap:
 
     Parameters
     ----------
-    x, y
-        The parameters' names.
-    x_values, y_values
-        The lattice, in SI units.
-    decoders
-        The decoders' names.
     picture_times : ndarray of float64, shape (points along x, points along y), or float
         Time in seconds in which a picture is read out: no more of them come in a second.
     """

@@ -24,17 +24,7 @@ _AT_HANDLE = 3
 
 
 class SliderStrip(QWidget):
-    """A thin bar as long as the handle's travel; grey where no rate is known.
-
-    Parameters
-    ----------
-    slider
-        The slider that it lies behind.
-    label
-        The name of the slider's parameter.
-    parent
-        The parent widget.
-    """
+    """A thin bar as long as the handle's travel; grey where no rate is known."""
 
     def __init__(self, slider: QSlider, label: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -152,15 +142,7 @@ class SliderStrip(QWidget):
 
 
 class SliderStrips(QObject):
-    """The strips behind the main sliders.
-
-    Parameters
-    ----------
-    rows
-        The sliders' rows, by the names of their parameters.
-    parent
-        The parent.
-    """
+    """The strips behind the main sliders."""
 
     seen = Signal(bool)
     """Whether the strips have become visible or hidden."""

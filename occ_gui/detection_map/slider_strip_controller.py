@@ -43,8 +43,6 @@ def strip_stages(
 
     Parameters
     ----------
-    missing
-        For each slider its request and the positions that are not known.
     present
         The request for the scene. Where its points take long, each is a job that a newer request
         ends; that is found out when the work begins, and holds up no slider.
@@ -80,17 +78,6 @@ class SliderStripController(RestingController):
 
     The strip under a slider does not change while that slider is moved. The others are measured
     once it rests: until then the cores are free for the picture that follows the slider.
-
-    Parameters
-    ----------
-    scenes, settings
-        What is measured.
-    channel
-        Does the work.
-    pane
-        Shows the strips; nothing is measured before :meth:`set_seen`.
-    names
-        The sliders.
     """
 
     def __init__(

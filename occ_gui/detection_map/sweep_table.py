@@ -16,17 +16,7 @@ from occ_model.study.sweep.counts import rate_intervals
 def table_of(
     rates: RateMap, asked: MapRequest, frames_a_second: float = FRAMES_A_SECOND
 ) -> SweepTable:
-    """Return a complete map as a table; later points do not change it.
-
-    Parameters
-    ----------
-    rates
-        The map.
-    asked
-        The request that it was measured for.
-    frames_a_second
-        Pictures a second.
-    """
+    """Return a complete map as a table; later points do not change it."""
     request = map_request(
         asked.scene, asked.x, asked.y, asked.settings, rates.decoders,
         images=rates.least_images, with_image_effects=asked.with_image_effects,

@@ -39,15 +39,7 @@ PRELOAD = __name__
 
 @dataclass(frozen=True, slots=True)
 class Along:
-    """Points that were measured along one slider.
-
-    Parameters
-    ----------
-    name
-        The slider's parameter.
-    points
-        The positions, by their number.
-    """
+    """Points that were measured along one slider."""
 
     name: str
     points: tuple[SweepPoint, ...]
@@ -60,12 +52,6 @@ def rate_settings(
 
     Parameters
     ----------
-    settings
-        How the window simulates.
-    images
-        Images a point.
-    decoders
-        The decoders that read them.
     with_image_effects
         Whether rows of the picture are simulated where the scene calls for them; otherwise what
         needs them is left out, or refused where it cannot be.

@@ -17,13 +17,7 @@ _NAME = re.compile(re.escape(_PREFIX) + r"[a-z0-9_]{8}")
 
 @contextmanager
 def folder_aside(folder: Path) -> Iterator[Path]:
-    """Create a temporary folder in a folder, with a lock file beside it while it exists.
-
-    Raises
-    ------
-    OSError
-        It cannot be created.
-    """
+    """Create a temporary folder in a folder, with a lock file beside it while it exists."""
     aside = folder / f"{_PREFIX}{token_hex(4)}"
     lock = _lock_of(aside)
     is_locked = lock.tryLock(0)  # before the folder exists, which another process could remove

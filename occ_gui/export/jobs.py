@@ -21,15 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FigureRequest:
-    """What a figure is drawn from, as it was when the figure was asked for.
-
-    Parameters
-    ----------
-    scene, settings
-        What it shows, for its provenance.
-    draw
-        Makes the drawing.
-    """
+    """What a figure is drawn from, as it was when the figure was asked for."""
 
     scene: Scene
     settings: SimulationSettings
@@ -72,13 +64,7 @@ class Exported:
 
 
 def export(job: ExportJob) -> Exported:
-    """Write figures; what cannot be written complete is not there at all.
-
-    Raises
-    ------
-    OutputError
-        The ending names no format, or there is no writing there.
-    """
+    """Write figures; what cannot be written complete is not there at all."""
     if job.folder is not None:
         return Exported(job, _write_all(job.folder, job.requests))
     (request,) = job.requests
@@ -93,13 +79,7 @@ def export(job: ExportJob) -> Exported:
 
 
 def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
-    """Write a folder's figures beside their places first: a disk that is full half-way leaves none.
-
-    Raises
-    ------
-    OutputError
-        A figure cannot be written.
-    """
+    """Write a folder's figures beside their places first: a full disk leaves none."""
     from occ_model.figures.drawing import files_of, write_all
 
     is_new = not folder.exists()

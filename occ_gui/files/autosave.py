@@ -53,17 +53,7 @@ class Autosave(QObject):
         return self._file is not None
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool) -> None:
-        """Restore a session, and write this window's to a file from now on.
-
-        Parameters
-        ----------
-        file
-            The window's file, which also contains the session of a window that crashed.
-        session
-            The session; its scene and settings are in the stores already, if they are wanted.
-        scene_wins
-            Whether the store's scene was asked for and is to stay, even after a crash.
-        """
+        """Restore a session, and write this window's to a file from now on."""
         self._file = file
         asked = self._store.scene
         if not scene_wins and session.scene_file is not None:

@@ -35,13 +35,7 @@ class Document(QObject):
             self._files.save_scene(self.path)
 
     def resume(self, path: Path, saved: Scene | None) -> None:
-        """Continue with the scene file of the last session.
-
-        Parameters
-        ----------
-        saved
-            The scene in it; None where it cannot be read.
-        """
+        """Continue with the scene file of the last session."""
         self.path, self._saved = path, saved
         self._show_title()
 

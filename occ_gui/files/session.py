@@ -88,13 +88,7 @@ class SessionFile:
                 path.replace(path.with_suffix(".unreadable"))
 
     def write(self, session: Session, in_use: bool) -> None:
-        """Write the session.
-
-        Raises
-        ------
-        OutputError
-            There is no file for this window, or it cannot be written.
-        """
+        """Write the session."""
         if self._path is None:
             raise OutputError(f"there is no free session file in {self._folder}.")
         record = {

@@ -27,13 +27,7 @@ _FILE = Qt.ItemDataRole.UserRole
 
 
 class HelpWindow(QMainWindow):
-    """Shows the pages of the manual.
-
-    Raises
-    ------
-    OSError
-        The table of contents cannot be read.
-    """
+    """Shows the pages of the manual."""
 
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)

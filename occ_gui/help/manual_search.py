@@ -23,13 +23,7 @@ class Section:
 
 
 def sections(folder: Path) -> list[Section]:
-    """Read the sections of all pages but the table of contents, in its order.
-
-    Raises
-    ------
-    OSError
-        A page cannot be read.
-    """
+    """Read the sections of all pages but the table of contents, in its order."""
     found = []
     for title, name in pages(folder)[1:]:
         parts = _parts((folder / name).read_text(encoding="utf-8"))

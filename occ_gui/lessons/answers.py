@@ -13,15 +13,7 @@ from occ_model.teaching.answers import check_answer
 
 @dataclass(frozen=True, slots=True)
 class MatchedPhoto:
-    """The photo that is open, with its match.
-
-    Parameters
-    ----------
-    name
-        Its file's name, empty where none is open.
-    match
-        The match, None where there is none.
-    """
+    """The photo that is open, with its match."""
 
     name: str = ""
     match: Match | None = None

@@ -1,7 +1,7 @@
 """Says that the student has changed a step's scene, so that the text's numbers are not its."""
 
-from occ_gui.scene.wording import distinguished
 from occ_model.results.lessons import Step
+from occ_model.scene.parameter_kinds import distinguished
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 
@@ -10,13 +10,6 @@ _MOST_NAMED = 2
 
 def changed_sentence(step: Step, scene: Scene) -> str:
     """Say what differs from the step's scene, and what is about which.
-
-    Parameters
-    ----------
-    step
-        The step under way.
-    scene
-        The scene that is shown.
 
     Returns
     -------

@@ -66,17 +66,7 @@ class EndPage(QWidget):
     def show_answers(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
     ) -> None:
-        """Show the answers to the steps of a lesson, None where there is none, and what follows.
-
-        Parameters
-        ----------
-        lesson
-            The lesson that is done.
-        answers
-            The answers to its steps.
-        following
-            The title of the lesson that follows in the list; empty after the last one.
-        """
+        """Show the answers to the steps of a lesson, None where there is none, and what follows."""
         self.next.setText(f"Next lesson: {following}")
         self.next.setVisible(bool(following))
         self.title.setText(f"Done: {lesson.title}")

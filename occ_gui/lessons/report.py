@@ -26,15 +26,7 @@ class _Job:
 
 
 class LessonReports(QObject):
-    """Writes the reports of lessons.
-
-    Parameters
-    ----------
-    window
-        The parent of the dialogs.
-    preferences
-        Stores the folder and the student's name.
-    """
+    """Writes the reports of lessons."""
 
     status_message = Signal(str)
     """The outcome."""

@@ -11,10 +11,6 @@ def is_certain(name: str, value: float, certain: Mapping[str, float]) -> bool:
 
     Parameters
     ----------
-    name
-        The parameter that was taken as known.
-    value
-        Its value in SI units.
     certain
         The values that the user has confirmed, in SI units by name.
     """
@@ -43,8 +39,6 @@ def condition(name: str, value: float, certain: Mapping[str, float], chips: int)
 
     Parameters
     ----------
-    name, value, certain
-        As for :func:`is_certain`.
     chips
         Chips of a period: a lamp that only blinks is known by its cycles.
     """

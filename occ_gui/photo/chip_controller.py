@@ -42,13 +42,7 @@ def read(request: Request) -> ReadPhoto:
 
 
 class ChipController(QObject):
-    """Reads the chips of each photo that is opened, and of each part of it that is chosen.
-
-    Parameters
-    ----------
-    pane
-        The pane that shows them.
-    """
+    """Reads the chips of each photo that is opened, and of each part of it that is chosen."""
 
     def __init__(self, pane: ChipPane) -> None:
         super().__init__()

@@ -18,8 +18,6 @@ class KeptRegion:
 
     Parameters
     ----------
-    lamps
-        The lamps.
     chosen
         The place of the lamp that is matched; None where none is chosen.
     by_hand
@@ -37,8 +35,6 @@ class KeptMatch:
 
     Parameters
     ----------
-    match
-        The match.
     region
         What of the photo was matched; None for all of it.
     """
@@ -53,10 +49,6 @@ class KeptPhoto:
 
     Parameters
     ----------
-    photo, reading
-        The photo, and how it was read.
-    region, match
-        What of it is matched, and what was found; None before a match.
     given
         The value in SI units of the known parameter in the scene when the match was made.
     choice, certain

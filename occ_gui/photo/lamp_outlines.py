@@ -48,13 +48,7 @@ class _DrawingArea(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has no
 
 
 class LampOutlines(QObject):
-    """Draws on the view of a photo, whose first pixel's centre is at (0, 0).
-
-    Parameters
-    ----------
-    box
-        The view.
-    """
+    """Draws on the view of a photo, whose first pixel's centre is at (0, 0)."""
 
     clicked = Signal(int)
     """The user clicked the lamp of this index."""

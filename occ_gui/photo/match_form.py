@@ -124,7 +124,7 @@ class MatchForm(QWidget):
         self.notices: dict[QuantityEdit, RefusalNotice] = {}
         for field in (self.square, *self.known.values()):
             notice = self.notices[field] = RefusalNotice(field)
-            field.refused.connect(notice.show_refusal)
+            field.refused.connect(notice.show_problem)
             field.refused.connect(self.refused)
             field.edited.connect(notice.end)
             field.edited.connect(self.mended)

@@ -99,12 +99,8 @@ class MatchResult(QWidget):
 
         Parameters
         ----------
-        match
-            The match.
         noted
             The exposure time in seconds that the camera noted, if it did.
-        turned
-            Whether the photo's columns are the file's lines.
         """
         self._match, self._noted, self._turned = match, noted, turned
         self._cure = None

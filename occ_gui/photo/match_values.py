@@ -109,8 +109,6 @@ class MatchValues(QWidget):
 
         Parameters
         ----------
-        match
-            The match.
         certain
             The known values, in SI units by name, that are confirmed and not only assumed.
         noted

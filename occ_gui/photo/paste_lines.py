@@ -49,8 +49,6 @@ class PasteLines(QWidget):
 
         Parameters
         ----------
-        lines
-            The lines.
         why_none
             In place of lines: a sentence that says why there are none. A line that is pasted
             elsewhere leaves behind what it rests on.

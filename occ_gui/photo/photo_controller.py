@@ -22,15 +22,7 @@ class PhotoPane(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class PhotoReading:
-    """Options of reading a photo.
-
-    Parameters
-    ----------
-    scan_axis
-        The axis of the file that the shutter scanned, one of SCAN_AXES.
-    channel
-        The channel of a coloured photo that is read, one of CHANNELS.
-    """
+    """Options of reading a photo."""
 
     scan_axis: str = SCAN_AXES[0]
     channel: str = CHANNELS[0]

@@ -54,13 +54,9 @@ class PhotoSteps(QWidget):
 
         Parameters
         ----------
-        has_photo
-            Whether a photo is open.
         match
             What its match is worth, ``"sure"`` or ``"doubtful"``; EARLIER if it answers another
             question than the present one; empty if there is none.
-        is_applied
-            Whether the scene is the matched one.
         """
         shown = (has_photo, match, is_applied)
         if shown == self._shown:  # at each change of the scene, and styles are slow to apply

@@ -108,7 +108,7 @@ class PlacementForm(QWidget):
         field.valueChanged.connect(self._emit_placement)
         keep_wheel_for_scrolling(field)
         notice = self.notices[field] = RefusalNotice(field)
-        field.refused.connect(notice.show_refusal)
+        field.refused.connect(notice.show_problem)
         field.refused.connect(self.refused)
         field.accepted.connect(notice.end)
         field.accepted.connect(self.mended)

@@ -50,8 +50,6 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
             The image; it is not copied.
         rect
             Where it lies, by default with its first pixel's centre at (0, 0).
-        halves
-            The image at a half of its size, a quarter and so on, if already computed.
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect

@@ -62,10 +62,6 @@ class PicturePane(QWidget):
 
         Parameters
         ----------
-        image : ndarray of uint8, shape (rows, columns)
-            The picture.
-        halves
-            The same at a half of its size, a quarter and so on, if already computed.
         rows_step
             Height of a row: more than 1 in a draft, which lies where the whole picture does.
         """

@@ -16,15 +16,7 @@ _MIDDLE_GREY = 128
 
 
 def draw_pixel_values(painter: QPainter, image: ByteArray, part: QRect, target: QRectF) -> int:
-    """Write the grey levels of some pixels into them, if they are large enough.
-
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The image.
-    part
-        The pixels in view.
-    """
+    """Write the grey levels of some pixels into them, if they are large enough."""
     to_screen = painter.worldTransform()
     place = to_screen.mapRect(target)
     width, height = place.width() / part.width(), place.height() / part.height()

@@ -12,12 +12,11 @@ from occ_gui.scene.forced_effects import forced_text
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.wording import distinguished
 from occ_gui.simulation.jobs import snapshot_of
 from occ_gui.simulation.snapshot import Pins, SimulationRequest, Snapshot
 from occ_model.errors import OccError, one_line
 from occ_model.results.decoding import DecodeResult
-from occ_model.scene.parameter_kinds import Parameter, ParameterValue
+from occ_model.scene.parameter_kinds import Parameter, ParameterValue, distinguished
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE

@@ -47,13 +47,7 @@ class ComparedRow:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pinned:
-    """The two states, and their differences if both are pinned.
-
-    Parameters
-    ----------
-    a, b
-        The states, None if not pinned.
-    """
+    """The two states, and their differences if both are pinned."""
 
     a: Pin | None = None
     b: Pin | None = None

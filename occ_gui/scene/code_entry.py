@@ -13,6 +13,7 @@ from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.scene.parameters import count, payload_parameter
 from occ_model.scene.payload import form_of
+from occ_model.scene.refusal import refusal_of
 from occ_model.scene.scene import Scene
 
 _MOST_DIGITS = 20
@@ -55,7 +56,7 @@ class CodeEntry(QWidget):
         leave_undo_to_window(self.bits)
         self.number.valueChanged.connect(self._enter)
         self.number.accepted.connect(self.end_refusal)
-        self.number.refused.connect(self.show_refusal)
+        self.number.refused.connect(self.show_problem)
         self.number.refused.connect(self.refused)
         self.bits.editingFinished.connect(self._read_bits)
         self.notices[1].dismissed.connect(self._write)
@@ -109,11 +110,8 @@ class CodeEntry(QWidget):
     def _written(self) -> str:
         return payload_parameter().format(self._payload) or f"{self._code:0{self._bits}b}"
 
-    def show_refusal(self, sentence: str) -> None:
-        """Show why a code was refused."""
-        self.notices[0].show_refusal(sentence)
-
     def show_problem(self, sentence: str) -> None:
+        """Show why a code was refused, or what is wrong with it."""
         self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:
@@ -142,7 +140,7 @@ class CodeEntry(QWidget):
     def _read_digits(self, text: str) -> None:
         if not re.fullmatch(f"[01]{{{self._bits}}}", text):
             sentence = (
-                f"The bits are {shown(text)}; allowed: {self._bits} characters 0 and 1. As a "
+                f"The bits cannot be {shown(text)}; allowed: {self._bits} characters 0 and 1. As a "
                 f"text: text:{one_line(text, _MOST_DIGITS)}."
             )
             self._refuse(sentence)
@@ -156,7 +154,7 @@ class CodeEntry(QWidget):
         try:
             payload = payload_parameter().parse(text)
         except ParameterError as error:
-            self._refuse(str(error))
+            self._refuse(refusal_of(error))
             return
         self.notices[0].end()
         changed = payload != self._payload
@@ -166,5 +164,5 @@ class CodeEntry(QWidget):
             self.edited.emit("payload", payload, self._gestures.of_change())
 
     def _refuse(self, sentence: str) -> None:
-        self.notices[1].show_refusal(sentence)
+        self.notices[1].show_problem(sentence)
         self.refused.emit(sentence)

@@ -181,13 +181,8 @@ class ControlPanel(QWidget):
         for panel in self.panels.values():
             panel.show_marks(name, marks)
 
-    def show_refusal(self, sentence: str, names: Iterable[str]) -> None:
-        """Show, at the fields of some parameters, why their values were refused."""
-        for field in self._fields_of(names):
-            field.show_refusal(sentence)
-
     def show_problem(self, sentence: str, names: Iterable[str]) -> None:
-        """Show, at the fields of some parameters, what is wrong with the present values."""
+        """Show, at the fields of some parameters, what is wrong with their values."""
         for field in self._fields_of(names):
             field.show_problem(sentence)
 
@@ -208,15 +203,7 @@ class ControlPanel(QWidget):
         return fields
 
     def show_preset(self, name: str | None, changed: str | None = None) -> None:
-        """Show which preset the scene equals, or which one it was before it was changed.
-
-        Parameters
-        ----------
-        name
-            The preset that it equals, None if there is none.
-        changed
-            In that case the preset that it was, None if it was none.
-        """
+        """Show which preset the scene equals, or which one it was before it was changed."""
         text = "Choose a preset"
         place = -1 if changed is None else self.preset.findData(changed)
         if place >= 0:

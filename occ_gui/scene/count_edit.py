@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QSpinBox, QWidget
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Count
+from occ_model.scene.refusal import refusal_of
 
 
 class CountEdit(QSpinBox):
@@ -45,7 +46,7 @@ class CountEdit(QSpinBox):
         try:
             value = self._declared.parse(text.strip())
         except ParameterError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(refusal_of(error))
             return self.value()
         self.accepted.emit()
         return value

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QDoubleSpinBox, QWidget
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.refusal import refusal_of
 
 
 class DecimalEdit(QDoubleSpinBox):
@@ -42,7 +43,7 @@ class DecimalEdit(QDoubleSpinBox):
             # Qt keeps its own unit behind one that is typed.
             value = self._declared.parse(text.removesuffix(self.suffix()))
         except ParameterError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(refusal_of(error))
             return self.value()
         self.accepted.emit()
         return value

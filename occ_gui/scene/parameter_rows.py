@@ -27,6 +27,7 @@ from occ_model.scene.parameter_kinds import (
     Payload,
     Quantity,
 )
+from occ_model.scene.refusal import refusal_of
 
 _SLIDER_STEPS = 1000
 
@@ -53,14 +54,10 @@ class ParameterRow(QWidget):
         super().__init__(parent)
         self.name = declaration.name
         self._gestures = Gestures()
-        self.refused.connect(self.show_refusal)
-
-    def show_refusal(self, sentence: str) -> None:
-        """Show why a value was refused."""
-        self.notice.show_refusal(sentence)
+        self.refused.connect(self.show_problem)
 
     def show_problem(self, sentence: str) -> None:
-        """Show what is wrong with the present value."""
+        """Show why a value was refused, or what is wrong with the present one."""
         self.notice.show_problem(sentence)
 
     def end_refusal(self) -> None:
@@ -286,7 +283,7 @@ class PatternRow(ParameterRow):
         try:
             value = self._declared.parse(self.field.text())
         except ParameterError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(refusal_of(error))
             return
         unchanged = value == self.value
         self.show_value(value)

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QAbstractSpinBox, QWidget
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.refusal import refusal_of
 
 _STEP = 0.01
 """Step of the arrows, as a fraction of the slider's range."""
@@ -65,7 +66,7 @@ class QuantityEdit(QAbstractSpinBox):
             value = self._quantity.parse(self.lineEdit().text(), plain)
         except ParameterError as error:
             self._show()
-            self.refused.emit(str(error))
+            self.refused.emit(refusal_of(error))
             return
         self.set_value(value)
         self.edited.emit(value)

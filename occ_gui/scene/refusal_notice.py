@@ -13,7 +13,6 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractScrollArea, QApplication, QDockWidget, QLabel, QWidget
 
-from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.guarded_paint import guarded
 
@@ -45,15 +44,8 @@ class RefusalNotice(QLabel):
         self.hide()
         field.installEventFilter(self)
 
-    def show_refusal(self, sentence: str) -> None:
-        """Show why a value was refused."""
-        self._show(refusal_of(sentence))
-
     def show_problem(self, sentence: str) -> None:
-        """Show what is wrong with the value that the field shows."""
-        self._show(with_labels(sentence))
-
-    def _show(self, sentence: str) -> None:
+        """Show why a value was refused, or what is wrong with the one that the field shows."""
         self.setText(sentence)
         self._field.setAccessibleDescription(sentence)
         self._take_colour()

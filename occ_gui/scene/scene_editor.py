@@ -26,8 +26,6 @@ class SceneEditor(QObject):
 
         Parameters
         ----------
-        value
-            Its value in SI units.
         gesture
             The number of the gesture: changes of one gesture are undone as one step.
         """

@@ -11,6 +11,7 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.refusal import refusal_of
 from occ_model.scene.scene import Scene
 
 
@@ -42,9 +43,10 @@ class SceneStore(QObject):
         try:
             scene = self.scene.replace(**changes)
         except OccError as error:
-            self.refused.emit(str(error))
+            sentence = refusal_of(error)
+            self.refused.emit(sentence)
             at_fault = [name for name in changes if name in error.parameters]
-            self.refused_for.emit(str(error), tuple(at_fault or changes))
+            self.refused_for.emit(sentence, tuple(at_fault or changes))
             return
         labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
         workspace = replace(self.store.workspace, scene=scene)

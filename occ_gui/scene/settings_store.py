@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Store
 from occ_model.errors import OccError
+from occ_model.scene.refusal import refusal_of
 from occ_model.scene.simulation_settings import (
     TOLERANCE,
     NoiseSource,
@@ -42,7 +43,7 @@ class SettingsStore(QObject):
         try:
             self._put(replace(self.settings, tolerance=TOLERANCE.check(tolerance)))
         except OccError as error:
-            self.refused.emit(str(error))
+            self.refused.emit(refusal_of(error))
 
     def set_observable(self, observable: Observable) -> None:
         """Change the observable whose error the tolerance limits."""

@@ -79,15 +79,7 @@ class SnapshotView(Protocol):
 
 
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
-    """Simulate a scene and decode its picture.
-
-    Raises
-    ------
-    ParameterError
-        A setting is invalid.
-    ProjectionError
-        The panel has no picture in this pose.
-    """
+    """Simulate a scene and decode its picture."""
     return snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
 
 

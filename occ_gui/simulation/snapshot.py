@@ -48,8 +48,6 @@ class ColumnView:
 
     Parameters
     ----------
-    scene
-        The scene; of a frame what is known of it, in the size of the frame.
     profile, signal : ndarray of float64, shape (columns,)
         Means of the panel's pixels in each column, before the receiver's enhancement and after it.
     corners : ndarray of float64, shape (4, 2)

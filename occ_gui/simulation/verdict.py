@@ -24,8 +24,6 @@ class Verdict:
     state
         Good where all bits are right, doubtful where some are, bad where none is or no code was
         read, neutral where none is sent, waiting while a slow decoder reads.
-    title
-        The verdict in a few words.
     reason
         The decoder's sentence that says why no code was read, else empty.
     """

@@ -25,8 +25,6 @@ def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
     ----------
     metrics
         Those of the text.
-    widths
-        The widths of the row's cells with bits, in pixels.
     """
     needed = max(metrics.horizontalAdvance(bit + mark) for bit in "01" for mark in _MARKS.values())
     return all(needed <= width - _PADDING for width in widths)
@@ -39,8 +37,6 @@ def have_room_for_bits(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
     ----------
     metrics
         Those of the text.
-    widths
-        The widths of the row's cells with bits, in pixels.
     """
     needed = max(map(metrics.horizontalAdvance, "01"))
     return all(needed <= width for width in widths)
@@ -62,20 +58,8 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
 
     Parameters
     ----------
-    painter
-        Draws.
-    cell
-        Where it lies.
     texts
         The bit, or what the header is called; the first text that fits is drawn.
-    palette
-        The theme.
-    is_header
-        Whether it is the header.
-    state
-        Good for a bit that is right, bad for one that is wrong, else neutral.
-    is_marked
-        Whether a tick or a cross follows the bit.
     is_told
         Whether the text is drawn, the shortest one also where it hardly fits; None: where it fits.
     within

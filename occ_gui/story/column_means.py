@@ -11,8 +11,6 @@ def resampled(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
 
     Parameters
     ----------
-    pixels : ndarray of uint8, shape (rows of the picture, columns)
-        The picture.
     edges : ndarray of float64, shape (cells + 1,)
         Where each cell begins and the last one ends, in columns from the left edge of the first.
         They may lie within a column, or beyond the picture, which goes on there with its last one.
@@ -54,13 +52,6 @@ def shrunk(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
 
     First over whole pixels, which OpenCV does many times faster than over parts of them; what is
     left over at the lower and right edge, less than half a cell, is left out.
-
-    Parameters
-    ----------
-    pixels : ndarray of uint8
-        The picture.
-    rows, columns
-        The size of the result.
     """
     high, wide = max(1, pixels.shape[0] // (2 * rows)), max(1, pixels.shape[1] // (2 * columns))
     height, width = pixels.shape[0] // high, pixels.shape[1] // wide
@@ -79,12 +70,6 @@ def envelope(
     ----------
     positions : ndarray of float64, shape (points,)
         In ascending order, evenly spaced.
-    values : ndarray of float64, shape (points,)
-        The curve.
-    left, right
-        What is in view.
-    cells
-        The number of pixels between them.
 
     Returns
     -------

@@ -20,24 +20,12 @@ class ColumnValues:
 
     Parameters
     ----------
-    column
-        The column.
     time
         When its exposure begins, in seconds.
     light
         The light at that time, 0 to 1.
     share
         The mean light within its exposure, None for more chips than can be added up.
-    level
-        Its grey level.
-    chip
-        The chip read there, None if none was.
-    bit
-        The number of the bit read there, None if none was.
-    value
-        The bit.
-    state
-        Whether the bit is the one sent.
     """
 
     column: int

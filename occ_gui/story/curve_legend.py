@@ -18,12 +18,8 @@ class CurveLegend(QWidget):
 
     Parameters
     ----------
-    lines
-        Each line's pen and name, by its key.
     usual
         The keys that it keeps room for, so that nothing moves when one of them comes or goes.
-    parent
-        The parent widget.
     """
 
     def __init__(

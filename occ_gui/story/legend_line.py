@@ -9,15 +9,7 @@ _SPACING = 6
 
 
 class LegendLine(QWidget):
-    """A legend, and at its right the controls of what is shown.
-
-    Parameters
-    ----------
-    legend
-        The legend.
-    parent
-        The parent widget.
-    """
+    """A legend, and at its right the controls of what is shown."""
 
     def __init__(self, legend: CurveLegend, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -26,19 +26,7 @@ def round_step(least: float) -> float:
 
 
 class Scale(QWidget):
-    """Ticks with numbers over the columns in view.
-
-    Parameters
-    ----------
-    name
-        What the numbers are.
-    axis
-        The range of columns.
-    is_above
-        Whether the rows lie below it.
-    parent
-        The parent widget.
-    """
+    """Ticks with numbers over the columns in view."""
 
     def __init__(
         self, name: str, axis: ColumnAxis, is_above: bool, parent: QWidget | None = None

@@ -53,8 +53,6 @@ def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
 
     Parameters
     ----------
-    chips
-        What holds for the results.
     pictured
         The value of the picture; empty where it is that of the results.
     """

@@ -50,15 +50,6 @@ class StoryRow(QWidget):
 
     What depends on the results and the range is drawn once and kept; the crosshair is drawn over
     it.
-
-    Parameters
-    ----------
-    name
-        The name of the row.
-    axis, crosshair
-        The range of columns and the column pointed at, shared by all rows.
-    parent
-        The parent widget.
     """
 
     def __init__(

@@ -24,15 +24,7 @@ _LEAST_THUMBNAIL = 32
 
 
 class StripesRow(StoryRow):
-    """The rows of the picture that show the panel, each pixel of the screen the mean of its cell.
-
-    Parameters
-    ----------
-    axis, crosshair
-        The range of columns and the column pointed at.
-    parent
-        The parent widget.
-    """
+    """The rows of the picture that show the panel: a pixel of the screen is its cell's mean."""
 
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None

@@ -47,13 +47,7 @@ class SaveJob:
 
 
 def save_files(job: SaveJob) -> Saved:
-    """Write a board's files into a new folder.
-
-    Raises
-    ------
-    OutputError
-        It cannot be made, or a file cannot be written.
-    """
+    """Write a board's files into a new folder."""
     from occ_model.figures.transmitter_files import write_transmitter_files
 
     folder = new_folder(job.parent, f"blink-{job.sent.board.name}")
@@ -62,13 +56,7 @@ def save_files(job: SaveJob) -> Saved:
 
 
 def new_folder(parent: Path, name: str) -> Path:
-    """Make a folder of a name, with a number after it where there is one already.
-
-    Raises
-    ------
-    OutputError
-        It cannot be made.
-    """
+    """Make a folder of a name, with a number after it where there is one already."""
     for number in range(1, _MOST_FOLDERS):
         folder = parent / (name if number == 1 else f"{name}-{number}")
         if not folder.exists():

@@ -36,8 +36,6 @@ class CameraDevice:
     ----------
     number
         Its number, as OpenCV counts.
-    name
-        Its name.
     """
 
     number: int
@@ -45,13 +43,7 @@ class CameraDevice:
 
 
 def find_cameras(devices: Path = _DEVICES) -> tuple[CameraDevice, ...]:
-    """List the cameras; where the system has no list, each of the first is opened for a moment.
-
-    Parameters
-    ----------
-    devices
-        Where Linux lists video devices.
-    """
+    """List the cameras; where the system has no list, each of the first is opened for a moment."""
     return tuple(_listed(devices) if _IS_LINUX else _probed())
 
 
@@ -102,13 +94,7 @@ class CameraSource:
         self._began = 0.0
 
     def open(self) -> None:
-        """Open the camera at the size of a full-HD film, or the nearest that it has.
-
-        Raises
-        ------
-        VideoError
-            It is not there, or another program uses it.
-        """
+        """Open the camera at the size of a full-HD film, or the nearest that it has."""
         self.close()
         with quiet_opencv():
             kind = cv2.CAP_V4L2 if _IS_LINUX else cv2.CAP_ANY

@@ -24,15 +24,7 @@ def _open(request: tuple[Path, str], report: Report) -> Video:
 
 
 class FilmController(QObject):
-    """The film that is open, the frame that is shown of it, and the simulated film beside it.
-
-    Parameters
-    ----------
-    scenes
-        The scene that is simulated.
-    form
-        How it is recorded.
-    """
+    """The film that is open, the frame that is shown of it, and the simulated film beside it."""
 
     opened = Signal(object)
     """The Video that is open now, None where there is only the simulated one."""
@@ -117,8 +109,6 @@ class FilmController(QObject):
 
         Parameters
         ----------
-        path
-            The file.
         axis
             What of its pictures the shutter scanned, one of SCAN_AXES.
         """

@@ -20,12 +20,8 @@ class ShownPicture:
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The picture.
-    halves
-        The same at a half of its size, a quarter and so on.
     region
         What was read of it, None where nothing was found.
-    caption
-        What it shows, and of which time.
     rows_step
         Height of a row: more than 1 in a draft.
     """

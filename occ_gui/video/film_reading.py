@@ -10,17 +10,7 @@ from occ_model.arrays import ByteArray, FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A figure of a reading.
-
-    Parameters
-    ----------
-    label
-        What it is.
-    text
-        Its value with unit and error.
-    meaning
-        What it means, in a sentence.
-    """
+    """A figure of a reading."""
 
     label: str
     text: str
@@ -37,14 +27,6 @@ class FilmReading:
         When the frames that were looked at began, in seconds.
     states : ndarray of uint8, shape (frames,)
         A :class:`~occ_gui.video.marks.MarkState` each.
-    packets
-        The packets.
-    text
-        What was sent, as far as it was read.
-    figures
-        Rates, and what was measured of the clocks.
-    sentences
-        What is not sure, and why.
     """
 
     times: FloatArray

@@ -36,12 +36,6 @@ class FrameRequest:
         The film, None where there is only the simulated one.
     live
         The frame of a live film, which keeps none.
-    index
-        The frame's number.
-    scene, settings
-        The scene and the settings of its simulation.
-    recording, frames
-        How the simulated film is recorded, and how many frames it has.
     draft_step
         A draft of the simulated frame shows one of so many rows; 1 for the exact picture.
     """
@@ -62,14 +56,8 @@ class ShownFrame:
 
     Parameters
     ----------
-    request
-        What was asked for.
     time
         When the frame began, in seconds; None where there is none.
-    film, simulated
-        The pictures; None where there is none.
-    instead
-        Why there is no simulated picture; empty where there is one.
     story
         What the rows show of the film's frame, or of the simulated one where there is no film.
     """
@@ -83,13 +71,7 @@ class ShownFrame:
 
 
 def shown_frame(request: FrameRequest) -> ShownFrame:
-    """Take a frame from its film, simulate the one of the same number, and read both.
-
-    Raises
-    ------
-    OccError
-        The film has no such frame, or cannot be read any more.
-    """
+    """Take a frame from its film, simulate the one of the same number, and read both."""
     film, title, frame = None, "", request.live
     if frame is None and request.film is not None:
         frame = request.film.frame(request.index)
@@ -121,13 +103,6 @@ def _at(frame: VideoFrame) -> str:
 
 def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
     """Return the start time with which the scene sends what was read, in seconds.
-
-    Parameters
-    ----------
-    decoded
-        What was read of a frame.
-    scene
-        The scene.
 
     Returns
     -------
@@ -186,8 +161,6 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
         The frame, and what is known of it; of a simulated one the very scene that it shows.
     request
         What was asked for where it is simulated, else None.
-    whose
-        Whose frame it is.
     """
     image = frame.image
     step = 1

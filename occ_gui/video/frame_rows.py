@@ -18,12 +18,8 @@ class FrameStory:
 
     Parameters
     ----------
-    picture, reading
-        The frame's picture, and what is read of it.
     knows_light
         Whether the light that its columns gathered is known, as of a simulated frame.
-    title
-        Whose frame it is, and what was read.
     """
 
     picture: PictureView

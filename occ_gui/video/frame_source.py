@@ -35,13 +35,7 @@ class FrameSource(Protocol):
     """What of its pictures the rolling shutter usually scans: ``"lines"`` or ``"columns"``."""
 
     def open(self) -> None:
-        """Begin to film.
-
-        Raises
-        ------
-        OccError
-            It cannot be opened.
-        """
+        """Begin to film."""
 
     def read(self) -> LivePicture | None:
         """Wait for the next picture; None where there are no more, as of a camera unplugged."""
@@ -60,8 +54,6 @@ class FilmSource:
     ----------
     frames
         The frames; they are gone through anew each time that the source is opened.
-    title
-        The name of the source.
     in_real_time
         Whether each frame comes at its own time, else as soon as it is asked for.
     """

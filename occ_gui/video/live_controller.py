@@ -22,17 +22,7 @@ def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
 
 
 class LiveController(QObject):
-    """A camera that is read while it films.
-
-    Parameters
-    ----------
-    films
-        Shows the pictures.
-    readings
-        Reads them.
-    scene
-        Returns the scene that they are read for.
-    """
+    """A camera that is read while it films."""
 
     devices_found = Signal(object)
     """The cameras that there are."""
@@ -86,8 +76,6 @@ class LiveController(QObject):
 
         Parameters
         ----------
-        source
-            A camera, or a film in its place.
         axis
             What of its pictures the shutter scans; by default what the source says.
         """

@@ -26,8 +26,6 @@ class LiveVideo(Video):
 
     Parameters
     ----------
-    source
-        Gives the pictures.
     axis
         What of them the rolling shutter scans, one of AXES.
     after
@@ -113,13 +111,7 @@ class LiveVideo(Video):
             yield frame
 
     def frame(self, index: int) -> VideoFrame:
-        """Refuse: what has passed has passed.
-
-        Raises
-        ------
-        VideoError
-            Always.
-        """
+        """Refuse: what has passed has passed."""
         raise VideoError(f"Frame {index} of {self.title} is not kept: it is a live film.")
 
     def _next(self) -> VideoFrame | None:

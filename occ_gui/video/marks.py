@@ -75,8 +75,6 @@ def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: fl
 
     Parameters
     ----------
-    times
-        When each frame begins, in seconds.
     states : ndarray of uint8, shape (frames,)
         Whether each was read.
     last

@@ -10,13 +10,7 @@ _USUAL_RATE = 30.0
 
 
 class FilmPlayer(QObject):
-    """Plays a film at its own speed: frames that would come late are left out.
-
-    Parameters
-    ----------
-    parent
-        The parent.
-    """
+    """Plays a film at its own speed: frames that would come late are left out."""
 
     wanted = Signal(int)
     """The number of the frame that is to be shown."""

@@ -43,8 +43,6 @@ class ReadingRequest:
     ----------
     film
         The film.
-    scene
-        What the receiver knows of it.
     is_live
         Whether it has no end, so that only its last frames are remembered.
     """
@@ -55,13 +53,7 @@ class ReadingRequest:
 
 
 def read_film(request: ReadingRequest, report: Report) -> FilmReading:
-    """Read a film from its first frame to its last; reports are FilmReadings.
-
-    Raises
-    ------
-    OccError
-        The film cannot be read any more, or the scene sends what no film is read for.
-    """
+    """Read a film from its first frame to its last; reports are FilmReadings."""
     collected, last = _Collected(request), monotonic()
     interval = _LIVE_INTERVAL if request.is_live else _INTERVAL
     for frame in request.film:

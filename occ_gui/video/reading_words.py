@@ -15,8 +15,6 @@ def figures_of(known: FilmProgress, whole: VideoReading | None) -> tuple[Figure,
 
     Parameters
     ----------
-    known
-        What is known after the last frame.
     whole
         What the frames said together when they were last looked at; None before.
     """

@@ -11,6 +11,7 @@ from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import Count
 from occ_model.scene.recording import DECLARED, Recording
+from occ_model.scene.refusal import labelled, refusal_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
@@ -102,7 +103,7 @@ class RecordingForm(QWidget):
         try:
             self._recording.check(scene)
         except OccError as error:
-            self.gap.setText(str(error))
+            self.gap.setText(labelled(error))
             return
         gap, share = self._recording.gap(scene), 100.0 * self._recording.gap_ratio(scene)
         self.gap.setText(
@@ -116,6 +117,6 @@ f"{share:.1f} % of a frame."
             self._recording = self._recording.replace(**{name: value})
         except OccError as error:
             self.show_recording(self._recording)
-            self.refused.emit(str(error))
+            self.refused.emit(refusal_of(error))
             return
         self.changed.emit()

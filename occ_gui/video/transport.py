@@ -10,17 +10,7 @@ _ICON = 16
 
 
 class TransportButton(IconButton):
-    """A button that acts on the film.
-
-    Parameters
-    ----------
-    drawing
-        The name of the icon.
-    name, meaning
-        The accessible name and the tooltip.
-    parent
-        The parent widget.
-    """
+    """A button that acts on the film."""
 
     def __init__(
         self, drawing: str, name: str, meaning: str, parent: QWidget | None = None

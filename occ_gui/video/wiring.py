@@ -24,13 +24,7 @@ _USUAL_RATE = 30.0
 
 
 class VideoWiring(Pane[None]):
-    """The pane of the films with its controllers.
-
-    Parameters
-    ----------
-    scenes
-        The scene, which is simulated, and for which films are read.
-    """
+    """The pane of the films with its controllers."""
 
     status_message = Signal(str)
     """The outcome of an action."""

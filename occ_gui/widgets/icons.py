@@ -32,11 +32,6 @@ def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
         Width and height, independent of the screen.
     ratio
         Pixels of the screen that each of them takes.
-
-    Raises
-    ------
-    OSError
-        There is no such drawing.
     """
     found = QIcon()
     for mode, group in (

@@ -130,13 +130,7 @@ def new_plot(
     left: pg.AxisItem | None = None,
     bottom: pg.AxisItem | None = None,
 ) -> Plot:
-    """Create an empty plot without automatic ranging.
-
-    Parameters
-    ----------
-    left, bottom
-        The axes; by default linear ones.
-    """
+    """Create an empty plot without automatic ranging."""
     axes = {"left": left or Axis("left"), "bottom": bottom or Axis("bottom")}
     plot = Plot(axisItems=axes, enableMenu=False)
     plot.setAccessibleName(name)

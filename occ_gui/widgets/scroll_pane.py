@@ -5,13 +5,7 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 
 
 class ScrollPane(QScrollArea):
-    """Shows a widget as wide as the pane, and as high as it needs.
-
-    Parameters
-    ----------
-    least
-        The least size in pixels.
-    """
+    """Shows a widget as wide as the pane, and as high as it needs."""
 
     def __init__(self, content: QWidget, least: QSize, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -140,13 +140,7 @@ class StateBar(QWidget):
     def show_state(
         self, state: State, title: str, *sentences: str, chips: Sequence[Chip] = ()
     ) -> None:
-        """Show a state in place of the previous one.
-
-        Parameters
-        ----------
-        title
-            The state in a few words.
-        """
+        """Show a state in place of the previous one."""
         shown = (state, title, sentences, tuple(chips))
         if shown == self._shown:
             return

@@ -130,13 +130,7 @@ _SIGNS: dict[State, Callable[[QPainter], None]] = {
 
 
 class StateIcon(QWidget):
-    """The icon of a state.
-
-    Parameters
-    ----------
-    side
-        Its side in pixels.
-    """
+    """The icon of a state."""
 
     def __init__(self, side: int, parent: QWidget | None = None) -> None:
         super().__init__(parent)

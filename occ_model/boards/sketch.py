@@ -23,13 +23,7 @@ _SKETCHES: dict[str, Callable[[Transmission], str]] = {
 
 
 def board_named(name: str) -> Board:
-    """Find a board.
-
-    Raises
-    ------
-    ParameterError
-        There is none of that name.
-    """
+    """Find a board."""
     check_choice("board", name, tuple(BOARDS))
     return BOARDS[name]
 

@@ -61,21 +61,10 @@ class ChipTiming:
 
 
 def best_timing(board: Board, frequency: float) -> ChipTiming:
-    """Choose the setting whose frequency is nearest; of several the one with the finest timer.
-
-    Parameters
-    ----------
-    frequency
-        The switching frequency in Hz.
-
-    Raises
-    ------
-    ParameterError
-        The board cannot blink that fast or that slowly.
-    """
+    """Choose the setting whose frequency is nearest; of several the one with the finest timer."""
     asked = Fraction(frequency)
     if not board.lowest_frequency <= asked <= board.highest_frequency:
-        raise ParameterError(_refusal(board, frequency), parameters=("switching_frequency",))
+        raise _refusal(board, frequency)
     settings = (
         ChipTiming(board.clock, prescaler, count, asked)
         for prescaler in board.prescalers
@@ -92,11 +81,14 @@ def _counts(board: Board, prescaler: int, asked: Fraction) -> Iterator[int]:
             yield count
 
 
-def _refusal(board: Board, frequency: float) -> str:
+def _refusal(board: Board, frequency: float) -> ParameterError:
     declared = quantity("switching_frequency")
     low, high = float(board.lowest_frequency), float(board.highest_frequency)
     why = board.limit_reason if frequency > high else "the timer counts no longer"
-    return (
-        f"switching_frequency is {declared.format(frequency)}; allowed on {board.title}: "
-        f"{declared.format(low)} to {declared.format(high)}, since {why}."
+    return ParameterError.of(
+        declared.name,
+        declared.format(frequency),
+        f"{declared.format(low)} to {declared.format(high)}, since {why}",
+        condition=f"on {board.title}",
+        parameters=(declared.name,),
     )

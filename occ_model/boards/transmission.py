@@ -23,8 +23,6 @@ class Transmission:
     ----------
     chips : ndarray of uint8, shape (chips,)
         One period, first sent first; 1 is lit.
-    timing
-        How long each lasts.
     """
 
     scene: Scene
@@ -72,8 +70,6 @@ def transmission(scene: Scene, board: Board) -> Transmission:
     ParameterError
         The board cannot blink that fast or that slowly, the packet does not fit into it, or the
         scene's line code and framing do not go together.
-    PluginError
-        A plug-in fails.
     """
     chips = packet(scene)
     room = table_size(board, len(chips))

@@ -102,11 +102,6 @@ def wav_timing(sent: Transmission) -> WavTiming:
 
     The rate is a whole number of Hz. The one whose frequency is nearest to what the board sends is
     chosen; of several a usual one, then the highest.
-
-    Raises
-    ------
-    OutputError
-        A sample rate that sound cards have is too low for the switching frequency.
     """
     frequency = sent.timing.frequency
     fewest = max(2, ceil(LOWEST_SAMPLE_RATE / frequency))

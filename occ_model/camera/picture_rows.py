@@ -59,8 +59,6 @@ class Rows:
 
     Parameters
     ----------
-    place
-        Which rows of the picture they are.
     nodes : ndarray of float32, shape (nodes, columns)
         Mean pixel values before saturation at the nodes; one row where all rows are alike.
     weights : ndarray of float32, shape (rows, nodes), or None
@@ -91,8 +89,6 @@ class Rows:
 
         Parameters
         ----------
-        target : ndarray of float32, shape (rows, columns)
-            The pixels.
         nodes, rims
             Values in place of those of ``nodes`` and ``rims``, of the same shapes.
         """
@@ -146,8 +142,6 @@ class PictureRows:
 
         Parameters
         ----------
-        place
-            Which rows of the picture.
         stage_ended
             Called with the name of each stage that has just ended.
         """

@@ -150,13 +150,7 @@ def _row_from(y: float, rows: int) -> int:
 
 
 def check_size(camera: Camera) -> None:
-    """Refuse a picture that is too large.
-
-    Raises
-    ------
-    ProjectionError
-        It would have more than ``MAX_PIXELS`` pixels.
-    """
+    """Refuse a picture that is too large."""
     rows, columns = camera.rows, camera.columns
     if rows * columns > MAX_PIXELS:
         raise ProjectionError(
@@ -177,8 +171,6 @@ def paint(
         The column values.
     corners : ndarray of float64, shape (4, 2)
         The panel's corners.
-    rows
-        The rows that are painted, one below the other.
     surroundings : ndarray of uint8, shape (columns,)
         Grey levels outside the panel.
 

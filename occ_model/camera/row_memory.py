@@ -28,8 +28,6 @@ class RowMemory:
     ----------
     limit
         Most bytes that they have together.
-    entries
-        How many there are at most.
     """
 
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:

@@ -25,11 +25,6 @@ def cluster_executor(address: str) -> Iterator[Executor]:
     ----------
     address
         The address of its scheduler, such as ``tcp://10.0.0.5:8786``.
-
-    Raises
-    ------
-    ClusterError
-        ``distributed`` is not installed, no scheduler answers at the address, or it has no worker.
     """
     try:
         from distributed import Client

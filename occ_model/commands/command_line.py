@@ -55,13 +55,7 @@ def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def run_command(options: argparse.Namespace) -> int:
-    """Run the command of a command line; return the exit code.
-
-    Raises
-    ------
-    OccError
-        An option or a file is not allowed.
-    """
+    """Run the command of a command line; return the exit code."""
     check_files(options)
     code: int = options.command(options)
     return code

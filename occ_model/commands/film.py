@@ -102,9 +102,10 @@ def _waypoint(text: str) -> Waypoint:
     start, _, rest = text.partition(":")
     time = SECOND.parse(start)
     if time is None or not rest:
-        raise ParameterError(
-            f"waypoint is {shown(text)}; allowed: a time and what has changed, such as "
-            "1s:offset_x=20cm,roll=5deg."
+        raise ParameterError.of(
+            "waypoint",
+            shown(text),
+            "a time and what has changed, such as 1s:offset_x=20cm,roll=5deg",
         )
     changes: dict[str, float] = {}
     for part in rest.split(","):
@@ -115,8 +116,8 @@ def _waypoint(text: str) -> Waypoint:
         unit = quantity(name).unit
         number = unit.parse(value)
         if number is None:
-            raise ParameterError(
-                f"waypoint's {name} is {shown(value)}; allowed: a number in {unit.display(1.0)[0]}."
+            raise ParameterError.of(
+                f"waypoint's {name}", shown(value), f"a number in {unit.display(1.0)[0]}"
             )
         changes[name] = number
     return Waypoint(time, **changes)

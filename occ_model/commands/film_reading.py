@@ -23,15 +23,7 @@ _FEWEST_PACKETS = 50
 
 
 def read_film(options: argparse.Namespace, scene: Scene) -> int:
-    """Read the film that a command line names, and print what it says.
-
-    Raises
-    ------
-    ParameterError
-        The channel is none that a film has.
-    VideoError
-        The file cannot be read.
-    """
+    """Read the film that a command line names, and print what it says."""
     video = load_video(options.file, options.scan_axis, channel=_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
@@ -64,8 +56,8 @@ def _channel(name: str) -> str:
     if name == "brightest":
         return "luma"
     if name not in CHANNELS:
-        raise ParameterError(
-            f"channel is '{name}'; allowed for a film: brightest, {', '.join(CHANNELS)}."
+        raise ParameterError.of(
+            "channel", f"'{name}'", f"brightest, {', '.join(CHANNELS)}", condition="for a film"
         )
     return name
 

@@ -11,18 +11,14 @@ _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
 
 
 def region_from(text: str) -> Region:
-    """Read the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1.
-
-    Raises
-    ------
-    ParameterError
-        The text is not such a rectangle.
-    """
+    """Read the rectangle ``R0:R1,C0:C1``: rows R0 to before R1, columns C0 to before C1."""
     found = _REGION.fullmatch(text.strip())
     if found is None:
-        raise ParameterError(
-            f"--region is {shown(text)}; allowed: R0:R1,C0:C1, such as 100:800,0:1920: the first "
-            "row, the row after the last, and the same of the columns."
+        raise ParameterError.of(
+            "--region",
+            shown(text),
+            "R0:R1,C0:C1, such as 100:800,0:1920: the first row, the row after the last, and the "
+            "same of the columns",
         )
     return Region(*(int(number) for number in found.groups()))
 

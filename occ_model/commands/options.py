@@ -43,13 +43,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def number(text: str) -> float:
-    """Read the number of an option, with a decimal point or comma, or ``inf``.
-
-    Raises
-    ------
-    ArgumentTypeError
-        It is not a number, or its comma can separate thousands as well.
-    """
+    """Read the number of an option, with a decimal point or comma, or ``inf``."""
     readings = NONE.readings(text)
     if len(readings) > 1:
         comma, thousands = (NONE.format(value) for value in readings)
@@ -64,13 +58,7 @@ def number(text: str) -> float:
 
 
 def whole_number(text: str) -> int:
-    """Read the whole number of an option.
-
-    Raises
-    ------
-    ArgumentTypeError
-        It is none.
-    """
+    """Read the whole number of an option."""
     try:
         return int(text)
     except ValueError:
@@ -78,13 +66,7 @@ def whole_number(text: str) -> int:
 
 
 def decoder_name(text: str) -> str:
-    """Read the name of a decoder, also of a plug-in, which is not imported yet.
-
-    Raises
-    ------
-    ArgumentTypeError
-        There is none of that name.
-    """
+    """Read the name of a decoder, also of a plug-in, which is not imported yet."""
     if text not in DECODERS and text not in decoders():
         raise argparse.ArgumentTypeError(
             f"there is no decoder {shown(text)}; known: {', '.join(decoders())}"
@@ -108,13 +90,7 @@ def add_scene_options(parser: argparse.ArgumentParser) -> None:
 
 
 def scene_of(options: argparse.Namespace) -> Scene:
-    """Make the scene that a command line describes.
-
-    Raises
-    ------
-    OccError
-        There is no such preset, file or parameter, or a value is out of range.
-    """
+    """Make the scene that a command line describes."""
     scene = read_scene_file(options.scene) if options.scene else load_preset(options.preset)
     return with_settings(scene, options.settings)
 
@@ -165,14 +141,7 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
 
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
-    """Read the settings of the simulation from a command line.
-
-    Raises
-    ------
-    ParameterError
-        There is no such effect, one is switched both on and off, or the tolerance or the seed is
-        out of range.
-    """
+    """Read the settings of the simulation from a command line."""
     TOLERANCE.check(options.tolerance)
     check_seed(options.seed)
     for name in (*options.on, *options.off):

@@ -23,13 +23,7 @@ _DIGITS = 12
 
 
 def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
-    """Parse axes such as ``"switching_frequency=2kHz:20kHz:2kHz"``.
-
-    Raises
-    ------
-    ParameterError
-        A text is not an axis, names no parameter or one twice, or a value is out of range.
-    """
+    """Parse axes such as ``"switching_frequency=2kHz:20kHz:2kHz"``."""
     axes: dict[str, list[ParameterValue]] = {}
     for setting in settings:
         name, equals, text = setting.partition("=")

@@ -70,10 +70,11 @@ class Jpeg(FileEffect):
             Naming its size, and what is allowed.
         """
         if self.is_present(scene) and max(shape) > LONGEST_SIDE["JPEG"]:
-            raise ParameterError(
-                f"jpeg_quality is {scene.camera.jpeg_quality}, and the picture has "
-                f"{shape[0]} rows and {shape[1]} columns; allowed: jpeg_quality 0, or "
-                f"up to {LONGEST_SIDE['JPEG']} of each.",
+            raise ParameterError.of(
+                "jpeg_quality",
+                f"{scene.camera.jpeg_quality}, and the picture has {shape[0]} rows and "
+                f"{shape[1]} columns",
+                f"0, or up to {LONGEST_SIDE['JPEG']} rows and columns",
                 parameters=("jpeg_quality", "rows", "columns"),
             )
 

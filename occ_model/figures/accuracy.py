@@ -29,18 +29,7 @@ _COLOURS = dict(
 def write_accuracy_figure(
     folder: Path, scene: Scene, settings: SimulationSettings, points: Sequence[AccuracyPoint]
 ) -> None:
-    """Write the figure as PDF and PNG, and its points as CSV.
-
-    Parameters
-    ----------
-    points
-        As :func:`occ_model.study.accuracy.accuracy` gives them.
-
-    Raises
-    ------
-    OutputError
-        A file cannot be written.
-    """
+    """Write the figure as PDF and PNG, and its points as CSV."""
     drawing = accuracy_drawing(points)
     notes = settings_notes(settings)
     provenance = Provenance(drawing.title, {"at hand": scene}, settings.seed, notes)
@@ -49,13 +38,7 @@ def write_accuracy_figure(
 
 
 def accuracy_drawing(points: Sequence[AccuracyPoint]) -> Drawing:
-    """Draw error over time.
-
-    Parameters
-    ----------
-    points
-        As :func:`occ_model.study.accuracy.accuracy` gives them.
-    """
+    """Draw error over time."""
     header = ("part", "name", "time (ms)", "error (levels)", "current")
 
     def rows() -> Iterable[tuple[object, ...]]:

@@ -73,8 +73,6 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
         The file: .gif, .mp4 or .png. The scene is kept inside.
     name, values
         The parameter, a quantity, and its values in SI units, one a frame.
-    settings
-        The settings of the simulation; by default the standard ones.
     rate
         Frames a second.
     progress
@@ -85,9 +83,6 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     ParameterError
         The parameter is unknown or no quantity, a value is out of range, there are no values or
         more than :data:`MOST_FRAMES`, or the rate is not from above 0 to 50 a second.
-    OutputError
-        The ending is none of :data:`ENDINGS`, its kind has no such rate, or the file cannot be
-        written.
     """
     check_scene(scene)
     ending = path.suffix.lower()
@@ -99,11 +94,9 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     if not isinstance(parameter, Quantity):
         raise ParameterError(f"{name} cannot run through values; allowed: a parameter with a unit.")
     if not 1 <= len(values) <= MOST_FRAMES:
-        raise ParameterError(f"frames is {len(values)}; allowed: 1 to {MOST_FRAMES}.")
+        raise ParameterError.of("frames", f"{len(values)}", f"1 to {MOST_FRAMES}")
     if isinstance(rate, bool) or not 0.0 < rate <= _MAX_GIF_RATE:
-        raise ParameterError(
-            f"rate is {shown(rate)} a second; allowed: above 0 to {_MAX_GIF_RATE:g}."
-        )
+        raise ParameterError.of("rate", f"{shown(rate)} a second", f"above 0 to {_MAX_GIF_RATE:g}")
     check_film_path(path, rate)
     check_replaceable(path)
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]

@@ -31,15 +31,7 @@ _NULL: dict[str, Any] = {"color": "0.6", "linestyle": ":", "linewidth": 1.0}
 def write_bench(
     folder: Path, request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
 ) -> None:
-    """Write the figure as PDF and PNG, and its points as CSV.
-
-    Raises
-    ------
-    ParameterError
-        So many pictures cannot be read out in a second.
-    OutputError
-        A file cannot be written.
-    """
+    """Write the figure as PDF and PNG, and its points as CSV."""
     drawing = bench_drawing(request, points, frames_a_second)
     provenance = bench_provenance(request, frames_a_second)
     for ending in (".pdf", ".png", ".csv"):
@@ -55,13 +47,7 @@ def bench_provenance(request: BenchRequest, frames_a_second: float, date: str = 
 def bench_drawing(
     request: BenchRequest, points: Sequence[BenchPoint], frames_a_second: float
 ) -> Drawing:
-    """Draw what a request has measured, beside what theory says.
-
-    Raises
-    ------
-    ParameterError
-        So many pictures cannot be read out in a second.
-    """
+    """Draw what a request has measured, beside what theory says."""
     check_frame_rate(bench_scene(request, request.schemes[0]), frames_a_second)
     bounds = bench_bounds(request)
     return Drawing(

@@ -53,23 +53,12 @@ def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
     """Write a figure in the format of the file's ending, with its provenance inside.
 
     Call it within :func:`house_style`, in which the figure was drawn.
-
-    Raises
-    ------
-    OutputError
-        The ending is none of a figure's, or the file cannot be written.
     """
     write_whole(path, figure_bytes(figure, figure_format(path), provenance))
 
 
 def figure_format(path: Path) -> str:
-    """Return the format that a file's ending names.
-
-    Raises
-    ------
-    OutputError
-        The ending is none of a figure's.
-    """
+    """Return the format that a file's ending names."""
     ending = path.suffix.lower().removeprefix(".")
     if ending not in FORMATS:
         raise OutputError(
@@ -96,11 +85,6 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
     """Write a figure as PDF and as PNG, with its provenance inside.
 
     Call it within :func:`house_style`, in which the figure was drawn.
-
-    Raises
-    ------
-    OutputError
-        A file cannot be written.
     """
     for ending in ("pdf", "png"):
         write_figure(folder / f"{name}.{ending}", figure, provenance)
@@ -116,8 +100,6 @@ class Drawing:
         The file's name without ending.
     draw
         Function that draws the figure, to be called within :func:`house_style`.
-    rows
-        Function that gives the table's rows.
     provenance
         Function that says at a date where the numbers come from, of a figure that is not of one
         scene.
@@ -131,13 +113,7 @@ class Drawing:
     provenance: Callable[[str], Provenance] | None = None
 
     def write(self, path: Path, provenance: Provenance) -> None:
-        """Write the figure, or its table as CSV, in the format of the file's ending.
-
-        Raises
-        ------
-        OutputError
-            The ending is none of :data:`ENDINGS`, or the file cannot be written.
-        """
+        """Write the figure, or its table as CSV, in the format of the file's ending."""
         ending = path.suffix.lower()
         if ending not in ENDINGS:
             raise OutputError(
@@ -159,18 +135,7 @@ def files_of(drawing: Drawing, folder: Path) -> list[Path]:
 def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
-    """Write drawings in all formats into a folder, which is created where there is none.
-
-    Parameters
-    ----------
-    provenance
-        Function that gives the provenance of each.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be made, or a file cannot be written.
-    """
+    """Write drawings in all formats into a folder, which is created where there is none."""
     make_folder(folder)
     written = []
     for drawing in drawings:

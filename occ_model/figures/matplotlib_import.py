@@ -25,11 +25,6 @@ def import_matplotlib() -> None:
     A settings file that is damaged, unreadable or endless would stop the import, and any other
     would change the figures. The backend that the environment names is set afterwards, where it
     exists: a notebook draws its own figures with it.
-
-    Raises
-    ------
-    OutputError
-        matplotlib cannot be imported: for example, there is no folder that it can write to.
     """
     if "matplotlib" in sys.modules:
         return

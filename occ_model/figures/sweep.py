@@ -50,18 +50,6 @@ def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> 
 
     One axis: a curve for each decoder, with its 95 % intervals. Two axes: a map for each decoder,
     the first axis from left to right. Points that the model refuses are gaps, or grey.
-
-    Parameters
-    ----------
-    path
-        The file: PNG, PDF or SVG, with its provenance inside.
-
-    Raises
-    ------
-    ParameterError
-        The table has more than two axes.
-    OutputError
-        The ending is none of these, or the file cannot be written.
     """
     figure_format(path)  # before anything is drawn
     names = list(table.axes)

@@ -18,11 +18,6 @@ def write_table(
     ----------
     rows
         The rows; None becomes an empty cell.
-
-    Raises
-    ------
-    OutputError
-        The file cannot be written; no incomplete file stays.
     """
     write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
 

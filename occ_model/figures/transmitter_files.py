@@ -26,11 +26,6 @@ def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path
         The files.
     missing : str
         Why there is no WAV file, a sentence; empty where there is one.
-
-    Raises
-    ------
-    OutputError
-        A file cannot be written.
     """
     contents, missing = _contents(folder, sent)
     make_folder(folder)

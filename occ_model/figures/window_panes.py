@@ -87,14 +87,10 @@ def picture_drawing(
     ----------
     region
         The rectangle that the decoder read, None where it read none.
-    photo : ndarray of uint8, shape (rows, columns), or None
-        The photo.
     whose
         Whose picture is drawn, the ``"camera"``'s or the ``"receiver"``'s.
     layer
         How the photo lies over the picture, or their difference; None for a photo beside it.
-    about
-        What is known of the photo: its name, and what its match has found.
     """
     image, name = frame.picture(whose), frame.picture_title(whose)
     cells, size = _cells(image)
@@ -192,15 +188,11 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
         The band model's profile, None where it is undefined.
     undefined
         Why it is undefined, a sentence; empty where it is defined.
-    comparison
-        The photo's profile beside the simulated one, if there is a photo.
     columns
         The columns to draw, by default all. The table holds all.
     enhanced
         Whether the profiles are those after the receiver's enhancement; ``band`` and ``comparison``
         then are so already.
-    decoded
-        The result of a decoder whose threshold is drawn, None for none.
     about
         What is known of the photo: its name, and what its match has found.
     """

@@ -46,13 +46,7 @@ FIRST_BYTES = 16
 
 
 def container_of(path: Path, start: bytes) -> Container:
-    """Recognize a film by the first bytes of its file.
-
-    Raises
-    ------
-    VideoError
-        It is none of the kinds that are read.
-    """
+    """Recognize a film by the first bytes of its file."""
     kind = kind_of_film(start)
     if kind is not None:
         return kind

@@ -29,16 +29,6 @@ def read_bytes(path: Path, largest: int) -> bytes:
 
     A pipe is not waited for and a device is not read: the file is opened without blocking, and the
     kind checked is that of the open file, not of whatever has the name by then.
-
-    Parameters
-    ----------
-    largest
-        Bytes that are allowed.
-
-    Raises
-    ------
-    SceneFileError
-        There is no such file, it may not be read, is not a regular file, or is larger.
     """
     content = read_start(path, largest + 1)
     if len(content) > largest:
@@ -47,18 +37,7 @@ def read_bytes(path: Path, largest: int) -> bytes:
 
 
 def read_start(path: Path, count: int) -> bytes:
-    """Read the first bytes of a regular file, as :func:`read_bytes` does a whole one.
-
-    Parameters
-    ----------
-    count
-        Bytes that are read at most.
-
-    Raises
-    ------
-    SceneFileError
-        There is no such file, it may not be read, or is not a regular file.
-    """
+    """Read the first bytes of a regular file, as :func:`read_bytes` does a whole one."""
     try:
         descriptor = os.open(path, _FLAGS)
     except OSError as error:
@@ -79,18 +58,7 @@ def read_start(path: Path, count: int) -> bytes:
 
 
 def read_text(path: Path, largest: int = LARGEST_TEXT) -> str:
-    """Read a regular file of text in UTF-8, without the byte order mark that some editors write.
-
-    Parameters
-    ----------
-    largest
-        Bytes that are allowed.
-
-    Raises
-    ------
-    SceneFileError
-        There is no such file, it may not be read, is not a regular file, is larger, or not text.
-    """
+    """Read a regular file of text in UTF-8, without the byte order mark that some editors write."""
     try:
         return read_bytes(path, largest).decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -16,13 +16,7 @@ def resource_names(folder: str, ending: str) -> tuple[str, ...]:
 
 
 def resource_text(*parts: str) -> str:
-    """Read a text that comes with the package.
-
-    Raises
-    ------
-    OSError
-        There is no such file.
-    """
+    """Read a text that comes with the package."""
     return _resource(*parts).read_text(encoding="utf-8")
 
 

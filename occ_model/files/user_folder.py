@@ -5,13 +5,7 @@ from pathlib import Path
 
 
 def user_folder(variable: str, name: str) -> Path:
-    """Return a folder of the user's own files, which need not exist yet.
-
-    Parameters
-    ----------
-    name
-        The folder's name within the program's own.
-    """
+    """Return a folder of the user's own files, which need not exist yet."""
     folder = os.environ.get(variable)
     if folder:
         return Path(folder)

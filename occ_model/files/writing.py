@@ -36,12 +36,6 @@ def write_whole(path: Path, content: bytes) -> None:
     """Write a file, complete or not at all.
 
     A symbolic link is followed, and a file that is there keeps its permissions.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written, is write-protected, or is not a regular file; an older file is
-        unchanged.
     """
     permissions = check_replaceable(path)
     try:
@@ -55,17 +49,9 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
 
     Parameters
     ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The image.
     description
         What it shows: the text ``Description`` of a PNG file, the EXIF tag ``ImageDescription`` of
         other formats. BMP files hold no texts.
-
-    Raises
-    ------
-    OutputError
-        The ending names no image format, the format does not hold an image of that size, or the
-        file cannot be written.
     """
     write_whole(path, _encoded(path, image, description))
 
@@ -77,12 +63,6 @@ def check_replaceable(path: Path) -> int | None:
     -------
     int or None
         The permissions of the file that is there, None where there is none yet.
-
-    Raises
-    ------
-    OutputError
-        It is not a regular file, is write-protected, cannot be a path, or its folder is missing or
-        takes no files.
     """
     try:
         mode = path.stat().st_mode
@@ -130,11 +110,6 @@ def written_whole(path: Path) -> Iterator[Path]:
 
     It is in the same folder and has the same ending. Where the context is left by an exception it
     is removed, and an older file is unchanged.
-
-    Raises
-    ------
-    OutputError
-        It cannot be written, is write-protected, or is not a regular file.
     """
     permissions = check_replaceable(path)
     try:
@@ -212,13 +187,7 @@ def _notes(format_name: str, description: str) -> dict[str, Any]:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder, and those above it, where there is none.
-
-    Raises
-    ------
-    OutputError
-        It cannot be made.
-    """
+    """Make a folder, and those above it, where there is none."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:

@@ -109,13 +109,7 @@ class Workers(Protocol):
         """Return the number of heartbeats in a counter."""
 
     def renew(self) -> None:
-        """Replace workers that ended.
-
-        Raises
-        ------
-        OSError, ImportError or NotImplementedError
-            There are none to replace them.
-        """
+        """Replace workers that ended."""
 
     def close(self) -> None:
         """End the workers, also in the middle of a job."""
@@ -171,8 +165,6 @@ def counting_heartbeat(
 
     Parameters
     ----------
-    channel, run
-        Where the job belongs.
     first_runs
         The earliest run of each channel that is still wanted.
     """

@@ -30,17 +30,10 @@ class ProcessPool:
 
     Parameters
     ----------
-    count
-        How many.
     preload
         A module that the jobs need: where it can be shared it is imported only once.
     niceness
         How far the processes yield to others, as for :func:`os.nice`.
-
-    Raises
-    ------
-    OSError, ImportError or NotImplementedError
-        The system cannot start processes.
     """
 
     lost_by: tuple[type[Exception], ...] = (BrokenExecutor, CancelledError, *NO_PROCESSES)
@@ -84,13 +77,7 @@ class ProcessPool:
         return int(self._counts[counter])
 
     def renew(self) -> None:
-        """Start new processes in place of those that died.
-
-        Raises
-        ------
-        OSError, ImportError or NotImplementedError
-            The system cannot start processes.
-        """
+        """Start new processes in place of those that died."""
         self.close()
         self._executor = self._start()
 

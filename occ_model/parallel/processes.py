@@ -44,11 +44,6 @@ def check_open_files(workers: int) -> None:
     """Refuse to start so many processes where the system lets this one open too few files.
 
     Started all the same, some would die half-way, each with a traceback on the terminal.
-
-    Raises
-    ------
-    OSError
-        There are too few.
     """
     opened: list[int] = []
     try:

@@ -13,8 +13,6 @@ class Reports:
     ----------
     interval
         Seconds between two reports of a channel, at least.
-    clock
-        Gives the time in seconds.
     """
 
     def __init__(

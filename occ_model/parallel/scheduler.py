@@ -45,8 +45,6 @@ class Scheduler:
         Seconds between two reports of a channel's results, at least.
     stage_interval
         The same during an uninterruptible stage, which is short enough to be reported whole.
-    clock
-        Gives the time in seconds.
     """
 
     def __init__(

@@ -51,7 +51,7 @@ def decoder_named(name: str) -> Decoder:
             return DECODERS[name]
         if name in decoders():
             return _plugin(name)
-    raise ParameterError(f"There is no decoder {shown(name)}; known: {', '.join(decoders())}.")
+    raise ParameterError.of("decoder", shown(name), ", ".join(decoders()))
 
 
 @lru_cache(maxsize=64)

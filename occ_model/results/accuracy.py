@@ -33,8 +33,6 @@ class AccuracyPoint:
         Root mean square difference from the most exact way, in levels of the stretched profile.
     current
         Whether the present settings simulate in this way: one point of a study.
-    effects
-        The effects simulated, where the part compares them.
     """
 
     part: str

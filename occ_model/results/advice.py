@@ -75,13 +75,7 @@ class RangeFacts:
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """How fast a scene can go with one decoder, and how long it can be exposed.
-
-    Parameters
-    ----------
-    frequency, exposure
-        The facts on the switching frequency and on the exposure time.
-    """
+    """How fast a scene can go with one decoder, and how long it can be exposed."""
 
     limits: Limits
     frequency: RangeFacts

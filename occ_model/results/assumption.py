@@ -12,8 +12,6 @@ def assumption(name: str, value: float, chips: int) -> str:
 
     Parameters
     ----------
-    value
-        Its value in SI units.
     chips
         Chips of a period: a lamp that only blinks is known by its cycles.
     """

@@ -27,8 +27,6 @@ class BenchRequest:
     ----------
     schemes
         Each the name of a line code, or of a line code and a framing with a slash between.
-    decoders
-        The decoders' names; by default all.
     exposures, decibels
         The exposures in symbols, tried at ``at_decibels``, and the signal-to-noise ratios, tried
         at ``at_exposure``.
@@ -38,8 +36,6 @@ class BenchRequest:
         Rows that are read out while a symbol lasts.
     payload_bits
         Bits of a payload; each picture shows another one.
-    seed
-        Seed of payloads, start times and noise.
     preamble, error_correction
         Of the schemes, as the parameters of a scene.
     rows
@@ -82,8 +78,6 @@ class BenchPoint:
 
     Parameters
     ----------
-    exposure, decibels
-        The exposure in symbols and the signal-to-noise ratio.
     note
         Why the first payload was not read that was not; empty where all were.
     """

@@ -99,8 +99,6 @@ def bits_a_second(share: float, bits: int, frames_a_second: float, readout_time:
     ----------
     share
         Of the pictures of which every bit is right.
-    frames_a_second
-        Pictures a second.
     readout_time
         Time in seconds in which a picture is read out: no picture begins before the end of the one
         before, however many are asked for.

@@ -45,8 +45,6 @@ class Location:
     ----------
     bright_level
         The grey level from which a pixel counts as bright.
-    contours
-        How many contours the bright pixels formed.
     growth
         Pixels by which they were grown until one was left.
     """

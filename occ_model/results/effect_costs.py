@@ -49,13 +49,7 @@ class TimeShares:
 
     @classmethod
     def of_runs(cls, runs: Sequence[Self]) -> Self:
-        """Take of each effect and stage its fastest run: what else is busy only adds to a time.
-
-        Parameters
-        ----------
-        runs
-            The times of one picture that was made again and again.
-        """
+        """Take of each effect and stage its fastest run: what else is busy only adds to a time."""
         first = runs[0]
         effects = {name: sorted(run.effects[name] for run in runs) for name in first.effects}
         return cls(

@@ -155,8 +155,6 @@ class AnsweredStep:
 
     Parameters
     ----------
-    answer
-        The answer; None where there is none.
     scene
         The scene at which it was given and checked, which the report draws; that of the question
         where there is no answer.

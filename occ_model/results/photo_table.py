@@ -95,8 +95,6 @@ class CombinedEstimate:
         The mean, weighted by the inverse variances.
     uncertainty
         Its standard deviation: that of a mean of independent estimates, times ``scale``.
-    count
-        Number of estimates in it.
     chi_square
         Sum of squares of the differences from the mean, each in its standard deviations.
     probability

@@ -157,8 +157,8 @@ class SweepTable:
         if decoder is None:
             return 0
         if decoder not in self.decoders:
-            raise ParameterError(
-                f"decoder is {shown(decoder)}; allowed in this table: {', '.join(self.decoders)}."
+            raise ParameterError.of(
+                "decoder", shown(decoder), ", ".join(self.decoders), condition="in this table"
             )
         return self.decoders.index(decoder)
 

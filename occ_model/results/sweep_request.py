@@ -48,8 +48,6 @@ class RateSettings:
 
     Parameters
     ----------
-    seed
-        Seed of the images' start times and noise.
     frames_a_second
         Images a second by which bits a second are counted; it changes no rate.
     """
@@ -69,8 +67,6 @@ class SweepRequest:
 
     Parameters
     ----------
-    scene
-        The scene, which gives the parameters that are not varied.
     axes
         The values of each parameter that is varied, in SI units.
     """

@@ -64,8 +64,6 @@ class ExposureWindow:
         Start of each chip around the exposure, and end of the last one.
     lit : ndarray of uint8, shape (chips,)
         Whether the LED is on in each.
-    on_time
-        Time that the LED is on within the exposure.
     shortened
         Whether the exposure holds more chips than are drawn; these are its first ones.
     """
@@ -175,15 +173,7 @@ class RollingShutter:
 
 @dataclass(frozen=True, slots=True)
 class MarkedValue:
-    """A value of a parameter that is worth a mark.
-
-    Parameters
-    ----------
-    value
-        The value, in SI units.
-    meaning
-        What happens there, in a sentence.
-    """
+    """A value of a parameter that is worth a mark."""
 
     value: float
     label: str

@@ -127,7 +127,7 @@ class RoomLamp:
             check_choice("shape", self.shape, SHAPES)
             _check_fields(self)
         except ParameterError as error:
-            raise ParameterError(f"Lamp {one_line(self.name)}: {error}") from None
+            raise error.within(f"Lamp {one_line(self.name)}") from None
 
     @property
     def size(self) -> tuple[float, float]:
@@ -264,10 +264,9 @@ def _read_lamp(row: Mapping[str, Any], usual: Transmitter, number: int) -> RoomL
     try:
         return RoomLamp(**own, transmitter=usual.replaced(sent))
     except ParameterError as error:
-        sentence = str(error)
-        raise ParameterError(
-            sentence if sentence.startswith("Lamp ") else f"{called} ({own['name']}): {sentence}"
-        ) from None
+        if str(error).startswith("Lamp "):
+            raise
+        raise error.within(f"{called} ({own['name']})") from None
 
 
 def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) -> None:
@@ -287,6 +286,4 @@ def check_room(value: object) -> None:
         Naming the value and how to load a room.
     """
     if not isinstance(value, Room):
-        raise ParameterError(
-            f"room is {shown(value)}; allowed: a Room, such as load_room('office') gives."
-        )
+        raise ParameterError.of("room", shown(value), "a Room, such as load_room('office') gives")

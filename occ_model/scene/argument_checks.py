@@ -9,53 +9,29 @@ from occ_model.errors import ParameterError, shown
 
 
 def check_count(name: str, value: object, least: int, most: int | None = None) -> None:
-    """Refuse a value that is not a whole number from ``least`` to ``most``, if that is given.
-
-    Raises
-    ------
-    ParameterError
-        Naming the argument, its value and what is allowed.
-    """
+    """Refuse a value that is not a whole number from ``least`` to ``most``, if that is given."""
     whole = isinstance(value, Integral) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):  # type: ignore[operator]
         top = "" if most is None else f" to {most:,}"
-        raise ParameterError(
-            f"{name} is {shown(value)}; allowed: a whole number from {least}{top}."
-        )
+        raise ParameterError.of(name, shown(value), f"a whole number from {least}{top}")
 
 
 def check_choice(name: str, value: object, choices: Sequence[str]) -> None:
-    """Refuse a value that is not one of ``choices``.
-
-    Raises
-    ------
-    ParameterError
-        Naming the argument, its value and what is allowed.
-    """
+    """Refuse a value that is not one of ``choices``."""
     if not isinstance(value, str) or value not in choices:
-        raise ParameterError(f"{name} is {shown(value)}; allowed: {', '.join(choices)}.")
+        raise ParameterError.of(name, shown(value), ", ".join(choices))
 
 
 def check_switches(switches: object, names: Sequence[str]) -> dict[str, bool]:
-    """Return switches, on (True) or off (False) by name, or refuse what is not such a mapping.
-
-    Raises
-    ------
-    ParameterError
-        It is not a mapping, or a name or a value is not allowed.
-    """
+    """Return switches, on (True) or off (False) by name, or refuse what is not such a mapping."""
     if switches is None:
         return {}
     if not isinstance(switches, Mapping):
-        raise ParameterError(
-            f"force is {shown(switches)}; allowed: effects by name, True or False each."
-        )
+        raise ParameterError.of("force", shown(switches), "effects by name, True or False each")
     for name, on in switches.items():
         check_choice("effect", name, names)
         if not isinstance(on, bool | np.bool_):
-            raise ParameterError(
-                f"effect {shown(name)} is switched {shown(on)}; allowed: True, False."
-            )
+            raise ParameterError.of(f"effect {shown(name)}", f"switched {shown(on)}", "True, False")
     return {name: bool(on) for name, on in switches.items()}
 
 

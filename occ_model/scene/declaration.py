@@ -26,9 +26,15 @@ class Declaration:
     meaning: str
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
-        """Make the error that names the parameter, the problem and what is allowed."""
-        sentence = f"{self.name} {problem}; allowed: {allowed}."
-        return ParameterError(sentence, parameters=(self.name,))
+        """Return the error that names the parameter, the problem and what is allowed.
+
+        Parameters
+        ----------
+        problem
+            A verb and the value, such as "is 3 m".
+        """
+        verb, _, value = problem.partition(" ")
+        return ParameterError.of(self.name, value, allowed, verb=verb, parameters=(self.name,))
 
     def check_length(self, text: str, allowed: str) -> None:
         """Refuse a text that is too long to be a number."""

@@ -19,15 +19,7 @@ DEFAULT_PRESET = "phone-68us"
 
 
 def read_scene_file(path: Path) -> Scene:
-    """Read a scene file, or the scene inside a figure or table that was exported.
-
-    Raises
-    ------
-    SceneFileError
-        It cannot be read, or is not a scene file.
-    ParameterError
-        A value in it is not of its kind or out of range.
-    """
+    """Read a scene file, or the scene inside a figure or table that was exported."""
     if path.suffix.lower() in ENDINGS:
         return scene_inside(path)
     text = read_text(path)
@@ -41,11 +33,6 @@ def check_scene_path(path: Path) -> None:
     """Refuse to save a scene to a file that would not be opened as one.
 
     Other endings are those of figures, tables and photos.
-
-    Raises
-    ------
-    OutputError
-        The file's ending is not that of scenes.
     """
     if path.suffix.lower() != SCENE_ENDING:
         raise OutputError(
@@ -54,13 +41,7 @@ def check_scene_path(path: Path) -> None:
 
 
 def write_scene_file(path: Path, scene: Scene) -> None:
-    """Write a scene so that :func:`read_scene_file` reads it.
-
-    Raises
-    ------
-    OutputError
-        The file's ending is not that of scenes, or it cannot be written.
-    """
+    """Write a scene so that :func:`read_scene_file` reads it."""
     check_scene_path(path)
     write_whole(path, scene.to_toml().encode("utf-8"))
 

@@ -299,3 +299,18 @@ class ChipPattern(Declaration):
 
 
 Parameter: TypeAlias = Quantity | Count | Choice | ChipPattern | Payload
+
+_ALL_DIGITS = 17
+
+
+def distinguished(
+    declared: Parameter, one: ParameterValue, other: ParameterValue
+) -> tuple[str, str]:
+    """Format two different values with enough digits to distinguish them."""
+    if isinstance(declared, Quantity):
+        a, b = float(one), float(other)
+        texts = declared.format(a), declared.format(b)
+        if texts[0] != texts[1]:
+            return texts
+        return declared.format(a, _ALL_DIGITS), declared.format(b, _ALL_DIGITS)
+    return str(one), str(other)

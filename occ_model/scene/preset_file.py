@@ -39,28 +39,14 @@ class Preset:
 
 
 def preset_from(name: str, text: str) -> Preset:
-    """Read a preset from its file's text; its name is the title where the text has none.
-
-    Raises
-    ------
-    SceneFileError
-        It is not a preset.
-    ParameterError
-        A value is out of range, or a note is on an unknown parameter.
-    """
+    """Read a preset from its file's text; its name is the title where the text has none."""
     preset = _put_together(name, _layers(text))
     return preset if preset.title else replace(preset, title=name)
 
 
 @lru_cache(maxsize=64)
 def package_preset(name: str) -> Preset:
-    """Load a preset of the package.
-
-    Raises
-    ------
-    SceneFileError
-        There is no such file, or it is not a preset.
-    """
+    """Load a preset of the package."""
     return _put_together(name, _package_layers(name))
 
 
@@ -127,15 +113,7 @@ def _over(
 
 
 def checked_notes(table: object) -> dict[str, str]:
-    """Return the notes on a preset's values, or refuse a value that is not a table of notes.
-
-    Raises
-    ------
-    SceneFileError
-        It is not a table of texts.
-    ParameterError
-        A note is on an unknown parameter.
-    """
+    """Return the notes on a preset's values, or refuse a value that is not a table of notes."""
     if not isinstance(table, dict) or not all(isinstance(note, str) for note in table.values()):
         raise SceneFileError(
             f"The notes on a preset are {shown(table)}; allowed: a text a parameter."

@@ -87,15 +87,7 @@ def load_preset(name: str) -> Scene:
 
 
 def preset_named(name: str) -> Preset:
-    """Load a preset with the notes on its values.
-
-    Raises
-    ------
-    PresetError
-        No preset has that name.
-    SceneFileError, ParameterError
-        The user's own file of that name is not a preset.
-    """
+    """Load a preset with the notes on its values."""
     if isinstance(name, str):
         if name in _built_in():
             return package_preset(name)
@@ -137,7 +129,7 @@ def save_preset(
     _check_name(name)
     check_scene(scene)
     if not isinstance(title, str):
-        raise ParameterError(f"title is {shown(title)}; allowed: a text.")
+        raise ParameterError.of("title", shown(title), "a text")
     notes = checked_notes(dict(sources or {}))
     head = tomli_w.dumps({"title": title or name})
     tables: dict[str, Mapping[str, object]] = {**scene.tables()}

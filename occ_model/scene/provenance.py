@@ -42,8 +42,6 @@ class Provenance:
 
     Parameters
     ----------
-    seed
-        Seed of all random numbers, None where there are none.
     date
         When they were made; empty for a file that must not depend on it.
     """
@@ -78,29 +76,13 @@ class Provenance:
 
 
 def scenes_in(text: str) -> dict[str, Scene]:
-    """Read the scenes, by name, from a text that :meth:`Provenance.text` wrote.
-
-    Raises
-    ------
-    SceneFileError
-        A scene in it cannot be read.
-    ParameterError
-        A value in one is out of range.
-    """
+    """Read the scenes, by name, from a text that :meth:`Provenance.text` wrote."""
     _before, *parts = _SCENE.split(text)  # names and texts in turn
     return {name: Scene.from_toml(toml) for name, toml in zip(parts[::2], parts[1::2], strict=True)}
 
 
 def first_scene_in(text: str) -> Scene | None:
-    """Read the first scene from a text that :meth:`Provenance.text` wrote, None without any.
-
-    Raises
-    ------
-    SceneFileError
-        It cannot be read.
-    ParameterError
-        A value in it is out of range.
-    """
+    """Read the first scene from a text that :meth:`Provenance.text` wrote, None without any."""
     start = _SCENE.search(text)
     if start is None:
         return None
@@ -115,13 +97,6 @@ def scene_inside(path: Path) -> Scene:
     ----------
     path
         A PNG, SVG, PDF or CSV file that this package wrote.
-
-    Raises
-    ------
-    SceneFileError
-        It cannot be read, or carries no scene.
-    ParameterError
-        A value in it is out of range.
     """
     where = one_line(str(path))
     try:

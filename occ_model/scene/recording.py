@@ -205,17 +205,19 @@ class Recording:
             )
         longest = max(self.exposure_times or (camera.exposure_time,))
         if longest > period:
-            raise ParameterError(
-                f"exposure_time is {SECOND.format(longest)}; allowed in a film of "
-                f"{HERTZ.format(self.frame_rate)}: up to the frame period, "
-                f"{SECOND.format(period)}.",
+            raise ParameterError.of(
+                "exposure_time",
+                SECOND.format(longest),
+                f"up to the frame period, {SECOND.format(period)}",
+                condition=f"in a film of {HERTZ.format(self.frame_rate)}",
                 parameters=("exposure_time",),
             )
         if self.frame_jitter > gap / _MOST_JITTER:
-            raise ParameterError(
-                f"frame_jitter is {SECOND.format(self.frame_jitter)}; allowed with a gap of "
-                f"{SECOND.format(gap)} between frames: up to a sixth of it, "
-                f"{SECOND.format(gap / _MOST_JITTER)}."
+            raise ParameterError.of(
+                "frame_jitter",
+                SECOND.format(self.frame_jitter),
+                f"up to a sixth of it, {SECOND.format(gap / _MOST_JITTER)}",
+                condition=f"with a gap of {SECOND.format(gap)} between frames",
             )
 
     def exposure_time(self, scene: Scene, index: int) -> float:
@@ -252,13 +254,15 @@ def _in_toml(value: object) -> str:
 def _checked_path(path: object) -> tuple[Waypoint, ...]:
     """Return waypoints as a tuple of floats, or refuse them."""
     if not isinstance(path, Sequence) or not all(isinstance(point, Waypoint) for point in path):
-        raise ParameterError(f"path is {shown(path)}; allowed: Waypoints, in the order of time.")
+        raise ParameterError.of("path", shown(path), "Waypoints, in the order of time")
     points = tuple(_checked_waypoint(point) for point in path)
     for before, after in pairwise(points):
         if after.time <= before.time:
-            raise ParameterError(
-                f"path goes from the time {SECOND.format(before.time)} to "
-                f"{SECOND.format(after.time)}; allowed: waypoints in the order of time."
+            raise ParameterError.of(
+                "path",
+                f"from the time {SECOND.format(before.time)} to {SECOND.format(after.time)}",
+                "waypoints in the order of time",
+                verb="goes",
             )
     return points
 
@@ -268,14 +272,14 @@ def _checked_waypoint(point: Waypoint) -> Waypoint:
     for name, value in values.items():
         # Infinity and NaN are out of this range too.
         if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) <= 1e9:
-            raise ParameterError(
-                f"A waypoint's {name} is {shown(value)}; allowed: numbers from -1e9 to 1e9."
+            raise ParameterError.of(
+                f"A waypoint's {name}", shown(value), "numbers from -1e9 to 1e9"
             )
     return Waypoint(**{name: float(value) for name, value in values.items()})
 
 
 def _checked_exposures(times: object) -> tuple[float, ...]:
     if isinstance(times, str) or not isinstance(times, Sequence):
-        raise ParameterError(f"exposure_times is {shown(times)}; allowed: times in seconds.")
+        raise ParameterError.of("exposure_times", shown(times), "times in seconds")
     declared = PARAMETERS["exposure_time"]
     return tuple(float(declared.check(time)) for time in times)

@@ -124,14 +124,8 @@ def group_of(name: str) -> str:
 
 
 def check_scene(value: object) -> None:
-    """Refuse a value that is not a scene.
-
-    Raises
-    ------
-    ParameterError
-        Naming the value and how to load a scene.
-    """
+    """Refuse a value that is not a scene."""
     if not isinstance(value, Scene):
-        raise ParameterError(
-            f"scene is {shown(value)}; allowed: a Scene, such as load_preset('phone-136us') gives."
+        raise ParameterError.of(
+            "scene", shown(value), "a Scene, such as load_preset('phone-136us') gives"
         )

@@ -32,13 +32,7 @@ def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:
 
 
 def from_toml(text: str) -> dict[str, Any]:
-    """Read a text that :func:`to_toml` wrote; the version is not returned.
-
-    Raises
-    ------
-    SceneFileError
-        It is not a text, is not TOML, names no format, or a format that this version does not know.
-    """
+    """Read a text that :func:`to_toml` wrote; the version is not returned."""
     content = parse_toml(text)
     version = content.pop("format", None)
     if version is None:
@@ -51,26 +45,14 @@ def from_toml(text: str) -> dict[str, Any]:
 
 
 def table_of(value: object, name: str) -> Mapping[str, Any]:
-    """Return the table that a file has under a name.
-
-    Raises
-    ------
-    SceneFileError
-        It is no table.
-    """
+    """Return the table that a file has under a name."""
     if not isinstance(value, Mapping):
         raise SceneFileError(f"{name} must be a table: a line '[{name}]' and its keys.")
     return value
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """Read TOML from an untrusted source, in a time that grows with the text's length.
-
-    Raises
-    ------
-    SceneFileError
-        It is not a text, or not TOML of reasonable depth.
-    """
+    """Read TOML from an untrusted source, in a time that grows with the text's length."""
     if not isinstance(text, str):
         raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
     # What stands in a string is no key, and a string that is a part of a key is one part.

@@ -86,11 +86,6 @@ def band_drift(scene: Scene) -> float:
     -------
     float
         Below zero where the model's packet is longer; 0 for the aligned reading.
-
-    Raises
-    ------
-    BandModelUndefined
-        The exposure time is longer than the switching period.
     """
     complete, transition = band_lengths(scene)
     if scene.model.band_reading == "aligned":
@@ -102,11 +97,6 @@ def band_drift(scene: Scene) -> float:
 
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
     """Return the band model's column profile as the scene's receiver would enhance it.
-
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        What :func:`band_profile` returns for it.
 
     Returns
     -------

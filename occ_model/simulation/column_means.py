@@ -8,13 +8,7 @@ from occ_model.camera.picture_rows import Rows
 
 
 class ColumnMeans:
-    """The mean of the panel's pixels in each column.
-
-    Parameters
-    ----------
-    columns
-        How many.
-    """
+    """The mean of the panel's pixels in each column."""
 
     def __init__(self, columns: int) -> None:
         self._sums = np.zeros(columns)
@@ -25,8 +19,6 @@ class ColumnMeans:
 
         Parameters
         ----------
-        rows
-            Where the panel is.
         values : ndarray, shape (rows, columns)
             Grey levels.
         """

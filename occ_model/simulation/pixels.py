@@ -91,10 +91,6 @@ class PixelExposure:
 
     Parameters
     ----------
-    view
-        The paper's view of the scene.
-    columns
-        The pixel values of each column.
     bands
         The rows that are exposed, in order, each a whole number of blocks of a JPEG file but the
         last; None for the whole picture.
@@ -103,11 +99,6 @@ class PixelExposure:
         does not depend on others.
     mean
         The mean pixel values, where they are not those of one panel.
-
-    Raises
-    ------
-    ParameterError
-        The picture is too large for the file that the scene asks for.
     """
 
     def __init__(

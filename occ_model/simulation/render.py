@@ -101,15 +101,7 @@ class PlannedScene:
 
 
 def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:
-    """Choose the effects of a scene with some settings, whatever their seed and noise.
-
-    Raises
-    ------
-    ParameterError
-        A setting is invalid, or the image would be too large.
-    ProjectionError
-        Part of the panel is behind the camera.
-    """
+    """Choose the effects of a scene with some settings, whatever their seed and noise."""
     check_scene(scene)
     settings = settings.checked(NAMES)
     check_size(scene.camera)
@@ -163,17 +155,8 @@ def render_plan(
 
     Parameters
     ----------
-    view
-        The paper's view of the scene.
     heartbeat
         Called before each band of rows that differ; what it raises ends the work.
-
-    Raises
-    ------
-    ParameterError
-        The picture is too large for the JPEG file that the scene asks for.
-    ProjectionError
-        The lens folds the picture, or the image would be too large.
     """
     scene = view.scene
     check_size(scene.camera)
@@ -239,11 +222,6 @@ def observe(
     timer: StageTimer | None = None,
 ) -> Pixels:
     """Simulate the observable that a plan's tolerance refers to.
-
-    Parameters
-    ----------
-    chosen
-        Its effects are simulated, and its observable is given.
 
     Returns
     -------

@@ -74,13 +74,6 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     Its noise is spread evenly over the bands, so that a column's mean over the panel has hardly any
     sampling error; that of the whole picture has to be added.
 
-    Parameters
-    ----------
-    view
-        The paper's view of the scene.
-    seed
-        Seed of the noise.
-
     Returns
     -------
     SampledPicture or None

@@ -37,11 +37,6 @@ class StageTimer:
 
         Each stage counts in proportion to the time that it took in all threads together, so that
         the sum stays the time that has passed.
-
-        Parameters
-        ----------
-        timers
-            The timer of each thread.
         """
         now = perf_counter()
         passed, self._last = now - self._last, now

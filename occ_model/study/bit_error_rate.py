@@ -163,7 +163,9 @@ def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     is_number = isinstance(frames_a_second, int | float) and not isinstance(frames_a_second, bool)
     if not is_number or not 0.0 < frames_a_second <= most:
-        raise ParameterError(
-            f"frames_a_second is {shown(frames_a_second)}; allowed: above 0 to {most:.4g}, where "
-            f"the readout of {scene.camera.columns} columns fills the time of a picture."
+        raise ParameterError.of(
+            "frames_a_second",
+            shown(frames_a_second),
+            f"above 0 to {most:.4g}, where the readout of {scene.camera.columns} columns fills the "
+            "time of a picture",
         )

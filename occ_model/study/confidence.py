@@ -100,5 +100,5 @@ def _checked(level: object) -> float:
     number = isinstance(level, Real) and not isinstance(level, bool)
     share = float(level) if number and 0 < level < 1 else 0.0  # type: ignore[operator, arg-type]
     if not 0.0 < share < 1.0:
-        raise ParameterError(f"level is {shown(level)}; allowed: a number between 0 and 1.")
+        raise ParameterError.of("level", shown(level), "a number between 0 and 1")
     return share

@@ -261,5 +261,5 @@ def _what(asked: tuple[Any, ...]) -> str:
 def _checked(rate: object) -> float:
     number = isinstance(rate, Real) and not isinstance(rate, bool)
     if not number or not 0.0 < rate <= 100.0:  # type: ignore[operator]
-        raise ParameterError(f"rate is {shown(rate)} %; allowed: above 0 % to 100 %.")
+        raise ParameterError.of("rate", f"{shown(rate)} %", "above 0 % to 100 %")
     return float(rate)  # type: ignore[arg-type]

@@ -37,9 +37,11 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     check_scene(scene)
     values = np.asarray(profile, dtype=np.float64)
     if values.ndim != 1 or len(values) < _FEWEST:
-        raise ParameterError(f"profile has shape {values.shape}; allowed: ({_FEWEST} or more,).")
+        raise ParameterError.of(
+            "profile", f"shape {values.shape}", f"({_FEWEST} or more,)", verb="has"
+        )
     if not np.isfinite(values).all():
-        raise ParameterError("profile has values that are not finite; allowed: finite ones.")
+        raise ParameterError.of("profile", "values that are not finite", "finite ones", verb="has")
     window = np.hanning(len(values))
     amplitudes = 2.0 * np.abs(np.fft.rfft(window * (values - values.mean()))) / window.sum()
     frequencies = np.fft.rfftfreq(len(values), scene.camera.readout_time)

@@ -19,27 +19,16 @@ _MOST_CHIPS = 400
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     """Return the chips that a column's exposure covers.
 
-    Parameters
-    ----------
-    column
-        A column of the picture, from 0.
-
     Returns
     -------
     ExposureWindow
         With a chip before the exposure and one after it.
-
-    Raises
-    ------
-    ParameterError
-        The picture has no such column.
     """
     check_scene(scene)
     check_count("column", column, 0)
     if column >= scene.camera.columns:
-        raise ParameterError(
-            f"column is {shown(int(column))}; allowed: 0 to {scene.camera.columns - 1}, "
-            "as the picture has."
+        raise ParameterError.of(
+            "column", shown(int(column)), f"0 to {scene.camera.columns - 1}, as the picture has"
         )
     chips = sent_chips(scene.transmitter)
     period = scene.transmitter.switching_period

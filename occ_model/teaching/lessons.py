@@ -57,13 +57,7 @@ class _MistakeError(SceneFileError):
 
 
 def lessons() -> LessonList:
-    """Load the lessons of the package, in their order, then those of the user's own folder.
-
-    Raises
-    ------
-    SceneFileError
-        A file of the package cannot be read.
-    """
+    """Load the lessons of the package, in their order, then those of the user's own folder."""
     own: list[Lesson] = []
     problems: dict[str, str] = {}
     for path in files_in(lessons_folder(), _ENDING):
@@ -88,13 +82,7 @@ def lessons_folder() -> Path:
 
 
 def begin_lessons_folder() -> Path:
-    """Make the folder of the user's own lessons; one without lessons gets one to begin with.
-
-    Raises
-    ------
-    OutputError
-        The folder cannot be made, or the lesson cannot be written.
-    """
+    """Make the folder of the user's own lessons; one without lessons gets one to begin with."""
     folder = lessons_folder()
     make_folder(folder)
     if not files_in(folder, _ENDING):
@@ -104,13 +92,7 @@ def begin_lessons_folder() -> Path:
 
 
 def read_lesson(path: Path) -> Lesson:
-    """Read a lesson's file.
-
-    Raises
-    ------
-    SceneFileError
-        The file cannot be read or holds no lesson; the sentence names the line of the mistake.
-    """
+    """Read a lesson's file."""
     return _lesson(path.stem, read_text(path))
 
 

@@ -37,16 +37,11 @@ def light_over_columns(
     -------
     LightCurve or None
         With all chips that the interval touches; None where they are more than ``most``.
-
-    Raises
-    ------
-    ParameterError
-        The columns are not in order.
     """
     check_scene(scene)
     if not first < last:
-        raise ParameterError(
-            f"The columns end at {shown(last)}; allowed: above {shown(first)}, where they begin."
+        raise ParameterError.of(
+            "last", shown(last), f"above {shown(first)}, where the columns begin"
         )
     frequency = Fraction(scene.transmitter.switching_frequency)
     step = Fraction(scene.camera.readout_time) * frequency

@@ -7,13 +7,7 @@ _DIGITS = 3
 
 
 def result_text(unit: Unit, value: float) -> str:
-    """Write a result with its unit.
-
-    Parameters
-    ----------
-    value
-        The result in the SI unit.
-    """
+    """Write a result with its unit."""
     _, factor = unit.display(value)
     if not unit.symbol and value == round(value):
         return f"{value:.0f}"

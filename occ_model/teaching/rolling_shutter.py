@@ -21,11 +21,6 @@ def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
     ----------
     shown
         Number of columns; fewer where the picture has fewer.
-
-    Returns
-    -------
-    RollingShutter
-        The columns' exposures and the waveform over the time that they take.
     """
     check_scene(scene)
     camera, period = scene.camera, scene.transmitter.switching_period

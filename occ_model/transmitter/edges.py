@@ -57,14 +57,8 @@ class EdgedWaveform:
 
         Parameters
         ----------
-        starts
-            Where the windows start.
         exposure
             Length of every window, in chips.
-
-        Returns
-        -------
-        ndarray of float64, shape as the starts
         """
         duration = Duration.of(exposure, self.period)
         now = starts(Fraction(0))

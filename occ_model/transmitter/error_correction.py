@@ -30,11 +30,6 @@ def protect(bits: ByteArray) -> ByteArray:
     Returns
     -------
     ndarray of uint8, shape (protected_bits,)
-
-    Raises
-    ------
-    ParameterError
-        The package ``reedsolo`` is not installed.
     """
     sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
     return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))

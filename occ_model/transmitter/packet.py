@@ -36,13 +36,6 @@ def sent_chips(transmitter: Transmitter) -> ByteArray:
     Returns
     -------
     ndarray of uint8, shape (chips,), read-only
-
-    Raises
-    ------
-    ParameterError
-        Line code and framing do not go together, or a package is missing.
-    PluginError
-        A plug-in fails.
     """
     if transmitter.pattern:
         return _pattern_chips(transmitter.pattern)

@@ -61,13 +61,7 @@ def plain_reason(failure: str | None) -> str | None:
 
 
 def checked_chips(chips: object, who: str, count: int | None = None) -> ByteArray:
-    """Return a plug-in's chips as bytes.
-
-    Raises
-    ------
-    PluginError
-        They are no zeros and ones, too many, or not as many as they should be.
-    """
+    """Return a plug-in's chips as bytes."""
     if problem := excess("chips", chips, MOST_CHIPS):
         raise PluginError(f"{who} gives {problem}.")
     if not isinstance(chips, np.ndarray) or not is_bits(chips) or not chips.size:

@@ -20,8 +20,6 @@ class Registry(Generic[_Kind]):
     ----------
     parameter
         The parameter, which declares the names of the built-in ones.
-    kind
-        Their class.
     constant
         What a module calls the object that it offers.
     package, files
@@ -50,15 +48,7 @@ class Registry(Generic[_Kind]):
 
     @cache  # noqa: B019 - the registries live as long as the program, and names are few
     def named(self, name: str) -> _Kind:
-        """Find an object.
-
-        Raises
-        ------
-        ParameterError
-            There is none of that name.
-        PluginError
-            It is a plug-in that cannot be used.
-        """
+        """Find an object."""
         open_choice(self.parameter).check(name)
         if name in self.files:
             module = import_module(f"{self.package}.{self.files[name]}")

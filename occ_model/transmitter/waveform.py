@@ -98,11 +98,6 @@ class Waveform:
         The difference is taken term by term, the exact whole chips separately: the error stays that
         of the phases, about 2e-16 chips, for windows of any length.
 
-        Parameters
-        ----------
-        starts
-            Where the windows start.
-
         Returns
         -------
         ndarray of float64, shape as ``starts``

@@ -54,9 +54,10 @@ class ShutterTiming:
         """
         first, end = columns or (0, scene.camera.columns)
         if not 0 <= first < end:
-            raise ParameterError(
-                f"columns is {first} to {end}; allowed: the first column that shows the panel, and "
-                "the one after the last."
+            raise ParameterError.of(
+                "columns",
+                f"{first} to {end}",
+                "the first column that shows the panel, and the one after the last",
             )
         return cls(
             Fraction(scene.transmitter.switching_frequency),

@@ -49,7 +49,9 @@ def write_video(
     rate = video.frame_rate or _USUAL_RATE
     check_film_path(path, rate, video.shape)
     if video.simulated and video.frame_count is None:
-        raise ParameterError("frames is None, a film without end; allowed to be written: a number.")
+        raise ParameterError.of(
+            "frames", "None, a film without end", "a number", condition="to be written"
+        )
 
     def pictures() -> Iterator[ByteArray]:
         for number, frame in enumerate(video, 1):

@@ -148,7 +148,7 @@ class VideoFile(Video):
         stored, decoder = self._at(index)
         if stored is None:
             put_back(decoder)
-            raise ParameterError(f"index is {index}; allowed: the number of a frame that is there.")
+            raise ParameterError.of("index", f"{index}", "the number of a frame that is there")
         frame = self._frame(index, stored)
         self._stepping = _Stepping(decoder, frame)
         return frame

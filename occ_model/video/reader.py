@@ -45,8 +45,8 @@ class VideoReader:
         check_scene(scene)
         decoder_named(decoder)
         if not 0.0 < readout_tolerance <= 0.5:
-            raise ParameterError(
-                f"readout_tolerance is {shown(readout_tolerance)}; allowed: above 0 up to 0.5."
+            raise ParameterError.of(
+                "readout_tolerance", shown(readout_tolerance), "above 0 up to 0.5"
             )
         self._scene, self._reads = scene, FrameReader(scene, decoder)
         self._period = period_of(scene)
@@ -139,13 +139,13 @@ class VideoReader:
     def _check(self, frame: VideoFrame) -> None:
         """Refuse a frame that cannot be read with those before."""
         if not isinstance(frame, VideoFrame):
-            raise ParameterError(f"frame is {shown(frame)}; allowed: a VideoFrame.")
+            raise ParameterError.of("frame", shown(frame), "a VideoFrame")
         check_count("index of a frame", frame.index, 0)
         image: object = frame.image
         if not isinstance(image, np.ndarray) or image.dtype != np.uint8 or image.ndim != 2:
             kind = f"{image.dtype} {image.shape}" if isinstance(image, np.ndarray) else shown(image)
-            raise ParameterError(
-                f"image of frame {frame.index} is {kind}; allowed: uint8 (rows, columns)."
+            raise ParameterError.of(
+                f"image of frame {frame.index}", f"{kind}", "uint8 (rows, columns)"
             )
         if self._shape not in (None, image.shape):
             raise ParameterError(
@@ -154,9 +154,8 @@ class VideoReader:
             )
         time: object = frame.time
         if not isinstance(time, int | float | np.number) or not abs(float(time)) <= LATEST:
-            raise ParameterError(
-                f"time of frame {frame.index} is {shown(time)} s; allowed: {-LATEST:g} to "
-                f"{LATEST:g} s."
+            raise ParameterError.of(
+                f"time of frame {frame.index}", f"{shown(time)} s", f"{-LATEST:g} to {LATEST:g} s"
             )
 
     def _read_on(self) -> None:

@@ -171,7 +171,7 @@ class SimulatedVideo(Video):
         try:
             self.scene.replace(**changes)
         except ParameterError as error:
-            raise ParameterError(f"Frame {index} of the film: {error}") from None
+            raise error.within(f"Frame {index} of the film") from None
         return changes
 
     def _clock(self, index: int) -> Fraction:

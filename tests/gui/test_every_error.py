@@ -28,7 +28,6 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.detection_map import wiring
 from occ_gui.scene.parameter_rows import ChoiceRow, CountRow, ParameterRow, PatternRow, QuantityRow
-from occ_gui.scene.wording import refusal_of, with_labels
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model import plugins
 from occ_model.errors import OccError, PluginError
@@ -36,6 +35,7 @@ from occ_model.parallel.job import Job, JobResult, WorkersLostError
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import USER_FOLDER, save_preset
+from occ_model.scene.refusal import labelled, refusal_of
 from occ_model.scene.scene import Scene
 
 
@@ -261,9 +261,9 @@ def test_every_class_becomes_a_sentence_and_the_picture_stays(
         stage.user.wait_until_idle()
         made.clear()
         shown = case(stage)
-        sentences = [str(each) for each in made if type(each) is error]
-        assert sentences, f"no {error.__name__}, but {made}, and the window says: {shown!r}"
-        words = {say(each) for each in sentences for say in (str, with_labels, refusal_of)}
+        met = [each for each in made if type(each) is error]
+        assert met, f"no {error.__name__}, but {made}, and the window says: {shown!r}"
+        words = {say(each) for each in met for say in (str, labelled, refusal_of)}
         assert shown in words, error
         assert shown.isprintable()
         assert shown.endswith("."), error

@@ -24,7 +24,7 @@ UNDONE: dict[str, Change] = {
     "region": lambda at: at.view("picture").simulation.box.setRange(xRange=(3, 9), yRange=(3, 9)),
     "overlay": lambda at: at.show_mode("blend"),
     "picture": lambda at: at.story.show_whole_picture(True),
-    "refusal": lambda at: at.controls.show_refusal("No.", ("iso",)),
+    "refusal": lambda at: at.controls.show_problem("No.", ("iso",)),
     "decoder": lambda at: at.view("decode").choose_decoder("matched"),
     "brightness": lambda at: at.desktop.brightness.switch(True),
     "size": lambda at: at.window.resize(1300, 820),

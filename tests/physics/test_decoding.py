@@ -204,26 +204,3 @@ def test_noise_gives_a_sentence_and_never_an_exception() -> None:
             image = rng.integers(0, 256, shape, dtype=np.uint8)
             result = occ.decode(image, Scene())
             assert (result.code is None) == (result.failure is not None)
-
-
-@pytest.mark.parametrize(
-    ("image", "words"),
-    [
-        (np.zeros((4, 5, 3), dtype=np.uint8), "grey image"),
-        (np.zeros((0, 5), dtype=np.uint8), "empty"),
-        (np.zeros((4, 5), dtype=np.int32), "int32"),
-        (np.full((4, 5), np.nan), "not numbers"),
-        (np.array([1.0, np.inf]), "not numbers"),
-        (np.array([-1e308, 1e308] * 50), "grey levels reach"),
-        ([[1.0], [1.0, 2.0]], "different lengths"),
-    ],
-)
-def test_arrays_that_are_no_grey_image_are_refused(image: np.ndarray, words: str) -> None:
-    with pytest.raises(occ.DecodeInputError, match=words):
-        occ.decode(image, Scene())
-
-
-@pytest.mark.parametrize("decoder", ["psychic", None, []])
-def test_an_unknown_decoder_is_refused_with_the_names_there_are(decoder: object) -> None:
-    with pytest.raises(occ.ParameterError, match="threshold"):
-        occ.decode(np.zeros((2, 2), dtype=np.uint8), Scene(), decoder)  # type: ignore[arg-type]

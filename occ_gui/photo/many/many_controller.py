@@ -61,17 +61,7 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
 
 
 class ManyPhotosController(QObject):
-    """Matches the photos of a table.
-
-    Parameters
-    ----------
-    scenes
-        The scene with the known values.
-    view
-        The table.
-    jobs
-        Number of processes; by default one for each core.
-    """
+    """Matches the photos of a table."""
 
     matched = Signal(object)
     """The complete table: a PhotoTable."""

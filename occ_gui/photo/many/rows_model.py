@@ -28,6 +28,7 @@ from occ_model.results.photo_table import (
     known_beside,
 )
 from occ_model.scene.parameters import quantity
+from occ_model.scene.refusal import refusal_of
 
 _Index = QModelIndex | QPersistentModelIndex
 
@@ -194,7 +195,7 @@ class PhotoRowsModel(QAbstractTableModel):
             entered = declared.parse(text, declared.unit.display(declared.default)[1])
         except ParameterError as error:
             if text:
-                self.refused.emit(str(error))
+                self.refused.emit(refusal_of(error))
                 return False
             given.pop(place, None)
         else:

@@ -29,9 +29,11 @@ def region_within(photo: Photo, corners: Corners) -> Region:
         across = 0 <= region.first_column < region.last_column <= columns
         if down and across:
             return region
-    raise ParameterError(
-        f"region is {shown(corners)}; allowed: first row, row after the last, first column, column "
-        f"after the last, of at least one row and column, up to {rows} and {columns}."
+    raise ParameterError.of(
+        "region",
+        shown(corners),
+        "first row, row after the last, first column, column after the last, of at least one row "
+        f"and column, up to {rows} and {columns}",
     )
 
 

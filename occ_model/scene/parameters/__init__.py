@@ -34,13 +34,7 @@ PARAMETERS: dict[str, Parameter] = {
 
 
 def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
-    """Find a declaration.
-
-    Raises
-    ------
-    ParameterError
-        There is no parameter of that name among ``among``; the closest one is suggested.
-    """
+    """Find a declaration."""
     names = list(among)
     if name in names:
         return PARAMETERS[name]

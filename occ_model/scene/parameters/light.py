@@ -114,8 +114,11 @@ class Transmitter(Group):
 
     def _check_together(self) -> None:
         if self.code >= 2**self.bits:
-            raise ParameterError(
-                f"code is {self.code}; allowed with {self.bits} bits: 0 to {2**self.bits - 1}.",
+            raise ParameterError.of(
+                "code",
+                f"{self.code}",
+                f"0 to {2**self.bits - 1}",
+                condition=f"with {self.bits} bits",
                 parameters=("code", "bits"),
             )
 

@@ -47,8 +47,8 @@ def band_advice(scene: Scene, limit: float = BARELY) -> BandAdvice:
     """
     over = DepthOver.of(scene)
     if not _LEAST_LIMIT <= limit <= 1.0:
-        raise ParameterError(
-            f"limit is {100.0 * limit:g} %; allowed: {100.0 * _LEAST_LIMIT:g} % to 100 %."
+        raise ParameterError.of(
+            "limit", f"{100.0 * limit:g} %", f"{100.0 * _LEAST_LIMIT:g} % to 100 %"
         )
     frequency = scene.transmitter.switching_frequency
     exposures, all_exposures = _exposures(over, frequency, limit)

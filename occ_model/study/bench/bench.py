@@ -181,4 +181,4 @@ def _period(scene: Scene) -> float:
 
 def _check(what: str, value: float, low: float, high: float) -> None:
     if not low <= value <= high:
-        raise ParameterError(f"The {what} is {shown(value)}; allowed: {low:g} to {high:g}.")
+        raise ParameterError.of(what, shown(value), f"{low:g} to {high:g}")

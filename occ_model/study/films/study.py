@@ -72,8 +72,8 @@ class FilmRequest:
         check_count("frames", self.frames, 3, 1_000_000)
         for gap in self.gaps:
             if not 0.0 <= gap <= _LARGEST_GAP:
-                raise ParameterError(
-                    f"gap is {100.0 * gap:g} % of a frame; allowed: 0 to {100 * _LARGEST_GAP:g} %."
+                raise ParameterError.of(
+                    "gap", f"{100.0 * gap:g} % of a frame", f"0 to {100 * _LARGEST_GAP:g} %"
                 )
         check_count("points", self.points, 1, MOST_POINTS)
         for number in self.bits:

@@ -44,8 +44,8 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
     check_rate(scene, settings)
     FRAME_RATE.check(settings.frames_a_second)
     if not isinstance(axes, Mapping) or not axes:
-        raise ParameterError(
-            f"axes is {shown(axes)}; allowed: one parameter or more by name, a list of values each."
+        raise ParameterError.of(
+            "axes", shown(axes), "one parameter or more by name, a list of values each"
         )
     if len(axes) > MOST_AXES:
         raise ParameterError(f"{len(axes)} parameters are varied; allowed: at most {MOST_AXES}.")
@@ -106,11 +106,11 @@ def decoders_of(decoder: object) -> tuple[str, ...]:
     if isinstance(decoder, str):
         return (decoder,)
     if not isinstance(decoder, Sequence) or not decoder:
-        raise ParameterError(f"decoder is {shown(decoder)}; allowed: one of {known}, or several.")
+        raise ParameterError.of("decoder", shown(decoder), f"one of {known}, or several")
     for name in decoder:
         if list(decoder).count(name) > 1:
-            raise ParameterError(
-                f"decoder {shown(name)} is given twice; allowed: each of {known} once."
+            raise ParameterError.of(
+                f"decoder {shown(name)}", "given twice", f"each of {known} once"
             )
     return tuple(decoder)
 

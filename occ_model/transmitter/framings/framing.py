@@ -91,18 +91,15 @@ def own_preamble(line_code: LineCode) -> ByteArray:
     It is the one declared, or a run longer than any of the code. With a longest run of n that is
     n + 1 ones between as many zeros, so it is balanced: of Manchester 0 111 00 and of 4B6B
     00 11111 000, which are those of C-OOK in IEEE 802.15.7-2018.
-
-    Raises
-    ------
-    ParameterError
-        The line code limits no run.
     """
     if line_code.preamble:
         return _chips_of(line_code.preamble)
     if line_code.longest_run is None:
-        raise ParameterError(
-            f"line_code is '{line_code.name}', which limits no run: no preamble differs from all "
-            "its payloads; allowed with this framing: a line code with a longest run.",
+        raise ParameterError.of(
+            "line_code",
+            f"'{line_code.name}', which limits no run: no preamble differs from all its payloads",
+            "a line code with a longest run",
+            condition="with this framing",
             parameters=("line_code", "framing"),
         )
     ones = line_code.longest_run + 1

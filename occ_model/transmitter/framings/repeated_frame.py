@@ -32,10 +32,6 @@ def read_repeated(
 
     Parameters
     ----------
-    chips : ndarray of uint8
-        The chips, first sent first.
-    preamble : ndarray of uint8
-        The chips that start a frame.
     length
         Chips of a period.
     form

@@ -101,28 +101,6 @@ def test_the_ends_of_the_range_are_allowed_and_what_is_beyond_is_not(board: Boar
         assert refused.value.parameters == ("switching_frequency",)
 
 
-def test_a_refusal_names_value_board_range_and_reason() -> None:
-    with pytest.raises(occ.ParameterError) as refused:
-        occ.transmitter_sketch(PAPER.replace(switching_frequency=400e3), "arduino-uno")
-    assert str(refused.value) == (
-        "switching_frequency is 400 kHz; allowed on Arduino Uno: 0.238419 Hz to 125 kHz, since its "
-        "interrupt takes about 100 of the clock's cycles for each chip."
-    )
-
-
-def test_an_unknown_board_is_refused_with_the_known_ones() -> None:
-    with pytest.raises(occ.ParameterError) as refused:
-        occ.transmitter_sketch(PAPER, "arduino-due")
-    assert str(refused.value) == (
-        "board is 'arduino-due'; allowed: arduino-uno, arduino-nano, esp32, raspberry-pi-pico."
-    )
-
-
-def test_what_is_no_scene_is_refused() -> None:
-    with pytest.raises(occ.ParameterError, match=r"^scene is 3; allowed: a Scene"):
-        occ.transmitter_sketch(3)  # type: ignore[arg-type]
-
-
 def test_a_packet_that_does_not_fit_is_refused() -> None:
     # 4,095 chips have no divisor in common with 32: 32 packets of them are unpacked.
     pico = board_named("raspberry-pi-pico")

@@ -8,7 +8,6 @@ from PIL import ExifTags, Image
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.errors import ParameterError
 from occ_model.results.frame import PICTURES
 
 SCENE = ("--set", "rows=300")
@@ -46,9 +45,3 @@ def test_other_formats_say_it_by_exif_where_they_can(tmp_path: Path, ending: str
         text = picture.getexif().get(ExifTags.Base.ImageDescription)
     assert text == (None if ending == "bmp" else "Camera's picture")
     assert occ.load_photo(path).image.shape == (300, 3456)
-
-
-def test_a_frame_has_no_third_picture() -> None:
-    frame = occ.render(occ.load_preset("phone-68us").replace(rows=300))
-    with pytest.raises(ParameterError, match=r"^picture is 'film'; allowed: camera, receiver\.$"):
-        frame.picture("film")

@@ -152,28 +152,6 @@ def test_a_plan_is_a_value(scene: Scene) -> None:
     assert hash(occ.plan(scene)) == hash(occ.plan(scene))
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"tolerance": -1}, "tolerance is -1 levels; allowed: "),
-        ({"tolerance": math.nan}, "tolerance is nan"),
-        ({"tolerance": None}, "tolerance is None, which is not a number"),
-        (
-            {"observable": "pixels"},
-            "observable is 'pixels'; allowed: signal, profile, image, decision",
-        ),
-        ({"observable": None}, "observable is None"),
-        ({"force": {"blur": True}}, "effect is 'blur'; allowed: led-edges, flicker, "),
-        ({"force": {3: True}}, "effect is 3; allowed: "),
-    ],
-)
-def test_what_cannot_be_is_refused_in_a_sentence(
-    scene: Scene, arguments: dict[str, object], words: str
-) -> None:
-    with pytest.raises(occ.ParameterError, match=words):
-        occ.plan(scene, **arguments)  # type: ignore[arg-type]
-
-
 def test_what_only_the_signal_calls_for_is_named() -> None:
     scene = occ.load_preset("phone-136us").replace(switching_frequency=14.6e3)
     of_profile = occ.plan(scene, observable="profile")

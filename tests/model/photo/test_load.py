@@ -9,7 +9,6 @@ import pytest
 from photo_files import saved
 from PIL import Image
 
-from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import load_photo
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
@@ -51,11 +50,6 @@ def test_the_axis_that_the_shutter_scanned_becomes_the_columns(
     photo = load_photo(saved(tmp_path, np.ascontiguousarray(stripes)), axis)
     assert photo.turned is {"auto": lines_are_striped, "columns": False, "lines": True}[axis]
     np.testing.assert_array_equal(photo.image, stripes.T if photo.turned else stripes)
-
-
-def test_an_axis_of_another_name_is_refused() -> None:
-    with pytest.raises(ParameterError, match=r"^scan_axis is 'rows'; allowed: auto, columns, "):
-        load_photo("x.png", "rows")
 
 
 @pytest.mark.parametrize("orientation", range(1, 9))

@@ -139,14 +139,6 @@ def test_progress_rises_to_1_and_what_it_raises_ends_the_match() -> None:
         occ.match_photo(PHOTO, KNOWN, progress=stop)
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [("estimate", "gamma"), ("sent", "nothing"), ("averaging", "median")]
-)
-def test_a_word_that_is_none_of_the_choices_is_refused(name: str, value: str) -> None:
-    with pytest.raises(occ.ParameterError, match=f"{name} is '{value}'; allowed: "):
-        occ.match_photo(PHOTO, KNOWN, **{name: value})  # type: ignore[arg-type]
-
-
 def test_stripes_that_no_parameter_explains_are_refused() -> None:
     slow = KNOWN.replace(switching_frequency=1.0)  # a readout of many milliseconds a column
     match = occ.match_photo(PHOTO, slow)

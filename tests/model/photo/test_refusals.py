@@ -16,7 +16,7 @@ from films import film_bytes
 from photo_files import saved
 from PIL import Image, PngImagePlugin
 
-from occ_model.errors import ParameterError, PhotoError, one_line
+from occ_model.errors import PhotoError, one_line
 from occ_model.photo.reading.load import load_photo
 
 PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
@@ -192,23 +192,6 @@ def outcome(path: Path, max_pixels: int) -> bool:
         return load_photo(path, max_pixels=max_pixels).image.size > 0
     except PhotoError:
         return False
-
-
-@pytest.mark.parametrize(
-    ("how", "sentence"),
-    [
-        ({"scan_axis": "rows"}, "scan_axis is 'rows'; allowed: auto, columns, lines."),
-        ({"channel": "ir"}, "channel is 'ir'; allowed: brightest, luma, red, green, blue."),
-        ({"channel": ["red"]}, "channel is ['red']; allowed: brightest, luma, red, green, blue."),
-        ({"max_pixels": 0}, "max_pixels is 0; allowed: a whole number from 1."),
-        ({"max_pixels": 1e6}, "max_pixels is 1000000.0; allowed: a whole number from 1."),
-        ({"max_pixels": True}, "max_pixels is True; allowed: a whole number from 1."),
-    ],
-)
-def test_an_argument_that_is_not_allowed_is_refused(how: dict[str, object], sentence: str) -> None:
-    with pytest.raises(ParameterError) as refused:
-        load_photo("x.png", **how)  # type: ignore[arg-type]
-    assert str(refused.value) == sentence
 
 
 def test_a_heic_photo_without_its_reader_says_what_to_install(

@@ -56,12 +56,3 @@ def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
     late = occ.match_photo(photo, KNOWN, region=part).start_time - whole.start_time
     period = 24.0 / SCENE.transmitter.switching_frequency
     assert abs((late + period / 2) % period - period / 2) < 0.01 * period
-
-
-@pytest.mark.parametrize(
-    "region",
-    [(0, 10, 5, 5), (-1, 10, 0, 50), (0, 10_000, 0, 50), (0, 10, 0), (0, 1.5, 0, 9), "0:1"],
-)
-def test_a_region_outside_the_photo_is_refused(region: object) -> None:
-    with pytest.raises(occ.ParameterError, match=r"region is .*allowed: first row"):
-        occ.find_stripes(take(SCENE), region)  # type: ignore[arg-type]

@@ -135,24 +135,6 @@ def test_a_code_that_fits_its_bits_is_accepted_in_any_order(bits: int, code: int
             )
 
 
-def test_a_code_that_does_not_fit_is_refused_in_any_order() -> None:
-    with pytest.raises(ParameterError, match=r"^code is 1024; allowed with 10 bits: 0 to 1023\.$"):
-        Scene().replace(code=1024)
-    with pytest.raises(ParameterError, match=r"^code is 718; allowed with 9 bits: 0 to 511\.$"):
-        Scene().replace(bits=9)
-    assert Scene().replace(code=3).replace(bits=2).value("code") == 3
-    assert Scene().replace(bits=11).replace(code=1024).value("code") == 1024
-
-
-@pytest.mark.parametrize("parameter", PARAMETERS.values(), ids=lambda p: p.name)
-def test_a_bad_value_is_refused_by_the_parameter_s_name(parameter: Parameter) -> None:
-    with pytest.raises(ParameterError, match=f"^{parameter.name} is None.*; allowed: "):
-        Scene().replace(**{parameter.name: None})  # type: ignore[arg-type]
-    group = type(getattr(Scene(), group_of(parameter.name)))
-    with pytest.raises(ParameterError, match=f"^{parameter.name} is None.*; allowed: "):
-        group(**{parameter.name: None})
-
-
 def test_an_unknown_name_is_answered_with_the_nearest() -> None:
     for refused in (
         lambda: Scene().replace(exposure_tme=1e-3),

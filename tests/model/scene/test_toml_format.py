@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from payloads import PAYLOADS
 
-from occ_model.errors import OccError, ParameterError, SceneFileError
+from occ_model.errors import OccError, SceneFileError
 from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Payload, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.parameters.light import MAX_BITS
@@ -156,35 +156,6 @@ def test_what_is_no_text_is_refused_in_a_sentence(text: object) -> None:
     assert str(refused.value) == (
         f"A scene is read from text (str), not from {type(text).__name__}."
     )
-
-
-@pytest.mark.parametrize(
-    ("line", "sentence"),
-    [
-        ("iso = 0", r"^iso is 0; allowed: 1 to "),
-        ("iso = nan", r"^iso is nan; allowed: 1 to "),
-        ("iso = inf", r"^iso is inf; allowed: 1 to "),
-        ("iso = 1e400", r"^iso is inf; allowed: 1 to "),
-        ("iso = '100'", r"^iso is '100', which is not a number; allowed: 1 to "),
-        ("iso = true", r"^iso is True, which is not a number; allowed: 1 to "),
-        ("iso = [100]", r"^iso is \[100\], which is not a number; allowed: 1 to "),
-        ("iso = 1979-05-27", r"^iso is datetime.*, which is not a number; allowed: 1 to "),
-        ("iso.x = 1", r"^iso is \{'x': 1\}, which is not a number; allowed: 1 to "),
-        ("exposure_time = -1e-6", r"^exposure_time is -1 µs; allowed: 1 ns to "),
-        ("rows = 0", r"^rows is 0; allowed: a whole number from 1 to "),
-        ("rows = 1.5", r"^rows is 1\.5; allowed: a whole number from 1 to "),
-        ("rows = 0x" + "f" * 5000, r"^rows is .*; allowed: a whole number from 1 to "),
-    ],
-    ids=lambda text: text[:20],
-)
-def test_a_bad_value_is_refused_by_the_parameter_s_name(line: str, sentence: str) -> None:
-    with pytest.raises(ParameterError, match=sentence):
-        Scene.from_toml(f"format = 1\n[camera]\n{line}\n")
-
-
-def test_a_code_that_does_not_fit_its_bits_is_refused() -> None:
-    with pytest.raises(ParameterError, match=r"^code is 718; allowed with 4 bits: 0 to 15\.$"):
-        Scene.from_toml("format = 1\n[transmitter]\nbits = 4\n")
 
 
 @given(data=st.data())

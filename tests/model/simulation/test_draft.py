@@ -73,12 +73,6 @@ def test_each_row_stands_for_rows_around_it(scene: Scene, rows: int, step: int) 
     assert shown[-1] < rows
 
 
-@pytest.mark.parametrize("step", [0, -1, 386, 1.5, True])
-def test_a_step_of_no_row_or_of_too_many_is_refused(scene: Scene, step: int) -> None:
-    with pytest.raises(occ.ParameterError, match=f"rows_step is {step}; allowed: a whole number"):
-        occ.render(scene, rows_step=step)
-
-
 @pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
 def test_a_draft_is_read_as_its_picture_is(preset: str) -> None:
     scene = occ.load_preset(preset).replace(rows=1152, columns=1728)

@@ -142,26 +142,6 @@ def test_the_same_seed_gives_the_same_picture(scene: Scene, noise: str) -> None:
     assert (picture(1) != picture(2)).any()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"tolerance": -0.1}, "tolerance is -0.1"),
-        ({"tolerance": float("nan")}, "tolerance is nan"),
-        ({"tolerance": "small"}, "tolerance is 'small'"),
-        ({"tolerance": True}, "tolerance is True"),
-        ({"seed": -1}, "seed is -1"),
-        ({"seed": 1.5}, "seed is 1.5"),
-        ({"noise": "white"}, "noise is 'white'; allowed: exact, reused"),
-        ({"observable": "pixel"}, "observable is 'pixel'; allowed: signal, profile, image"),
-    ],
-)
-def test_what_is_no_tolerance_or_seed_is_refused(
-    scene: Scene, arguments: dict[str, object], words: str
-) -> None:
-    with pytest.raises(occ.ParameterError, match=words):
-        occ.render(scene, **arguments)  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("method", ["equalization", "none"])
 def test_the_signal_is_the_mean_of_the_panels_pixels_in_the_receivers_picture(method: str) -> None:
     scene = occ.load_preset("phone-136us").replace(

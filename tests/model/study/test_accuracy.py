@@ -99,11 +99,6 @@ def test_samples_count_chips_that_are_lit() -> None:
     assert sampled_lit_fraction(halves.replace(start_time=0.5e-3), 4)[0] == 0.5
 
 
-def test_a_bad_setting_is_refused_before_anything_is_measured() -> None:
-    with pytest.raises(occ.ParameterError, match="tolerance is -1"):
-        accuracy(Scene(), SimulationSettings(tolerance=-1.0))
-
-
 @pytest.mark.whole
 def test_the_command_prints_the_table_and_writes_the_figure(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]

@@ -10,7 +10,6 @@ from occ_model.results.bench import BenchPoint, written
 from occ_model.scene.scene import Scene
 from occ_model.study.bit_error_rate import (
     bit_errors_of,
-    check_frame_rate,
     error_interval,
     with_payload,
 )
@@ -99,14 +98,6 @@ def test_net_bits_a_second_are_whole_payloads_in_time() -> None:
     shown = found.picture_time / SCENE.camera.readout_time
     assert found.bits_a_second_of_picture == pytest.approx(7.5 / (shown * 8e-6))
     assert found.gap(20.0) == pytest.approx(0.05 - 3456 * 8e-6)
-
-
-def test_a_video_faster_than_the_readout_is_refused() -> None:
-    check_frame_rate(SCENE, 36.0)
-    with pytest.raises(ParameterError, match=r"frames_a_second is 37.* to 36\.17"):
-        check_frame_rate(SCENE, 37.0)
-    with pytest.raises(ParameterError, match="frames_a_second is 0"):
-        check_frame_rate(SCENE, 0.0)
 
 
 def test_a_raw_pattern_has_no_bit_errors() -> None:

@@ -352,26 +352,6 @@ def test_advice_holds_both_ends_found_and_the_limits_of_theory(
     assert exposures.saturation == theory.saturation_exposure(SCENE)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"rate": 0.0}, "rate is 0.0 %; allowed: above 0 % to 100 %"),
-        ({"rate": 101.0}, "rate is 101.0 %"),
-        ({"rate": math.nan}, "rate is nan"),
-        ({"rate": True}, "rate is True"),
-        ({"rate": "99"}, "rate is '99'"),
-        ({"images": 0}, "images is 0"),
-        ({"decoder": "psychic"}, "no decoder 'psychic'"),
-        ({"seed": -1}, "seed is -1"),
-    ],
-)
-def test_what_cannot_be_asked_is_refused_with_a_sentence(
-    arguments: dict[str, object], words: str
-) -> None:
-    with pytest.raises(occ.ParameterError, match=words):
-        occ.limits(SCENE, **arguments)  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("rate", [50.0, 90.0, 99.0, 99.5])
 def test_as_few_images_as_show_a_rate_are_asked_for(rate: float) -> None:
     images = images_to_be_sure(rate)

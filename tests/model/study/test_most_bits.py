@@ -5,7 +5,6 @@ import pytest
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.errors import ParameterError
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
@@ -66,11 +65,6 @@ def test_a_panel_too_far_away_carries_nothing() -> None:
     assert found.scene is None
     assert found.bits_a_second == 0.0
     assert "come closer" in (found.failure or "")
-
-
-def test_a_video_faster_than_the_readout_is_refused() -> None:
-    with pytest.raises(ParameterError, match="frames_a_second is 100"):
-        occ.most_bits(FAR, ("threshold",), frames_a_second=100.0)
 
 
 def test_the_command_says_what_carries_most(capsys: pytest.CaptureFixture[str]) -> None:

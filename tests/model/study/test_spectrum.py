@@ -45,12 +45,6 @@ def test_the_zeros_are_where_the_response_is_nothing() -> None:
     assert len(found.zeros) == int(0.5 / 8e-6 * 136e-6)
 
 
-@pytest.mark.parametrize("profile", [np.zeros(7), np.zeros((2, 9)), np.full(9, np.nan)])
-def test_a_profile_that_has_no_spectrum_is_refused(profile: np.ndarray) -> None:
-    with pytest.raises(occ.ParameterError, match="profile has"):
-        profile_spectrum(profile, occ.load_preset("phone-68us"))
-
-
 def test_the_shares_of_a_histogram_add_up_and_tell_what_is_clipped() -> None:
     image = np.array([[0, 0, 7, 255], [255, 9, 9, 255]], dtype=np.uint8)
     found = level_histogram(image)

@@ -127,27 +127,6 @@ def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
     assert occ.success_rate(scene.replace(offset_x=50.0), 2) == 0.0
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"images": 0}, "images is 0"),
-        ({"decoder": "psychic"}, "psychic"),
-        ({"tolerance": -1.0}, "tolerance is -1"),
-        ({"tolerance": float("nan")}, "tolerance is nan"),
-        ({"force": {"blur": True}}, "effect is 'blur'; allowed: led-edges, "),
-        ({"images": 2.5}, "images is 2.5"),
-        ({"seed": -1}, "seed is -1"),
-        ({"seed": None}, "seed is None"),
-        ({"path": "guess"}, "guess"),
-    ],
-)
-def test_arguments_that_cannot_be_are_refused_with_a_sentence(
-    scene: Scene, arguments: dict[str, object], words: str
-) -> None:
-    with pytest.raises(occ.ParameterError, match=words):
-        occ.success_rate(scene, **arguments)  # type: ignore[arg-type]
-
-
 def test_a_raw_pattern_has_no_success_rate(scene: Scene) -> None:
     with pytest.raises(occ.ParameterError, match="raw pattern"):
         occ.success_rate(scene.replace(pattern="0110"))

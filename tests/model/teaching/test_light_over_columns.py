@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.light_over_columns import chips_in_exposure, light_over_columns
 
@@ -73,11 +72,6 @@ def test_each_chip_is_the_one_sent_at_its_place() -> None:
 def test_too_many_chips_are_not_given() -> None:
     scene = scene_with(switching_frequency=1e9)
     assert light_over_columns(scene, 0.0, 399.0, 2000) is None
-
-
-def test_columns_out_of_order_are_refused() -> None:
-    with pytest.raises(ParameterError, match="columns end at 3"):
-        light_over_columns(scene_with(), 5.0, 3.0, 100)
 
 
 @pytest.mark.parametrize("chips", [0.3, 1.0, 1.36, 2.0, 4.5])

@@ -6,7 +6,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 from occ_model.teaching.rolling_shutter import rolling_shutter
 
@@ -52,8 +51,3 @@ def test_as_many_columns_are_shown_as_asked_for_where_there_are_more(shown: int)
     columns = rolling_shutter(scene, shown).columns
     assert len(columns) == shown
     assert columns[0] == 0
-
-
-def test_what_is_no_scene_is_refused_in_words() -> None:
-    with pytest.raises(ParameterError, match="scene is 'phone-68us'; allowed: a Scene"):
-        rolling_shutter("phone-68us")  # type: ignore[arg-type]

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from occ_model.camera.photometry import WHITE, level_values
-from occ_model.errors import ParameterError
 from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -151,9 +150,3 @@ def test_a_window_is_exact_however_far_from_time_zero(start_time: float) -> None
         window = exposure_window(scene, column)
         parts = window.lit_parts
         assert np.diff(parts).sum() == pytest.approx(occ.on_time(scene)[column], rel=1e-9)
-
-
-@pytest.mark.parametrize("column", [-1, 3456, 1.5, "2"])
-def test_a_column_outside_the_picture_is_refused(column: object) -> None:
-    with pytest.raises(ParameterError, match=r"^column is .*allowed: .*\.$"):
-        exposure_window(Scene(), column)  # type: ignore[arg-type]

@@ -242,14 +242,6 @@ def test_what_is_no_regular_file_is_refused(tmp_path: Path) -> None:
         occ.load_video(saved(tmp_path, b""))
 
 
-def test_words_that_are_not_known_are_refused(tmp_path: Path) -> None:
-    path = saved(tmp_path, film_bytes("mp4", "mp4v"))
-    with pytest.raises(occ.ParameterError, match="scan_axis is 'rows'; allowed: auto, columns"):
-        occ.load_video(path, "rows")
-    with pytest.raises(occ.ParameterError, match="channel is 'white'; allowed: luma, red"):
-        occ.load_video(path, channel="white")
-
-
 def test_a_huge_frame_is_refused_before_it_is_decoded(tmp_path: Path) -> None:
     path = tmp_path / "a.png"
     Image.new("1", (9000, 9000)).save(path)

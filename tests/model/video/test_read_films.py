@@ -383,11 +383,6 @@ def test_rates_over_time_add_up_to_those_of_the_film() -> None:
     assert windows[0].start == reading.frames[0].time
 
 
-def test_a_tolerance_out_of_range_is_refused() -> None:
-    with pytest.raises(occ.ParameterError, match=r"readout_tolerance is 0\.7"):
-        occ.VideoReader(SCENE, readout_tolerance=0.7)
-
-
 def test_stated_truth_is_not_looked_at() -> None:
     """A reader takes frames without the scene and the start that simulated ones have."""
     frames = [replace(frame, scene=None, start=None) for frame in film_of_scene()[:40]]

@@ -120,42 +120,6 @@ def test_a_scene_that_cannot_be_recorded_is_refused(
     assert words in str(refusal.value)
 
 
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        ({"frame_rate": 0.0}, "frame_rate is 0 Hz; allowed: 0.001 Hz to 100 kHz."),
-        ({"frame_rate": "30"}, "frame_rate is '30', which is not a number"),
-        ({"camera_drift": 0.5}, "camera_drift is 500000 ppm; allowed: -10000 ppm to 10000 ppm."),
-        ({"frame_times": "late"}, "frame_times is 'late'; allowed: measured, nominal."),
-        ({"path": [(0.0, 1.0)]}, "allowed: Waypoints"),
-        ({"path": [occ.Waypoint(1.0), occ.Waypoint(1.0)]}, "from the time 1 s to 1 s"),
-        ({"path": [occ.Waypoint(float("nan"))]}, "A waypoint's time is nan"),
-        ({"path": [occ.Waypoint(0.0, yaw="x")]}, "A waypoint's yaw is 'x'"),  # type: ignore[arg-type]
-        ({"exposure_times": 1e-4}, "exposure_times is 0.0001; allowed: times in seconds."),
-        ({"exposure_times": (0.0,)}, "exposure_time is 0 s; allowed"),
-        ({"gap": 1.0}, "setting of a recording is 'gap'; allowed: frame_rate"),
-    ],
-)
-def test_a_setting_out_of_range_is_refused(changes: dict[str, object], words: str) -> None:
-    with pytest.raises(occ.ParameterError) as refusal:
-        occ.Recording().replace(**changes)
-    assert words in str(refusal.value)
-
-
-@pytest.mark.parametrize("frames", [0, -1, 2.5, True, 10**12])
-def test_a_number_of_frames_out_of_range_is_refused(frames: int) -> None:
-    with pytest.raises(occ.ParameterError, match=r"frames is .*; allowed: a whole number from 1"):
-        occ.render_video(SCENE, frames)
-
-
-@pytest.mark.parametrize("index", [-1, 3, 1.5])
-def test_a_frame_that_the_film_has_not_is_refused(index: int) -> None:
-    with pytest.raises(
-        occ.ParameterError, match=r"index is .*; allowed: a whole number from 0 to 2"
-    ):
-        occ.render_video(SCENE, 3).frame(index)
-
-
 def test_a_path_that_leads_out_of_range_is_refused_with_its_frame() -> None:
     film = occ.render_video(
         SCENE, recording=occ.Recording(path=(occ.Waypoint(0.0), occ.Waypoint(1.0, distance=-30.0)))

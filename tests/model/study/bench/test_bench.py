@@ -1,6 +1,5 @@
 """The bench measures what it says, and finds what closed forms know."""
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -8,7 +7,6 @@ import pytest
 
 import occ_model as occ
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError
 from occ_model.receiver.decode import decode
 from occ_model.results.bench import HEADER, BenchRequest, written
 from occ_model.results.decoding import DecodeResult
@@ -68,24 +66,6 @@ def test_a_row_of_the_table_has_every_column() -> None:
     assert len(rows) == 3 * 3
     assert {len(row) for row in rows} == {len(HEADER)}
     assert all(0.0 <= row[8] <= row[7] <= row[9] <= 1.0 for row in rows)  # type: ignore[operator]
-
-
-@pytest.mark.parametrize(
-    ("request_", "words"),
-    [
-        (BenchRequest(schemes=("morse",)), "line_code is 'morse'"),
-        (BenchRequest(schemes=("nrz/c-ook",)), "limits no run"),
-        (BenchRequest(decoders=("guess",)), "no decoder 'guess'"),
-        (BenchRequest(exposures=(0.0,)), "exposure in symbols is 0"),
-        (BenchRequest(decibels=(math.nan,)), "signal-to-noise ratio in dB is nan"),
-        (BenchRequest(rows_a_symbol=0.5), "rows a symbol is 0.5; allowed: 1 to 100"),
-        (BenchRequest(bits=0), "bits is 0"),
-        (BenchRequest(payload_bits=9999), "payload_bits is 9999"),
-    ],
-)
-def test_what_cannot_be_measured_is_named(request_: BenchRequest, words: str) -> None:
-    with pytest.raises(ParameterError, match=words):
-        bench(request_)
 
 
 def test_progress_reaches_all_points() -> None:

@@ -84,11 +84,6 @@ def test_films_carry_what_counting_says(bits: int, gap: float) -> None:
     assert point.reception == pytest.approx(point.counted_reception, abs=0.02)
 
 
-def test_a_gap_out_of_range_is_refused() -> None:
-    with pytest.raises(occ.ParameterError, match="gap is 95 % of a frame"):
-        FilmRequest(occ.Scene(), (8e3,), (0.95,), (16,))
-
-
 def test_the_command_writes_the_numbers_that_it_prints(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -1,0 +1,28 @@
+"""Sentences about values, in which a parameter has the label of its field in place of its name."""
+
+from occ_model.errors import OccError, ParameterError
+from occ_model.scene.parameters import PARAMETERS
+
+_CANNOT = {"is": "cannot be", "has": "cannot have"}
+
+
+def labelled(error: OccError) -> str:
+    """Return the sentence of an error; a parameter of the scene has its label."""
+    refused = error.refused if isinstance(error, ParameterError) else None
+    if refused is None or refused.parameter not in PARAMETERS:
+        return str(error)
+    return refused.sentence(PARAMETERS[refused.parameter].label)
+
+
+def refusal_of(error: OccError) -> str:
+    """Say that a value was refused, not that it is the present one.
+
+    "Distance cannot be 0 m" stands beside a field that shows the last allowed value again. Where
+    what is allowed depends on other parameters, the value may be the present one.
+    """
+    refused = error.refused if isinstance(error, ParameterError) else None
+    if refused is None or refused.condition or refused.verb not in _CANNOT:
+        return f"Refused: {labelled(error)}"
+    declared = PARAMETERS.get(refused.parameter)
+    label = refused.parameter.replace("_", " ") if declared is None else declared.label
+    return refused.sentence(f"{label[:1].upper()}{label[1:]}", _CANNOT[refused.verb])

@@ -19,11 +19,27 @@ class EffectRow:
     ----------
     effect
         The effect's name; ``ELSE`` in the last row.
+    stage
+        The stage of the light's way; empty in the last row.
+    label
+        The effect's name on the screen.
     levels, error, error_meaning
         What leaving it out would change, None where the scene does not have it; the same as text,
         and how that is known, as a sentence.
+    estimate
+        What the plan estimates of that.
     seconds, scatter
         Its time, None where there is none of its own; and by how much it was longer at other times.
+    time
+        The same as text.
+    reason
+        The plan's reason, as a sentence.
+    included
+        Whether it is in the picture.
+    absent
+        Whether the scene does not have the effect and it is not simulated.
+    new
+        Whether the plan has just switched it.
     pending
         Whether it would be switched on (True) or off (False) by what the controls show.
     icon
@@ -51,7 +67,19 @@ class EffectRow:
 def rows_of(
     frame: Frame, costs: MeasuredCosts, new: Collection[str], forecast: Forecast | None = None
 ) -> tuple[EffectRow, ...]:
-    """Return the rows: the effects in the order that light travels, then everything else."""
+    """Return the rows: the effects in the order that light travels, then everything else.
+
+    Parameters
+    ----------
+    frame
+        The picture.
+    costs
+        Its times, and what was measured of its scene.
+    new
+        The effects that the plan has just switched.
+    forecast
+        What the controls would make of it.
+    """
     words = stage_words()
     rows = []
     for decision in frame.plan.decisions:

@@ -57,7 +57,17 @@ if TYPE_CHECKING:
 
 
 class Application(QObject):
-    """Store, controllers, views and window, connected."""
+    """Store, controllers, views and window, connected.
+
+    Parameters
+    ----------
+    scene
+        The first scene.
+    settings
+        The first settings of its simulation.
+    preferences
+        The stored preferences; by default nothing is stored.
+    """
 
     def __init__(
         self,
@@ -232,8 +242,12 @@ class Application(QObject):
 
         Parameters
         ----------
+        path
+            The file.
         match
             Whether to match it and to apply the result to the scene.
+        front
+            Whether to bring its pane to the front.
         """
         self._match_next, self._front_next = match, front
         self.photos.open(path)

@@ -67,7 +67,13 @@ _PATIENCE_MS = 60_000
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the application and return its exit code."""
+    """Run the application and return its exit code.
+
+    Parameters
+    ----------
+    arguments
+        The words of the command line; by default those of this process.
+    """
     is_process = arguments is None
     work = partial(read_command_line, arguments)
     return run_program("occ-gui", work, is_process=is_process, is_window=True)
@@ -238,7 +244,19 @@ def start(
     settings: SimulationSettings | None = None,
     preferences: "QSettings | None" = None,
 ) -> "tuple[QApplication, Application]":
-    """Create the application, with its window not shown yet."""
+    """Create the application, with its window not shown yet.
+
+    Parameters
+    ----------
+    scene
+        The first scene.
+    arguments
+        The command line for Qt.
+    settings
+        The first settings of the simulation; by default fast enough for sliders.
+    preferences
+        The stored preferences; by default nothing is stored.
+    """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would print several lines about it.
         from occ_gui.app.display import NO_DISPLAY
@@ -286,8 +304,15 @@ def wait_until_shown(application: "Application", measured: bool = False) -> None
 
     Parameters
     ----------
+    application
+        The application.
     measured
         Whether to wait also for the detection map and the strips under the sliders.
+
+    Raises
+    ------
+    OccError
+        The scene has no picture, or it took too long; a map that is not complete is shown as it is.
     """
     from PySide6.QtCore import QDeadlineTimer, QEventLoop, QTimer
     from PySide6.QtWidgets import QApplication

@@ -77,7 +77,13 @@ class Parts(Protocol):
 
 
 class Desktop(QObject):
-    """The controllers of the desktop features, connected with the menus."""
+    """The controllers of the desktop features, connected with the menus.
+
+    Parameters
+    ----------
+    parts
+        The application's parts.
+    """
 
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
@@ -229,7 +235,19 @@ class Desktop(QObject):
         )
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
-        """Restore the last session before the window is shown, and store this one."""
+        """Restore the last session before the window is shown, and store this one.
+
+        Parameters
+        ----------
+        file
+            The file of this window's session, which also contains that of a crash.
+        session
+            The last session; its scene and settings are in the stores already.
+        scene_wins
+            Whether the command line names the scene.
+        fresh
+            Whether the window is to look as at its first start.
+        """
         preferences = self._parts.preferences
         if not fresh:
             self.layout.restore()

@@ -40,6 +40,13 @@ class OutdatedPanes(QObject):
 
     A slider that runs by itself is always ahead of the picture. Picture and readings are not
     marked then: the verdicts say of which of its values they are.
+
+    Parameters
+    ----------
+    simulation
+        Computes the results.
+    parent
+        The parent.
     """
 
     def __init__(self, simulation: SimulationController, parent: QObject) -> None:

@@ -34,8 +34,16 @@ class Start:
 
     Parameters
     ----------
+    scene, settings
+        The first scene and the settings of its simulation.
     scene_asked
         Whether the command line names a scene, which takes precedence over the last session's.
+    preferences
+        The stored preferences; None where nothing is stored.
+    session
+        The last session.
+    session_file
+        The file of this window's session; None where nothing is stored.
     fresh
         Whether nothing of the last session is to be restored.
     """
@@ -69,7 +77,17 @@ class Start:
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
-    """Determine what the window starts with."""
+    """Determine what the window starts with.
+
+    Parameters
+    ----------
+    options
+        The command line.
+    scene, settings
+        The scene and the settings that follow from it.
+    own
+        Whether the settings are the defaults, as the command line names none.
+    """
     from occ_gui.files.session import SessionFile, state_folder
     from occ_gui.files.session_record import Session
 

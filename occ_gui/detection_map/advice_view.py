@@ -42,7 +42,7 @@ class AdviceView(QWidget):
         self.cards = LimitCards(decoders)
         """The highest frequencies in short, for another place than this page."""
         self.cards.destination_chosen.connect(self.destination_chosen)
-        self._sentences = AdviceSentences(self)
+        self._sentences = AdviceSentences()
         self._lines: list[QWidget] = []
         self.destinations: list[QPushButton] = []
         self._parameters: list[str] = []

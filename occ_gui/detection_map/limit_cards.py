@@ -8,18 +8,22 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushBut
 
 from occ_gui.detection_map.advice_sentences import (
     AdviceSentences,
-    formatted_frequency,
     highest_frequency,
 )
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.advice import Advice, EndFacts
+from occ_model.results.advice_text import gaps_text, searched_to, written
 from occ_model.results.limits import WorkingRange
 
 _PARAMETER = "switching_frequency"
 
 _REST_MS = 800
 """Milliseconds that a scene must be at rest before its limits are searched."""
+
+
+def _written(frequency: float) -> str:
+    return written("switching_frequency", frequency)
 
 
 class LimitCards(QWidget):
@@ -40,7 +44,7 @@ class LimitCards(QWidget):
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
-        self._sentences = AdviceSentences(self)
+        self._sentences = AdviceSentences()
         self._is_complete = self._is_running = self._is_outdated = False
         self._waiting = QTimer(self, singleShot=True)
         self._waiting.setInterval(_REST_MS)
@@ -89,10 +93,9 @@ class LimitCards(QWidget):
         if card is not None:
             line = self._sentences.on_highest_frequency(advice)
             found = advice.limits.frequency
-            gaps = self._sentences.gaps(found) if found.gaps else ""
             bits = self._sentences.bits_a_second(advice.limits)
-            to = "" if found.most_chips is None else self._sentences.searched_to(found)
-            tip = "\n".join(text for text in (line.text, gaps, to, bits) if text)
+            to = "" if found.most_chips is None else searched_to(found)
+            tip = "\n".join(text for text in (line.text, gaps_text(found), to, bits) if text)
             card.show_limit(highest_frequency(advice), tip, advice.limits.rate)
             card.show_range(found)
 
@@ -160,9 +163,7 @@ class LimitCard(QFrame):
         self.value.setText(text)
         self.value.setToolTip(tip)
         # Not the limit itself, but a frequency inside of it: the button says which.
-        self.go.setText(
-            "Go" if destination is None else f"Go to {formatted_frequency(destination)}"
-        )
+        self.go.setText("Go" if destination is None else f"Go to {_written(destination)}")
         self._show_way()
 
     def _show_way(self) -> None:
@@ -197,7 +198,7 @@ class LimitCard(QFrame):
             self._show("none", text, None)
             return
         inside = end.inside
-        value = formatted_frequency(end.value)
+        value = _written(end.value)
         limit = f"{value}, searched to" if end.fails is None else f"{value} ({rate:g} %)"
         self._show(limit, text, None if inside is None else inside.value)
 
@@ -205,13 +206,12 @@ class LimitCard(QFrame):
         """Show the lowest frequency, and the gap next to it."""
         if found.lowest is None:
             return
-        text = f"from {formatted_frequency(found.lowest.value)}"
+        text = f"from {_written(found.lowest.value)}"
         if found.gaps:
             end, after = found.gaps[0]
             more = len(found.gaps) - 1
-            text += (
-                f"; gap {formatted_frequency(end.value)} to {formatted_frequency(after.value)}"
-                + (f" and {more} gaps more" if more else "")
+            text += f"; gap {_written(end.value)} to {_written(after.value)}" + (
+                f" and {more} gaps more" if more else ""
             )
         self.range.set_full_text(text)
 

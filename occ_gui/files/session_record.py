@@ -42,6 +42,8 @@ class Session:
 
     Parameters
     ----------
+    preset
+        The preset that the scene is, or was before some of its values were changed.
     history
         The steps that can be undone, which a window that has come to its end does not leave.
     """

@@ -20,14 +20,26 @@ _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 
 
 def docs_folder() -> Path:
-    """Return the folder of the pages; the pictures they show are in a folder beside it."""
+    """Return the folder of the pages; the pictures they show are in a folder beside it.
+
+    Raises
+    ------
+    OSError
+        The program was installed without its pages.
+    """
     # From an archive, both are copied.
     resource_path("pictures")
     return resource_path("docs")
 
 
 def pages(folder: Path) -> list[tuple[str, str]]:
-    """List title and file name of every page, in the order of the table of contents."""
+    """List title and file name of every page, in the order of the table of contents.
+
+    Raises
+    ------
+    OSError
+        The table of contents cannot be read.
+    """
     text = (folder / CONTENTS).read_text(encoding="utf-8")
     return [("Contents", CONTENTS), *_LISTED.findall(text)]
 

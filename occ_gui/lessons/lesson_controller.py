@@ -33,6 +33,17 @@ class LessonController(QObject):
 
     A lesson begins with the window's first settings and no forced effects; when it ends,
     the user's own scene, settings and photo are restored.
+
+    Parameters
+    ----------
+    scenes
+        The store of the scene.
+    photos
+        Opens the photo of a step.
+    pane
+        Shows the lessons.
+    answers
+        Checks and keeps the answers.
     """
 
     status_message = Signal(str)

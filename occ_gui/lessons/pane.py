@@ -20,7 +20,21 @@ from occ_model.teaching.lessons import begin_lessons_folder
 
 
 class LessonPane(Pane[None]):
-    """The lessons and all that they move."""
+    """The lessons and all that they move.
+
+    Parameters
+    ----------
+    scenes
+        The store of the scene.
+    photos
+        Opens the photo of a step.
+    pane
+        Shows the lessons.
+    controls
+        The controls, of which a step marks one.
+    preferences
+        Stores the folder of a report and the student's name.
+    """
 
     status_message = Signal(str)
     """The outcome of an action."""

@@ -42,7 +42,13 @@ def read(request: Request) -> ReadPhoto:
 
 
 class ChipController(QObject):
-    """Reads the chips of each photo that is opened, and of each part of it that is chosen."""
+    """Reads the chips of each photo that is opened, and of each part of it that is chosen.
+
+    Parameters
+    ----------
+    pane
+        The pane that shows them.
+    """
 
     def __init__(self, pane: ChipPane) -> None:
         super().__init__()

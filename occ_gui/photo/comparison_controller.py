@@ -53,6 +53,13 @@ class ComparisonController(QObject):
     """Compares photo and simulation whenever either changes or the photo is moved.
 
     A photo's stripes are searched once, in the background; those of a match replace them.
+
+    Parameters
+    ----------
+    placements
+        Where the photo lies on the simulated picture.
+    pane
+        The pane that shows both profiles.
     """
 
     def __init__(self, placements: PlacementStore, pane: ProfilePane) -> None:

@@ -18,6 +18,8 @@ class KeptRegion:
 
     Parameters
     ----------
+    lamps
+        The lamps.
     chosen
         The place of the lamp that is matched; None where none is chosen.
     by_hand
@@ -35,6 +37,8 @@ class KeptMatch:
 
     Parameters
     ----------
+    match
+        The match.
     region
         What of the photo was matched; None for all of it.
     """
@@ -49,6 +53,10 @@ class KeptPhoto:
 
     Parameters
     ----------
+    photo, reading
+        The photo, and how it was read.
+    region, match
+        What of it is matched, and what was found; None before a match.
     given
         The value in SI units of the known parameter in the scene when the match was made.
     choice, certain

@@ -42,7 +42,13 @@ def _find(photo: Photo, report: Report) -> tuple[Photo, tuple[Lamp, ...]]:
 
 
 class LampController(QObject):
-    """Finds the lamps of the open photo, and keeps what of it is matched."""
+    """Finds the lamps of the open photo, and keeps what of it is matched.
+
+    Parameters
+    ----------
+    panes
+        The panes that show the lamps.
+    """
 
     region_changed = Signal(object)
     """What is matched now: a Lamp, a Region drawn by hand, or None for the whole photo."""

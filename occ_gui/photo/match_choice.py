@@ -18,6 +18,8 @@ class MatchChoice:
         Cycles per second of the square wave, in Hz, if one was sent.
     estimate
         ``"readout_time"`` or ``"switching_frequency"``; the other one is known.
+    fit_gamma
+        Whether gamma is estimated too.
     """
 
     sent: str = "auto"

@@ -57,7 +57,19 @@ class MatchPane(Protocol):
 def sources_of(
     found: Match, photo_name: str, known: str, day: date, *, assumed: bool
 ) -> dict[str, str]:
-    """Write the source and uncertainty of every value that a match estimated."""
+    """Write the source and uncertainty of every value that a match estimated.
+
+    Parameters
+    ----------
+    found, photo_name
+        The match, and the name of its photo.
+    known
+        The parameter that was taken as known.
+    day
+        The day of the match.
+    assumed
+        Whether that parameter's value was only assumed.
+    """
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))
     how = "assumed to be" if assumed else "being"
@@ -76,7 +88,15 @@ def sources_of(
 
 
 class MatchController(QObject):
-    """Runs matches, and puts their results into the scene or a preset."""
+    """Runs matches, and puts their results into the scene or a preset.
+
+    Parameters
+    ----------
+    scenes
+        The scene with the known values, which also takes the result.
+    pane
+        The pane that shows progress and result.
+    """
 
     failed = Signal(str)
     """Why a match failed, or a setting could not be taken over."""

@@ -36,13 +36,25 @@ class Refusal:
 def request_of(
     photo: Photo, scene: Scene, choice: MatchChoice, region: Lamp | Region | None = None
 ) -> MatchRequest:
-    """Build the request for a match from the user's choices."""
+    """Build the request for a match from the user's choices.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
     scene, sent = known_scene(scene, choice)
     return MatchRequest(photo, scene, choice.estimate, sent, choice.fit_gamma, region)
 
 
 def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
-    """Give the scene with what the user knows, and where the sent pattern is taken from."""
+    """Give the scene with what the user knows, and where the sent pattern is taken from.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
     if choice.sent != "square":
         return scene, choice.sent
     return blinking(scene, choice.square_frequency), "scene"

@@ -7,11 +7,12 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.photo.assumption import is_stale
-from occ_gui.photo.match_values import MatchValues, condition_of, known_of
+from occ_gui.photo.match_values import MatchValues, condition_of
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.photo.verdict_view import VerdictView
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.photo.many.other_programs import lines_of_match
+from occ_model.photo.match_facts import known_of
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match
 from occ_model.scene.parameters import quantity

@@ -22,7 +22,15 @@ class PhotoPane(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class PhotoReading:
-    """Options of reading a photo."""
+    """Options of reading a photo.
+
+    Parameters
+    ----------
+    scan_axis
+        The axis of the file that the shutter scanned, one of SCAN_AXES.
+    channel
+        The channel of a coloured photo that is read, one of CHANNELS.
+    """
 
     scan_axis: str = SCAN_AXES[0]
     channel: str = CHANNELS[0]

@@ -4,11 +4,13 @@ from collections.abc import Mapping, Sequence
 
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.photo.match_values import condition_of, known_of, with_uncertainty
+from occ_gui.photo.match_values import condition_of
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
+from occ_model.photo.estimate_text import estimate_text
+from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE, PhotoRow
@@ -171,7 +173,7 @@ class PhotoVerdictBar(StateBar):
         parts = []
         for name in (estimated, "exposure_time"):
             declared, spread = quantity(name), match.uncertainties.get(name)
-            value = with_uncertainty(declared, getattr(match, name), spread)
+            value = estimate_text(declared, getattr(match, name), spread)
             if name == "readout_time":
                 value = f"{value} a line"
             if name == "exposure_time" and match.only_exposure_is_doubtful:

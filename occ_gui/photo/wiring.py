@@ -28,7 +28,19 @@ from occ_model.results.match import Match
 
 
 class PhotoWiring(Pane[Reading | None]):
-    """Connects the controllers of a photo with the panes that show it."""
+    """Connects the controllers of a photo with the panes that show it.
+
+    Parameters
+    ----------
+    scenes
+        The scene that a photo is matched with.
+    photos
+        Reads the photo.
+    image
+        The pane of the picture, which the photo lies beside or on.
+    board
+        Takes what is read of the photo.
+    """
 
     def __init__(
         self, scenes: SceneStore, photos: PhotoController, image: ImageView, board: Board

@@ -79,7 +79,15 @@ class SnapshotView(Protocol):
 
 
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
-    """Simulate a scene and decode its picture."""
+    """Simulate a scene and decode its picture.
+
+    Raises
+    ------
+    ParameterError
+        A setting is invalid.
+    ProjectionError
+        The panel has no picture in this pose.
+    """
     return snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
 
 

@@ -51,7 +51,17 @@ class _Held(QWidget):
 
 
 class StoryView(QWidget):
-    """The verdict on the code, above the story in four rows, or the whole picture instead."""
+    """The verdict on the code, above the story in four rows, or the whole picture instead.
+
+    Parameters
+    ----------
+    picture
+        The pane of the whole picture.
+    decoders
+        Names of the decoders.
+    parent
+        The parent widget.
+    """
 
     picture_chosen = Signal(str)
     """Whose picture and profile the user chose, the ``"camera"``'s or the ``"receiver"``'s."""

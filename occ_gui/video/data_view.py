@@ -12,8 +12,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.video.film_reading import Figure, FilmReading
+from occ_gui.video.film_reading import FilmReading
 from occ_gui.widgets.plain_text import in_tool_tip
+from occ_model.results.fact import Fact
 
 _MOST_TEXT = 200_000
 """Most characters of the text that are kept on the screen: its end."""
@@ -22,7 +23,7 @@ _LEAST_HEIGHT = 40
 
 
 class DataView(QWidget):
-    """The text as it comes in, beside the figures of the reading, and its sentences."""
+    """The text as it comes in, beside the facts of the reading, and its sentences."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -38,7 +39,7 @@ class DataView(QWidget):
         self.sentences.setAccessibleName("What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.labels: dict[str, QLabel] = {}
-        """The values of the figures, by what they are."""
+        """The values of the facts, by what they are."""
         self._names: dict[str, QLabel] = {}
         self._present: list[str] = []
         self._grid = QGridLayout()
@@ -59,7 +60,7 @@ class DataView(QWidget):
     def show_reading(self, reading: FilmReading) -> None:
         """Show this reading in place of the previous one."""
         self._show_text(reading.text[-_MOST_TEXT:])
-        self._show_figures(reading.figures)
+        self._show_facts(reading.facts)
         self.sentences.setText("\n".join(reading.sentences))
         self.sentences.setVisible(bool(reading.sentences))
 
@@ -77,20 +78,21 @@ class DataView(QWidget):
             self.text.setPlainText(text)
         bar.setValue(bar.maximum() if follows else place)
 
-    def _show_figures(self, figures: tuple[Figure, ...]) -> None:
-        for figure in figures:
-            if figure.label not in self.labels:
-                self._add(figure.label)
-            self.labels[figure.label].setText(figure.text)
-            for part in (self.labels[figure.label], self._names[figure.label]):
-                part.setToolTip(in_tool_tip(figure.meaning))
-        present = [figure.label for figure in figures]
+    def _show_facts(self, facts: tuple[Fact, ...]) -> None:
+        for fact in facts:
+            if fact.label not in self.labels:
+                self._add(fact.label)
+            self.labels[fact.label].setText(fact.text)
+            meaning = f"{fact.meaning} ({fact.note})" if fact.note else fact.meaning
+            for part in (self.labels[fact.label], self._names[fact.label]):
+                part.setToolTip(in_tool_tip(meaning))
+        present = [fact.label for fact in facts]
         if present != self._present:
             self._present = present
             self._arrange()
 
     def _arrange(self) -> None:
-        """Show the figures in their order, and those that there are not no more."""
+        """Show the facts in their order, and only those that there are."""
         for label, value in self.labels.items():
             for part in (self._names[label], value):
                 self._grid.removeWidget(part)

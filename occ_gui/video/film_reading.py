@@ -1,4 +1,4 @@
-"""Reading of a film, ready to be shown: marks of the timeline, text, figures and sentences."""
+"""Reading of a film, ready to be shown: marks of the timeline, text, facts and sentences."""
 
 from dataclasses import dataclass, field
 
@@ -6,15 +6,7 @@ import numpy as np
 
 from occ_gui.video.marks import Marks
 from occ_model.arrays import ByteArray, FloatArray
-
-
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """A figure of a reading."""
-
-    label: str
-    text: str
-    meaning: str = ""
+from occ_model.results.fact import Fact
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -33,7 +25,7 @@ class FilmReading:
     states: ByteArray
     packets: Marks = field(default_factory=Marks)
     text: str = ""
-    figures: tuple[Figure, ...] = ()
+    facts: tuple[Fact, ...] = ()
     sentences: tuple[str, ...] = ()
 
     @classmethod

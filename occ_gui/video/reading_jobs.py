@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_gui.background.task import Report
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.marks import Marks, MarkState
-from occ_gui.video.reading_words import figures_of, sentences_of
+from occ_gui.video.reading_words import facts_of, sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
@@ -132,7 +132,7 @@ class _Collected:
             text=whole.payload
             if is_whole and whole is not None and whole.payload
             else known.payload,
-            figures=figures_of(known, whole),
+            facts=facts_of(known, whole),
             sentences=sentences_of(known, whole, self._request.film.problem),
         )
 

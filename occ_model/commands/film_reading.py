@@ -2,15 +2,16 @@
 
 import argparse
 import sys
+from collections.abc import Iterator
 
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError
 from occ_model.program import EXIT_FAILURE
 from occ_model.results.video import Video
-from occ_model.results.video_reading import Clock, FilmProgress, Measured, VideoReading
+from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import SECOND, Unit
-from occ_model.study.confidence import wilson_interval
+from occ_model.scene.units import SECOND
+from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
 from occ_model.video.decode import decode_video
 from occ_model.video.file.source import CHANNELS
 from occ_model.video.load import load_video
@@ -87,63 +88,17 @@ def _report(reading: VideoReading, video: Video) -> list[str]:
         f"frames            {len(reading.frames)} of {columns} columns, {rows} rows; {placed} of "
         "them placed in the packet"
     )
-    if reading.packets:
-        lines += _packets(reading)
-    if reading.clock is not None:
-        lines += _clock(reading.clock)
+    facts = [*packet_facts(reading), *(() if reading.clock is None else clock_facts(reading.clock))]
+    for fact in facts:
+        lines.append(f"{fact.label.lower():18}{fact}")
+        if fact.key == "packet_error_rate" and len(reading.packets) >= _FEWEST_PACKETS:
+            lines += _by_parts(reading)
     return lines
 
 
-def _packets(reading: VideoReading) -> list[str]:
-    sent = len(reading.packets)
-    lines = [
-        f"packets           {sent} sent, {reading.read} read, {reading.lost} lost, "
-        f"{reading.doubled} doubled",
-        f"packet error rate {_rate(reading.lost, sent)}",
-        f"net bits          {reading.net_bits_per_second:.4g} a second, "
-        "repeats within a frame counted once",
-    ]
-    after = reading.complete_after
-    if after is not None:
-        lines.append(
-            f"complete          after {SECOND.format(after)}: "
-            f"{len(reading.bits) / after:.4g} bits a second"
-        )
-    (whole,) = reading.rates(1)
-    if whole.bits:
-        lines.append(f"bit error rate    {_rate(whole.bits_wrong, whole.bits)}")
-    if sent >= _FEWEST_PACKETS:
-        lines += [
-            f"  {SECOND.format(window.start)} to {SECOND.format(window.end)}: packet error rate "
-            f"{_rate(window.packets_lost, window.packets)}"
-            for window in reading.rates(_WINDOWS)
-            if window.packets
-        ]
-    return lines
-
-
-def _rate(count: int, trials: int) -> str:
-    low, high = wilson_interval(count, trials)
-    return f"{count / trials:.3g} ({low:.2g} to {high:.2g} at 95 %)"
-
-
-def _clock(clock: Clock) -> list[str]:
-    lines = [
-        f"frequency         {_measured(clock.switching_frequency, 'Hz')}",
-        f"readout time      {_measured(clock.readout_time, 'µs', 1e6)}",
-        f"frame period      {_measured(clock.frame_period, 'ms', 1e3)}",
-        f"gap               {_measured(clock.gap, 'ms', 1e3)}, "
-        f"{100.0 * clock.gap_ratio:.3g} % of a frame",
-    ]
-    if clock.drift is not None:
-        relative = 1e6 / clock.switching_frequency.value
-        lines.append(f"drift             {_measured(clock.drift, 'ppm a second', relative)}")
-    lines.append(
-        f"frame starts      {SECOND.format(clock.timing_noise)} about their times (root mean "
-        f"square of {clock.frames} frames)"
-    )
-    return lines
-
-
-def _measured(measured: Measured, unit: str, scale: float = 1.0) -> str:
-    return Unit(unit).format_estimate(scale * measured.value, scale * measured.error)
+def _by_parts(reading: VideoReading) -> Iterator[str]:
+    """Write the packet error rate in parts of the film."""
+    for window in reading.rates(_WINDOWS):
+        if window.packets:
+            rate = "{} ({})".format(*error_rate(window.packets_lost, window.packets, "packets"))
+            yield f"  {SECOND.format(window.start)} to {SECOND.format(window.end)}: {rate}"

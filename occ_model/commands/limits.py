@@ -1,7 +1,6 @@
 """The command ``occ-model limits``: find the frequencies and exposures that a decoder reads."""
 
 import argparse
-import math
 import sys
 from collections.abc import Sequence
 
@@ -16,9 +15,17 @@ from occ_model.commands.options import (
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decoders import DECODERS
-from occ_model.results.advice import Advice
+from occ_model.results.advice_text import (
+    end_text,
+    gaps,
+    how_tried,
+    searched_to,
+    theory_text,
+    two_packets_text,
+    written,
+)
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
+from occ_model.results.limits import Limits, RangeEnd, WorkingRange
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
@@ -27,9 +34,6 @@ from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits_of
 
 _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
-
-_DIGITS = 4
-"""Significant digits of a limit that is known to a few thousandths."""
 
 
 def add_to(commands: Commands) -> None:
@@ -126,19 +130,18 @@ def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
         if each.lowest is None or each.highest is None:
             cells += ["none", "none", ""]
             continue
-        gaps = [f"{_written(each.parameter, end.value)} to {_written(each.parameter, after.value)}"
-                for end, after in each.gaps]  # fmt: skip
-        more = f", {len(gaps) - 1} more" if len(gaps) > 1 else ""
+        first, *others = gaps(each) or ["no"]
+        more = f", {len(others)} more" if others else ""
         cells += [
             _end_text(each, each.lowest), _end_text(each, each.highest),
-            gaps[0] + more if gaps else "no",
+            first + more,
         ]  # fmt: skip
     return _in_columns([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:
     """Write an end, and whether the search ended there."""
-    value = _written(found.parameter, end.value)
+    value = written(found.parameter, end.value)
     return f"{value} (searched to)" if end.fails is None else value
 
 
@@ -148,67 +151,24 @@ def sentences(answers: Sequence[Limits]) -> list[str]:
     for found in answers:
         for each in (found.frequency, found.exposure):
             lines += _on_range(found.decoder, each)
-    first = answers[0]
-    return [
-        *lines,
-        f"Each end was tried with {first.images} images or more that had not chosen it, which the "
-        "intervals count.",
-        f"Values between were tried in steps of {100.0 * (first.frequency.step - 1.0):.0f} %: a "
-        "narrower gap can be missed.",
-        *_by_theory([advice_of(found) for found in answers]),
-    ]
+        two_packets = advice_of(found).frequency.theory.two_packets
+        if two_packets is not None:
+            lines.append(f"  {two_packets_text(two_packets)}")
+    advice = advice_of(answers[0])
+    lines.append(how_tried(answers[0]))
+    for facts in (advice.frequency, advice.exposure):
+        lines.append(theory_text(facts.found.parameter, facts.theory))
+    return lines
 
 
 def _on_range(decoder: str, found: WorkingRange) -> list[str]:
     if found.failure is not None:
         return [found.failure]
-    lines = [f"The {decoder} decoder, {quantity(found.parameter).label.lower()}:"]
+    name = found.parameter
+    lines = [f"The {decoder} decoder, {quantity(name).label.lower()}:"]
     for interval in found.intervals:
-        lines += [_on_end(found.parameter, end) for end in (interval.lowest, interval.highest)]
+        ends = (interval.lowest, interval.highest)
+        lines += [f"  {written(name, end.value)}: {end_text(name, end)}" for end in ends]
     if found.most_chips is not None:
-        lines.append(
-            f"  Searched to {_written(found.parameter, found.searched[1])} alone, where an "
-            f"exposure covers {found.most_chips:.3g} chips: more take this decoder much longer."
-        )
-    return lines
-
-
-def _on_end(parameter: str, end: RangeEnd) -> str:
-    text = f"  at {_written(parameter, end.value)} {_counted(end.works)}"
-    if end.fails is None:
-        return f"{text}; beyond it was not searched."
-    text += f", at {_written(parameter, end.fails.value)} {_counted(end.fails)}"
-    if end.inside is not None:
-        text += (
-            f", at {_written(parameter, end.inside.value)} every bit of {end.inside.images} images"
-        )
-    if end.interval is None:
-        return f"{text}."
-    low, high = (_written(parameter, value) for value in end.interval)
-    return f"{text}: the end lies between {low} and {high} (95 %)."
-
-
-def _written(parameter: str, value: float) -> str:
-    return quantity(parameter).format(value, _DIGITS)
-
-
-def _counted(trial: Trial) -> str:
-    return f"{trial.rate:.3g} % in {trial.images} images ({trial.low:.1f} to {trial.high:.1f} %)"
-
-
-def _by_theory(answers: Sequence[Advice]) -> list[str]:
-    frequencies, white = answers[0].frequency.theory, answers[0].exposure.theory.saturation
-    band = HERTZ.format(frequencies.band_model, _DIGITS)
-    null = HERTZ.format(frequencies.null, _DIGITS)
-    lines = [f"By theory the band model ends at {band} and an alternating pattern at {null};"]
-    for advice in answers:
-        if advice.frequency.theory.two_packets is not None:
-            packets = HERTZ.format(advice.frequency.theory.two_packets, _DIGITS)
-            name = advice.limits.decoder
-            lines.append(f"  below {packets} no two packets fit, which the {name} decoder needs;")
-    if white is not None and math.isfinite(white):
-        exposure = SECOND.format(white, _DIGITS)
-        lines.append(f"  from an exposure of {exposure} what is lit throughout is white.")
-    else:
-        lines.append("  there is no light that could saturate.")
+        lines.append(f"  {searched_to(found)}")
     return lines

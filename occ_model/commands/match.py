@@ -12,19 +12,15 @@ from occ_model.commands.options import Commands, add_scene_options, scene_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import MatchError, ParameterError, one_line
 from occ_model.photo.chips.read import read_chips
-from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
+from occ_model.photo.match_facts import in_columns, known_of, match_facts
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
-from occ_model.results.match import Alternative, Match
+from occ_model.results.match import Match
 from occ_model.scene.from_text import write_scene_file
-from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
-from occ_model.scene.units import Unit
-
-_ESTIMATED = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
 
 def add_to(commands: Commands) -> None:
@@ -149,7 +145,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
 
 
 def _how_known(match: Match, options: argparse.Namespace) -> str:
-    (known,) = (name for name in ESTIMATES if name not in match.uncertainties)
+    known = known_of(match)
     return assumption_of(known, getattr(match, known), len(match.pattern), options)
 
 
@@ -160,59 +156,5 @@ def _square_wave(scene: Scene, text: str) -> Scene:
 
 def _report(match: Match, assumption: str, noted: float | None) -> list[str]:
     """Write a match in lines, with the exposure time in seconds that the camera noted."""
-    lines = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
-    for name in _ESTIMATED:
-        lines.append(f"{name:22}{_with_uncertainty(match, name, assumption)}")
-        if name == "exposure_time" and noted is not None:
-            lines.append(f"{'noted by the camera':22}{quantity(name).format(noted, 4)}")
-    how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
-    chip = 1.0 / (match.switching_frequency * match.readout_time)
-    region, stripes = match.region, match.stripes
-    lines += [
-        f"{'chips':22}{match.pattern} ({how})",
-        f"{'chip length':22}{chip:.3f} columns",
-        f"{'periods in view':22}{match.periods_in_view:.3g}",
-        f"{'exposure in chips':22}{match.exposure_in_chips:.3g}",
-        f"{'duty':22}lit for {100.0 * match.duty:.3g} % of a period",
-        f"{'averaging':22}{match.scene.model.averaging}",
-        f"{'region':22}columns {region.first_column} to {region.last_column - 1}, "
-        f"rows {region.first_row} to {region.last_row - 1}",
-        f"{'correlation':22}{match.correlation:.4f}",
-        f"{'residual (RMSE)':22}{match.rmse:.2f} grey levels",
-        f"{'saturated':22}{100.0 * stripes.saturated:.1f} % of the region's pixels",
-    ]
-    if stripes.period is not None:
-        period = Unit("columns").format_estimate(stripes.period, stripes.period_uncertainty)
-        lines.append(f"{'stripes repeat after':22}{period}")
-    if match.other_exposures:
-        unit = quantity("exposure_time")
-        others = ", ".join(unit.format(t) for t in match.other_exposures)
-        lines.append(f"{'or as well exposed':22}{assumption}{others}")
-    lines += [_alternative(other, assumption) for other in match.alternatives]
-    return lines
-
-
-def _alternative(other: Alternative, assumption: str) -> str:
-    """Write another explanation in a line."""
-    what = f"{other.sent}, correlation {other.correlation:.2f}"
-    if other.readout_time is not None and other.exposure_time is not None:
-        times = (other.readout_time, other.exposure_time)
-        names = ("readout_time", "exposure_time")
-        what += f", {assumption}" + ", ".join(
-            f"{name} {quantity(name).format(time)}" for name, time in zip(names, times, strict=True)
-        )
-    return f"{'or instead':22}{what}"
-
-
-def _with_uncertainty(match: Match, name: str, assumption: str) -> str:
-    """Write an estimate with its standard deviation in its own unit, and what it rests on."""
-    declared = quantity(name)
-    value = getattr(match, name)
-    deviation = match.uncertainties.get(name)
-    if deviation is None:
-        how = "assumed" if assumption and name in ESTIMATES else "known"
-        return f"{declared.format(value)} ({how})"
-    text = estimate_text(declared, value, deviation)
-    # Gamma is found from the shape of the stripes, not from their timing.
-    doubt = " (doubtful)" if name in match.doubtful_alone else ""
-    return (text if name == "gamma" else assumption + text) + doubt
+    verdict = [f"{'verdict':22}{match.verdict}", *(f"{'':22}{why}" for why in match.all_reasons)]
+    return [*verdict, *in_columns(match_facts(match, assumption, noted))]

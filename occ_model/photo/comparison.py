@@ -69,8 +69,6 @@ def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str
 
     Parameters
     ----------
-    comparison
-        Both profiles before it.
     enhanced : ndarray of float64, shape (columns,)
         The simulated profile after it.
     method

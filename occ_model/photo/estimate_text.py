@@ -17,8 +17,6 @@ def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> 
 
     Parameters
     ----------
-    quantity
-        What was estimated.
     value, deviation
         In SI units; without a deviation the value alone is written.
     """

@@ -37,15 +37,7 @@ QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_
 
 
 def decoder_named(name: str) -> Decoder:
-    """Find a decoder.
-
-    Raises
-    ------
-    ParameterError
-        No decoder has that name; the message lists the known names.
-    PluginError
-        It is a plug-in that cannot be used.
-    """
+    """Find a decoder."""
     if isinstance(name, str):
         if name in DECODERS:
             return DECODERS[name]

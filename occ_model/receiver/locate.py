@@ -30,8 +30,6 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The image.
-    bright_fraction
-        Share of the pixels.
 
     Returns
     -------
@@ -98,8 +96,6 @@ def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
     ----------
     counts : ndarray of int64, shape (256,)
         Pixels of each grey level in the image.
-    bright_fraction
-        Share of the pixels.
 
     Returns
     -------

@@ -28,18 +28,10 @@ class PhotoRow:
         One of :data:`VERDICTS`.
     note
         Why it, or its exposure time alone, is not sure, in sentences; empty where all of it is.
-    readout_time, switching_frequency, exposure_time
-        In SI units; None where there is no match.
-    uncertainties
-        Standard deviations of those that were estimated, as pairs of name and value.
+    match
+        None where there is none.
     noted_exposure
         Seconds, as the camera noted it in the file; None where it did not.
-    correlation
-        That of the match, None where there is none.
-    pattern
-        The chips sent; empty where there is no match.
-    is_exposure_doubtful
-        Whether the exposure time is doubtful, by itself or as all of the match is.
     lines
         Lines that the shutter reads out in a picture: the photo's columns; 0 of an unreadable one.
     size
@@ -48,8 +40,6 @@ class PhotoRow:
         ``"lines"`` or ``"columns"`` of the upright picture; empty of an unreadable one.
     camera
         The camera's maker and model, None where it is not known.
-    match
-        The match itself, None where there is none.
     given
         The value of the known parameter that was given for this photo alone, in SI units; None
         where the scene's was taken.
@@ -58,31 +48,47 @@ class PhotoRow:
     path: Path
     verdict: str
     note: str = ""
-    readout_time: float | None = None
-    switching_frequency: float | None = None
-    exposure_time: float | None = None
-    uncertainties: tuple[tuple[str, float], ...] = ()
+    match: Match | None = field(default=None, compare=False, repr=False)
     noted_exposure: float | None = None
-    correlation: float | None = None
-    pattern: str = ""
-    is_exposure_doubtful: bool = False
     lines: int = 0
     size: tuple[int, int] = (0, 0)
     scanned_along: str = ""
     camera: str | None = None
-    match: Match | None = field(default=None, compare=False, repr=False)
     given: float | None = None
+
+    @property
+    def readout_time(self) -> float | None:
+        """That of the match, in seconds; None without one."""
+        return None if self.match is None else self.match.readout_time
+
+    @property
+    def switching_frequency(self) -> float | None:
+        """That of the match, in Hz; None without one."""
+        return None if self.match is None else self.match.switching_frequency
+
+    @property
+    def exposure_time(self) -> float | None:
+        """That of the match, in seconds; None without one."""
+        return None if self.match is None else self.match.exposure_time
+
+    @property
+    def correlation(self) -> float | None:
+        """That of the match; None without one."""
+        return None if self.match is None else self.match.correlation
+
+    @property
+    def pattern(self) -> str:
+        """The chips sent; empty without a match."""
+        return "" if self.match is None else self.match.pattern
+
+    def uncertainty(self, name: str) -> float | None:
+        """Return the standard deviation of an estimate, None where it was not estimated."""
+        return None if self.match is None else self.match.uncertainties.get(name)
 
     @property
     def exposure_verdict(self) -> str:
         """The verdict on the exposure time; empty where there is none."""
-        if self.exposure_time is None:
-            return ""
-        return DOUBTFUL if self.is_exposure_doubtful else self.verdict
-
-    def uncertainty(self, name: str) -> float | None:
-        """Return the standard deviation of an estimate, None where it was not estimated."""
-        return dict(self.uncertainties).get(name)
+        return "" if self.match is None else self.match.exposure_verdict
 
 
 @dataclass(frozen=True, slots=True)

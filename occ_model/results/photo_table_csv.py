@@ -58,7 +58,7 @@ def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
         for name in ("readout_time", "switching_frequency", "exposure_time"):
             estimates += [getattr(row, name), _error(row.uncertainty(name))]
         own = rests_on if row.given is None else _given(known, row.given)
-        estimates += [row.exposure_verdict, None if row.exposure_time is None else own]
+        estimates += [row.exposure_verdict, None if row.match is None else own]
         texts.append(
             _row(
                 [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,

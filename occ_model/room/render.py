@@ -44,8 +44,6 @@ class ShownLamp:
 
     Parameters
     ----------
-    lamp
-        The lamp.
     outline : ndarray of float64, shape (corners, 2)
         Its outline in the picture, (column, row) of each corner.
     region

@@ -8,13 +8,7 @@ from occ_model.study.cause import TWO_HEADERS
 
 
 def advice_of(limits: Limits) -> Advice:
-    """Put the limits found by trial beside those that theory gives.
-
-    Raises
-    ------
-    ProjectionError
-        Part of the panel is behind the camera.
-    """
+    """Put the limits found by trial beside those that theory gives."""
     scene = limits.scene
     return Advice(
         limits,

@@ -95,10 +95,6 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) 
 
     Parameters
     ----------
-    scene, decoder
-        What was measured.
-    wrong
-        Wrong bits of each picture.
     right
         Pictures of which all bits are right, and accepted.
     """
@@ -127,13 +123,6 @@ def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
     design effect D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates
     (L. Kish, Survey Sampling, 1965). Where all or no bits are wrong nothing is seen of that, and
     each picture counts as one bit.
-
-    Parameters
-    ----------
-    wrong
-        Wrong bits of each picture.
-    length
-        Bits of each picture.
     """
     pictures, errors = len(wrong), sum(wrong)
     rate = errors / (pictures * length)
@@ -153,13 +142,7 @@ def _interval(rate: float, bits: int) -> tuple[float, float]:
 
 
 def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
-    """Refuse a frame rate that is none, or at which a picture is not read out in time.
-
-    Raises
-    ------
-    ParameterError
-        Naming the frame rate, and the largest that the scene's readout allows.
-    """
+    """Refuse a frame rate that is none, or at which a picture is not read out in time."""
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     is_number = isinstance(frames_a_second, int | float) and not isinstance(frames_a_second, bool)
     if not is_number or not 0.0 < frames_a_second <= most:

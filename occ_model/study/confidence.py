@@ -71,17 +71,7 @@ TWO_SIDED = NormalDist().inv_cdf(0.975)
 
 
 def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:
-    """Count what was read at a value of a parameter.
-
-    Parameters
-    ----------
-    value
-        The parameter.
-    counts
-        The right bits of each picture.
-    bits
-        Bits of each picture.
-    """
+    """Count what was read at a value of a parameter."""
     right, sent = sum(counts), len(counts) * bits
     low, high = interval_of_pictures(right, sent, len(counts))
     return Trial(value, right, sent, low, high, len(counts), list(counts).count(bits))

@@ -26,10 +26,6 @@ class BrightShares:
 
     Parameters
     ----------
-    rows
-        Of the picture.
-    span
-        The rectangle that the panel fills.
     panel, around : ndarray of float64, shape (columns,)
         For a pixel of each column on the panel and beside it; of ``panel`` the columns of the
         rectangle count.

@@ -33,19 +33,8 @@ class CompleteSimulation:
 
     Parameters
     ----------
-    scene
-        The scene.
-    observable
-        What is compared: as for :func:`occ_model.plan`.
     seed
         Seed of the noise, which is drawn for every pixel, each effect from its own stream.
-    timer
-        Times each stage.
-
-    Raises
-    ------
-    ProjectionError
-        The scene has no picture.
     """
 
     def __init__(

@@ -14,22 +14,7 @@ from occ_model.study.effect_differences import rms
 
 
 def forecast(scene: Scene, settings: SimulationSettings, costs: MeasuredCosts) -> Forecast:
-    """Predict a simulation.
-
-    Parameters
-    ----------
-    scene, settings
-        The scene and the settings that the simulation would have.
-    costs
-        What has been measured of the scene.
-
-    Raises
-    ------
-    ParameterError
-        A setting is not allowed.
-    ProjectionError
-        Part of the panel is behind the camera.
-    """
+    """Predict a simulation."""
     chosen = plan_with(scene, settings)
     seconds = _seconds(chosen.included, costs)
     force = tuple(sorted(settings.force.items()))

@@ -8,13 +8,7 @@ from occ_model.results.spectrum import LEVELS, LevelHistogram
 
 
 def level_histogram(image: ByteArray) -> LevelHistogram:
-    """Count the grey levels of a picture.
-
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The picture, or a part of it.
-    """
+    """Count the grey levels of a picture."""
     if not image.size:
         return LevelHistogram(np.zeros(LEVELS))
     counts = cv2.calcHist([np.ascontiguousarray(image)], [0], None, [LEVELS], [0, LEVELS])

@@ -105,20 +105,11 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
 
     Parameters
     ----------
-    scene
-        The scene.
-    decoders
-        Their names, by default all that are built in.
     rate, images, seed, tolerance, force, path, jobs, heartbeat, progress
         As for :func:`limits`.
     found
         Called with the limits of each decoder as soon as they are known, before it is known how
         surely.
-
-    Raises
-    ------
-    ParameterError, ProjectionError
-        As by :func:`limits`.
     """
     check_scene(scene)
     wanted = _checked(rate)
@@ -197,17 +188,7 @@ def _workers(stack: ExitStack) -> "ProcessPool | None":
 
 
 class _Ways:
-    """Ranges are searched in other processes, or here where these cannot be had or are lost.
-
-    Parameters
-    ----------
-    workers
-        The processes, if any.
-    usual
-        Images that all searches usually read.
-    heartbeat, progress
-        As for :func:`limits_of`.
-    """
+    """Ranges are searched in other processes, or here where these cannot be had or are lost."""
 
     def __init__(
         self,

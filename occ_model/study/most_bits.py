@@ -121,15 +121,7 @@ def unvaried(scene: Scene) -> Scene:
 
 
 def example_of(found: MostBits, seed: int = 1) -> Scene | None:
-    """Return the scene that carries most with a payload like those it was tried with.
-
-    Parameters
-    ----------
-    found
-        The result of the search.
-    seed
-        Seed of the search.
-    """
+    """Return the scene that carries most with a payload like those it was tried with."""
     if found.scene is None:
         return None
     length = found.scene.transmitter.payload_length

@@ -43,16 +43,8 @@ class NoisyColumns:
 
     Parameters
     ----------
-    scene
-        The scene.
-    columns
-        Its columns.
     plan
         Its noise, and its limits of a pixel's value, are simulated.
-    span
-        The rectangle that the panel fills.
-    enhancement
-        The receiver's.
     """
 
     def __init__(

@@ -84,17 +84,6 @@ def decode_profile(
     The decoder's region is drawn as it is found in the image: see
     :mod:`occ_model.study.drawn_region`.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-    decoder
-        The decoder's name.
-    plan
-        The effects that are simulated.
-    random
-        The source of the noise.
-
     Returns
     -------
     DecodeResult or None
@@ -114,15 +103,9 @@ def observe_profile(
 
     Parameters
     ----------
-    view
-        The paper's view of the scene.
     span
         The rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at any
         start time.
-    plan
-        The effects that are simulated; none of them is an image effect.
-    random
-        The source of the noise.
     """
     columns = expose_columns(view, plan)
     if span.columns == 0:
@@ -142,10 +125,6 @@ def region_without_noise(scene: Scene, span: Region, panel: ByteArray, around: B
 
     Parameters
     ----------
-    scene
-        The scene.
-    span
-        The rectangle that the panel fills.
     panel, around : ndarray of uint8, shape (columns,)
         Grey levels on the panel, enhanced, and beside it.
     """
@@ -198,17 +177,6 @@ def observe_sample(
     sample: SampledPicture, scene: Scene, plan: Plan, random: np.random.Generator
 ) -> Observation | None:
     """Compute the column means of a whole picture from a sample of its rows.
-
-    Parameters
-    ----------
-    sample
-        The sample of rows.
-    scene
-        The scene.
-    plan
-        The effects that are simulated in it.
-    random
-        The source of the means' sampling error.
 
     Returns
     -------

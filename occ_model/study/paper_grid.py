@@ -32,22 +32,7 @@ def point_scene(preset: str, switching_frequency: float, distance: float) -> Sce
 def grid_request(
     preset: str, decoders: Sequence[str], images: int = IMAGES, seed: int = 1
 ) -> SweepRequest:
-    """Request the sweep over all frequencies and distances of the paper's experiment.
-
-    Parameters
-    ----------
-    preset, decoders
-        Names.
-    images
-        Images at each point.
-    seed
-        Seed of the start times and the noise.
-
-    Raises
-    ------
-    ParameterError
-        A number or a decoder is not allowed.
-    """
+    """Request the sweep over all frequencies and distances of the paper's experiment."""
     axes = {"switching_frequency": FREQUENCIES, "distance": DISTANCES}
     return checked_request(load_preset(preset), axes, RateSettings(images, tuple(decoders), seed))
 
@@ -57,10 +42,6 @@ def ceases_at(table: SweepTable, decoder: str, readable: float = 60.0) -> float 
 
     Parameters
     ----------
-    table
-        The rates, the frequency being the first axis.
-    decoder
-        The decoder's name.
     readable
         Success rate in percent from which a point counts as read.
 

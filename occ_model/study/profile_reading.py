@@ -44,8 +44,6 @@ class ProfileReading:
     profile, signal : ndarray of float64, shape (columns,)
         Means of the panel's pixels in each column, before the receiver's enhancement and after it,
         in grey levels; also in columns that do not show the panel.
-    results
-        The result of each decoder, in the order asked for.
     """
 
     plan: Plan
@@ -70,26 +68,13 @@ def read_profile(
 
     Parameters
     ----------
-    scene
-        The scene.
     settings
         How its picture is simulated; the effects are planned for the signal all the same.
-    decoders
-        The decoders' names.
-    view
-        The paper's view of the scene, where it is known.
 
     Returns
     -------
     ProfileReading or None
         None where rows differ by more than noise: only pixels show what is read there.
-
-    Raises
-    ------
-    ParameterError
-        A setting is invalid.
-    ProjectionError
-        Part of the panel is behind the camera, or the image would be too large.
     """
     check_scene(scene)
     check_size(scene.camera)

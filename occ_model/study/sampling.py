@@ -38,8 +38,6 @@ def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
 
     Parameters
     ----------
-    scene
-        The scene.
     columns : ndarray of int64, shape (chosen,)
         The columns.
 

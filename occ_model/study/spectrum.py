@@ -21,18 +21,11 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     ----------
     profile : ndarray of float64, shape (columns,)
         The profile, at least 8 columns.
-    scene
-        The scene, for exposure and readout time.
 
     Returns
     -------
     Spectrum
         The response is that of a box of the exposure's length (arXiv 2602.08474).
-
-    Raises
-    ------
-    ParameterError
-        The profile is too short, or not finite.
     """
     check_scene(scene)
     values = np.asarray(profile, dtype=np.float64)

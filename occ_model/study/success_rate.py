@@ -100,23 +100,9 @@ def right_bits(
     A decoder's count does not depend on the other decoders: :func:`success_rate` with that decoder
     alone rests on the same count.
 
-    Parameters
-    ----------
-    scene, settings
-        As :func:`check_rate` allows them.
-    heartbeat
-        Called before each image; whatever it raises ends the count.
-
     Returns
     -------
     tuple of int, one a decoder
-
-    Raises
-    ------
-    ParameterError
-        The path is ``"profile"`` and rows differ.
-    ProjectionError
-        The scene has no picture.
     """
     return right_and_whole(scene, settings, heartbeat)[0]
 
@@ -212,14 +198,7 @@ def _read(
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:
-    """Check a scene and the settings of a success rate.
-
-    Raises
-    ------
-    ParameterError
-        There are no images, there is no such decoder, path or effect, the seed or the tolerance
-        is out of range, or the scene sends a raw pattern.
-    """
+    """Check a scene and the settings of a success rate."""
     check_count("images", settings.images, 1, MOST_IMAGES)
     check_seed(settings.seed)
     check_choice("path", settings.path, SIGNAL_PATHS)

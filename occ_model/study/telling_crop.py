@@ -33,8 +33,6 @@ def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = C
     ----------
     with_effect, without : ndarray of float32, shape (rows, columns)
         Grey levels of the panel's bounding rectangle in both pictures.
-    most
-        The largest size of the crop, rows and columns.
     """
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))

@@ -55,11 +55,6 @@ def panel_readout_time(scene: Scene) -> float:
     -------
     float
         Seconds; 0 where the image shows no panel.
-
-    Raises
-    ------
-    ProjectionError
-        Part of the panel is behind the camera.
     """
     camera = scene.camera
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
@@ -77,11 +72,6 @@ def two_packets_frequency(scene: Scene) -> float | None:
     -------
     float or None
         Hz; None where the image shows no panel.
-
-    Raises
-    ------
-    ProjectionError
-        Part of the panel is behind the camera.
     """
     seen = panel_readout_time(scene)
     return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
@@ -119,8 +109,6 @@ def gaussian_rate_bound(
         Its exposure time, readout time and number of columns are used.
     signal_to_noise
         The light's variance over that of a column's noise.
-    frames_a_second
-        Pictures a second.
 
     Returns
     -------

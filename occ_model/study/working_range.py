@@ -54,21 +54,10 @@ def working_range(
 
     Parameters
     ----------
-    scene
-        The scene.
     name
         The parameter, a quantity.
-    rate
-        Success rate in percent from which it counts as reading.
     settings
         Checked, with one decoder; the images are those of each value that is reported.
-    heartbeat
-        Called before each image; what it raises ends the search.
-
-    Raises
-    ------
-    ProjectionError
-        The scene has no picture.
     """
     return _Search(scene, name, rate, settings, heartbeat).working_range()
 
@@ -209,8 +198,6 @@ class _Search:
         place, beyond
             The last coarse value that is read, and the first that is not, which may lie outside
             the search.
-        is_wanted
-            Whether it is found by bisection.
         """
         works = first = self._values[place]
         fails = outer = self._values[beyond] if 0 <= beyond < len(self._values) else None

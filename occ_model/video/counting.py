@@ -46,11 +46,6 @@ class ShutterTiming:
         ----------
         columns
             The first column that shows the panel and the one after the last; by default all.
-
-        Raises
-        ------
-        ParameterError
-            No column shows the panel.
         """
         first, end = columns or (0, scene.camera.columns)
         if not 0 <= first < end:

@@ -59,8 +59,6 @@ def packets_of(
         before its last one.
     bits : ndarray of uint8
         The payload, joined from all frames; empty where it was not read.
-    frequency
-        Chips a second.
     """
     found: list[FilmPart] = []
     packets: list[PacketReading] = []

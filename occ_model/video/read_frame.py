@@ -71,8 +71,6 @@ def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The camera's picture.
-    region
-        Where the panel is.
     method
         The enhancement, as a scene names it; its curve follows from the columns' means.
 
@@ -91,8 +89,6 @@ def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER)
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The camera's picture.
-    decoder
-        A name from ``DECODERS``.
 
     Returns
     -------
@@ -117,11 +113,6 @@ class FrameReader:
     read from either, as of a single picture: an enhancement moves the threshold, so that chips can
     be told apart in one picture that cannot in the other. Those count that explain the light
     better.
-
-    Parameters
-    ----------
-    decoder
-        The name of the decoder that finds the chips.
     """
 
     def __init__(self, scene: Scene, decoder: str) -> None:

@@ -61,7 +61,17 @@ def match_all(request: ManyRequest, report: Report) -> PhotoTable:
 
 
 class ManyPhotosController(QObject):
-    """Matches the photos of a table."""
+    """Matches the photos of a table.
+
+    Parameters
+    ----------
+    scenes
+        The scene with the known values.
+    view
+        The table.
+    jobs
+        Number of processes; by default one for each core.
+    """
 
     matched = Signal(object)
     """The complete table: a PhotoTable."""

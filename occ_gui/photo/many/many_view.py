@@ -17,15 +17,17 @@ from PySide6.QtWidgets import (
 
 from occ_gui.photo.assumption import condition, is_stale
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
-from occ_gui.photo.match_values import label_of, what_errors_mean, with_uncertainty
+from occ_gui.photo.match_values import what_errors_mean
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.work_bar import WorkBar
+from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.other_programs import (
     frame_readout_time,
     lines_to_paste,
     stated_lines,
 )
+from occ_model.photo.match_facts import LABELS
 from occ_model.results.photo_table import (
     VERDICTS,
     CombinedEstimate,
@@ -287,7 +289,7 @@ class ManyPhotosView(QWidget):
             texts[self.exposure] = self._mean("exposure_time", table.exposure_time, rests_on)
             frame = frame_readout_time(table)
             if frame is not None:
-                time = with_uncertainty(quantity("readout_time"), *frame)
+                time = estimate_text(quantity("readout_time"), *frame)
                 texts[self.frame] = f"Readout of the whole frame, sure photos: {rests_on + time}"
             texts[self.notes] = "\n".join(table.notes)
             self.paste.show_lines_if(rests_on, lines_to_paste(table))
@@ -301,12 +303,12 @@ class ManyPhotosView(QWidget):
         if found is None:
             return ""
         declared = quantity(name)
-        value = with_uncertainty(declared, found.value, found.uncertainty)
+        value = estimate_text(declared, found.value, found.uncertainty)
         text = (
             "{label}: {value}, mean of {count} sure photos"
             if found.count > 1
             else "{label}: {value}, of the one sure photo"
-        ).format(label=label_of(name), value=condition + value, count=found.count)
+        ).format(label=LABELS[name], value=condition + value, count=found.count)
         if found.count > 1:
             how = "they agree" if found.agrees else "they do not agree"
             text += f"; χ² {found.chi_square:.3g} of {found.degrees_of_freedom}: {how}"

@@ -14,10 +14,11 @@ from PySide6.QtCore import (
 )
 from PySide6.QtGui import QGuiApplication, QPalette
 
-from occ_gui.photo.match_values import label_of, with_uncertainty
 from occ_gui.photo.verdict_view import SIGNS
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import ParameterError, one_line
+from occ_model.photo.estimate_text import estimate_text
+from occ_model.photo.match_facts import LABELS
 from occ_model.results.photo_table import (
     DOUBTFUL,
     REFUSED,
@@ -149,8 +150,8 @@ class PhotoRowsModel(QAbstractTableModel):
             "Verdict",
             # Short: the times beside it are to stay in view.
             f"given {quantity(self.known).symbol}",
-            label_of(self._estimate),
-            label_of("exposure_time"),
+            LABELS[self._estimate],
+            LABELS["exposure_time"],
             "As noted",
             "Correlation",
             "Why",
@@ -266,7 +267,7 @@ class PhotoRowsModel(QAbstractTableModel):
 
 def _estimate(row: PhotoRow, name: str) -> str:
     value = getattr(row, name)
-    return "" if value is None else with_uncertainty(quantity(name), value, row.uncertainty(name))
+    return "" if value is None else estimate_text(quantity(name), value, row.uncertainty(name))
 
 
 def _alignment(column: int) -> Qt.AlignmentFlag:

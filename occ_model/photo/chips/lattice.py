@@ -58,8 +58,6 @@ def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    edges
-        The edges.
     frequencies : ndarray of float64
         Chips per column.
     """

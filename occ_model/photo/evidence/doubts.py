@@ -61,17 +61,7 @@ leave many lines, each of a few percent."""
 
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
-    """Say why a hypothesis is doubtful, in sentences.
-
-    Parameters
-    ----------
-    found
-        The hypothesis.
-    stripes
-        The stripes that it explains.
-    rows_alike
-        Correlation of the rows' stripes with each other.
-    """
+    """Say why a hypothesis is doubtful, in sentences."""
     return [
         *_doubts_by_extent(found),
         *_doubts_by_quality(found, stripes.saturated, rows_alike),

@@ -24,8 +24,6 @@ def nearest_other(
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
-    found
-        The hypothesis.
     transmitter
         Its packets are compared where the chips found are as many; else sequences that differ in
         one chip, or in two neighbours that are exchanged.

@@ -53,10 +53,6 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
 
     Parameters
     ----------
-    found
-        The hypothesis.
-    beside
-        What it is compared with.
     blinks
         Whether it is given that a lamp blinks.
 

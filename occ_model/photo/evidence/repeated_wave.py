@@ -34,8 +34,6 @@ def repeated_wave(
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
-    found
-        The hypothesis.
     independent
         Number of columns that count as independent.
     error

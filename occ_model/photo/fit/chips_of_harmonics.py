@@ -123,10 +123,6 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
 
     Parameters
     ----------
-    lines
-        The harmonics.
-    found
-        Chips, with a rough exposure and phase.
     column
         Chips a column, where no pixel is white. The light then passes half its height within each
         edge's ramp, whatever the tone curve: bright runs are longer by less than a ramp, which

@@ -133,8 +133,6 @@ def read_otherwise(
     ----------
     profile, period, check
         As for :func:`read_patterns`.
-    read
-        The sequences that were read.
     """
     lines = harmonics_of(without_trend(profile), period)
     lengths = [one.times * len(one.chips) for one in read]

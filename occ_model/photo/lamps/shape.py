@@ -39,16 +39,8 @@ def spans_of(
 
     Parameters
     ----------
-    strips
-        The edges of all strips of the photo.
-    inner
-        The strips that surely show the lamp.
-    timing
-        How the lamp blinks, and its common edges.
     bounds : ndarray of int64, shape (strips + 1,)
         The first row of each strip, and the number of rows.
-    columns
-        Number of columns of the photo.
 
     Returns
     -------

@@ -34,8 +34,6 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
         Grey levels.
     bounds : ndarray of int64, shape (strips + 1,)
         The first row of each strip, and the number of rows.
-    blinking
-        The lamps with stripes.
     """
     strips, columns = means.shape
     narrow = min(columns, _MOST_COLUMNS)

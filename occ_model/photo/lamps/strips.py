@@ -23,13 +23,6 @@ edges of a lamp what is interpolated from them leaves a pattern that repeats aft
 def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, IndexArray]:
     """Average the rows of a photo in strips.
 
-    Parameters
-    ----------
-    photo
-        The photo.
-    report
-        Called with the share of the work that is done.
-
     Returns
     -------
     means : ndarray of float64, shape (strips, columns)

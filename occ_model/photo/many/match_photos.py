@@ -105,15 +105,7 @@ def match_photos(  # noqa: PLR0913 - how photos are read and matched, all of it 
 
 
 def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
-    """Check what is to be matched: at least one file or photo.
-
-    Raises
-    ------
-    ParameterError
-        There are none.
-    PhotoError
-        One is neither a path nor a photo.
-    """
+    """Check what is to be matched: at least one file or photo."""
     given = [photos] if isinstance(photos, str | Path | Photo) else photos
     sources: list[Source] = []
     for photo in given:
@@ -130,19 +122,7 @@ def checked_photos(photos: Iterable[str | Path | Photo]) -> list[Source]:
 def matched_rows(
     sources: Sequence[Source], settings: MatchSettings, jobs: int, heartbeat: Heartbeat
 ) -> Generator[tuple[int, PhotoRow], None, None]:
-    """Match photos, and give each row with its place as soon as it is ready.
-
-    Parameters
-    ----------
-    sources
-        Files, or photos that were read already: those are matched in this process.
-    settings
-        How they are read and matched.
-    jobs
-        Number of processes for the files.
-    heartbeat
-        Called several times a second; whatever it raises ends the work.
-    """
+    """Match photos, and give each row with its place as soon as it is ready."""
     files = [(place, one) for place, one in enumerate(sources) if isinstance(one, Path)]
     for place, one in enumerate(sources):
         if isinstance(one, Photo):

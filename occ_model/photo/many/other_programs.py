@@ -129,16 +129,7 @@ def note_on(lines: Mapping[str, str]) -> str:
 
 
 def stated_lines(table: PhotoTable, condition: str) -> list[str]:
-    """Write the lines to paste of a table after their programs' names, with what they rest on.
-
-    Parameters
-    ----------
-    table
-        The photos.
-    condition
-        The value that the lines rest on where it is only assumed, as ``"if f = 10 kHz: "``; empty
-        where it is known.
-    """
+    """Write the lines to paste of a table after their programs' names, with what they rest on."""
     lines = lines_to_paste(table)
     written = [f"{program}: {condition}{line}" for program, line in lines.items()]
     return [text for text in (*written, note_on(lines)) if text]

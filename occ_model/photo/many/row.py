@@ -9,7 +9,7 @@ from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results.match import Match
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, UNREADABLE, PhotoRow, known_beside
+from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow, known_beside
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene, check_scene
 
@@ -20,8 +20,6 @@ class MatchSettings:
 
     Parameters
     ----------
-    scene
-        The known settings, as for :func:`occ_model.match_photo`.
     estimate, sent, averaging, fit_gamma
         As for :func:`occ_model.match_photo`.
     scan_axis, channel
@@ -41,26 +39,14 @@ class MatchSettings:
     known: tuple[tuple[int, float], ...] = ()
 
     def of(self, place: int) -> "MatchSettings":
-        """Give the settings of the photo at a place.
-
-        Raises
-        ------
-        ParameterError
-            Its known value is out of range.
-        """
+        """Give the settings of the photo at a place."""
         own = dict(self.known).get(place)
         if own is None:
             return self
         return replace(self, scene=self.scene.replace(**{known_beside(self.estimate): own}))
 
     def check(self) -> None:
-        """Refuse settings that are not allowed, before any photo is read.
-
-        Raises
-        ------
-        ParameterError
-            A setting is not one of its words, the scene is none, or a known value is out of range.
-        """
+        """Refuse settings that are not allowed, before any photo is read."""
         check_scene(self.scene)
         check_choice("estimate", self.estimate, ESTIMATES)
         check_choice("sent", self.sent, PATTERN_SOURCES)
@@ -84,17 +70,7 @@ def row_of(
 
 
 def row_of_file(path: Path, settings: MatchSettings, heartbeat: Heartbeat) -> PhotoRow:
-    """Read and match a file; a sentence stands in the row where that fails.
-
-    Parameters
-    ----------
-    path
-        The file.
-    settings
-        How it is read and matched.
-    heartbeat
-        Called repeatedly; whatever it raises ends the work.
-    """
+    """Read and match a file; a sentence stands in the row where that fails."""
     try:
         photo = load_photo(
             path,
@@ -126,28 +102,16 @@ def row_of_photo(photo: Photo, settings: MatchSettings, heartbeat: Heartbeat) ->
 
 def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> PhotoRow:
     rows, columns = photo.samples.shape
-    found = PhotoRow(
+    return PhotoRow(
         photo.path,
         verdict,
         _one_paragraph(note),
+        match,
         noted_exposure=photo.exposure_time,
         lines=columns,
         size=(rows, columns) if photo.turned else (columns, rows),
         scanned_along="lines" if photo.turned else "columns",
         camera=photo.camera,
-    )
-    if match is None:
-        return found
-    return replace(
-        found,
-        readout_time=match.readout_time,
-        switching_frequency=match.switching_frequency,
-        exposure_time=match.exposure_time,
-        uncertainties=tuple(match.uncertainties.items()),
-        correlation=match.correlation,
-        pattern=match.pattern,
-        is_exposure_doubtful=match.exposure_verdict == DOUBTFUL,
-        match=match,
     )
 
 

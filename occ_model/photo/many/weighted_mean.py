@@ -36,8 +36,6 @@ def combine(
 
     Parameters
     ----------
-    values
-        The estimates.
     deviations
         Their standard deviations, above 0.
 

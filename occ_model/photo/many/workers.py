@@ -32,17 +32,6 @@ def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat:
     ends its process even then becomes a row that says so. Where the system has no processes to
     give, a thread of this one matches the files; where they cannot work, this process does, with
     a ``RuntimeWarning``.
-
-    Parameters
-    ----------
-    files
-        The files.
-    settings
-        How they are matched.
-    jobs
-        Number of processes.
-    heartbeat
-        Called several times a second; whatever it raises ends the work.
     """
     waiting = iter(files)
     while True:

@@ -33,13 +33,9 @@ def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tup
 
     Parameters
     ----------
-    picture
-        The picture.
     channel
         One of :data:`CHANNELS`. Where the brightest nearly ties with green, green is taken: a
         sensor has the most pixels of it.
-    report
-        Called with the share of this work that is done, from 0 to 1.
 
     Returns
     -------

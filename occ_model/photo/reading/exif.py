@@ -35,8 +35,6 @@ class CameraNotes:
     ----------
     exposure_time, f_number, iso
         In SI units, within the range that a scene's parameter of that name has.
-    camera
-        The camera's maker and model, on one line.
     """
 
     exposure_time: float | None = None
@@ -49,11 +47,6 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
     """Read a picture's EXIF tags (CIPA DC-008).
 
     Where the exposure time or the f-number is missing, its APEX value is taken.
-
-    Parameters
-    ----------
-    picture
-        The decoded picture: the tags of a PNG may follow its pixels.
     """
     # A picture can be read although its tags are damaged.
     tags: dict[int, Any] = {}

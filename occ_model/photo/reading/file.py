@@ -51,20 +51,6 @@ _pillow_lock = threading.Lock()
 def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[WatchedFile]:
     """Open a file that should be a photo.
 
-    Parameters
-    ----------
-    path
-        The file.
-    max_pixels
-        Largest number of pixels of a picture, which limits the bytes of the file too.
-    report
-        Called with the progress as the file is read; what it raises leaves the ``with`` block.
-
-    Yields
-    ------
-    WatchedFile
-        The file.
-
     Raises
     ------
     PhotoError

@@ -22,27 +22,7 @@ _ANY_HEIF_BRANDS = (b"mif1", b"msf1")
 
 
 def format_and_factory(path: Path, file: IO[bytes]) -> "tuple[str, Factory]":
-    """Recognize a file's format by its first bytes.
-
-    Parameters
-    ----------
-    path
-        The file's path.
-    file
-        The file, opened.
-
-    Returns
-    -------
-    name
-        The format's name.
-    factory
-        The function that opens a file of this format.
-
-    Raises
-    ------
-    PhotoError
-        The file is of none of the formats that are read, or its reader is not installed.
-    """
+    """Recognize a file's format by its first bytes."""
     from PIL import Image
     from PIL.JpegImagePlugin import JpegImageFile
 

@@ -51,11 +51,6 @@ class DecodedPicture:
     opened
         Function that opens the file's picture, not yet decoded; its arguments are the shares of the
         work between which it will be decoded.
-
-    Raises
-    ------
-    PhotoError
-        It has samples of more than 16 bits.
     """
 
     def __init__(self, opened: "Callable[[float, float], ImageFile]") -> None:

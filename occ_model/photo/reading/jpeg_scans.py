@@ -15,10 +15,6 @@ def count_scans(content: bytes | bytearray, most: int, most_segments: int) -> in
     ----------
     content
         The whole file.
-    most
-        Number of scans above which counting ends.
-    most_segments
-        Number of segments above which counting ends.
 
     Returns
     -------

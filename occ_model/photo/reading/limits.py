@@ -51,24 +51,12 @@ _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323
 
 
 def check_file_size(path: Path, file_format: str, size: int) -> None:
-    """Refuse a file that would take its decoder too long, before it is opened.
-
-    Raises
-    ------
-    PhotoError
-        The file has too many bytes.
-    """
+    """Refuse a file that would take its decoder too long, before it is opened."""
     _refuse_above(_MOST_BYTES.get(file_format, size), path, file_format, size)
 
 
 def check_decoder(path: Path, picture: "ImageFile", size: int) -> None:
-    """Refuse a file that would take its decoder too long, before any of it is decoded.
-
-    Raises
-    ------
-    PhotoError
-        The file has too many bytes.
-    """
+    """Refuse a file that would take its decoder too long, before any of it is decoded."""
     from PIL import Image
 
     decoders = {tile[0] for tile in picture.tile}
@@ -88,13 +76,7 @@ def _refuse_above(largest: int, path: Path, kind: str, size: int) -> None:
 
 
 def check_transparency(path: Path, picture: "ImageFile") -> None:
-    """Refuse a large picture of 16-bit colours with transparency, before any of it is decoded.
-
-    Raises
-    ------
-    PhotoError
-        Making its transparent parts black would take too long.
-    """
+    """Refuse a large picture of 16-bit colours with transparency, before any of it is decoded."""
     transparent = "A" in picture.mode or "transparency" in picture.info
     large = picture.width * picture.height > _MOST_DEEP_AND_TRANSPARENT
     if large and transparent and is_deep_in_colours(raw_modes_of(picture)):
@@ -110,19 +92,10 @@ def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header:
 
     Parameters
     ----------
-    path
-        The file.
-    picture
-        The picture as opened, not yet decoded.
     bytes_read
         Bytes read on opening the file, all of which may be kept in memory.
     scan_header
         Bytes of the last read: in a JPEG the header of its first scan.
-
-    Raises
-    ------
-    PhotoError
-        It would take too much memory.
     """
     pixels = picture.width * picture.height
     decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
@@ -136,19 +109,8 @@ def check_scans(
 
     Parameters
     ----------
-    path
-        The file.
-    picture
-        The picture as opened, not yet decoded.
-    scan_header
-        Bytes of the header of its first scan.
     content
         Gives the bytes of the file; called only for a JPEG in several scans.
-
-    Raises
-    ------
-    PhotoError
-        They would take its decoder too long.
     """
     if picture.format != "JPEG" or _is_in_one_scan(picture, scan_header):
         return

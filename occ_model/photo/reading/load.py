@@ -163,11 +163,6 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     -------
     ndarray of float64, shape (columns,)
         Grey levels.
-
-    Raises
-    ------
-    ParameterError
-        There are no such rows.
     """
     rows = len(photo.samples)
     if not 0 <= first_row < last_row <= rows:

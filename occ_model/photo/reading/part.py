@@ -15,13 +15,7 @@ Corners: TypeAlias = Region | Sequence[int]
 
 
 def region_within(photo: Photo, corners: Corners) -> Region:
-    """Return the rectangle of a photo that its corners name.
-
-    Raises
-    ------
-    ParameterError
-        They are not four whole numbers, or the rectangle is empty or leaves the photo.
-    """
+    """Return the rectangle of a photo that its corners name."""
     rows, columns = photo.samples.shape
     region = corners if isinstance(corners, Region) else _region_of(corners)
     if region is not None:

@@ -92,20 +92,8 @@ def read_mosaic(
 
     Parameters
     ----------
-    path, file
-        The file's path, and the file.
     channel
         ``"green"`` or ``"brightest"``: the others have photosites in every second line only.
-    max_pixels
-        Largest number of photosites.
-    report
-        Called with the progress.
-
-    Raises
-    ------
-    PhotoError
-        rawpy is not installed, the file is damaged, too large, of another pattern of colours or
-        without a sensor's samples, or another channel is asked for.
     """
     shown = one_line(str(path))
     try:

@@ -20,13 +20,7 @@ would take many times the memory and time of its pixels.
 
 
 def check_pixels(path: Path, width: int, height: int, max_pixels: int) -> None:
-    """Refuse a picture of more pixels than were asked for, before any of it is decoded.
-
-    Raises
-    ------
-    PhotoError
-        It has too many.
-    """
+    """Refuse a picture of more pixels than were asked for, before any of it is decoded."""
     if width * height > max_pixels:
         raise PhotoError(
             f"{one_line(str(path))} has {width:,} x {height:,} pixels, "
@@ -47,13 +41,7 @@ def count_of_pixels(pixels: int) -> str:
 
 
 def check_sides(path: Path, width: int, height: int) -> None:
-    """Refuse a picture with a side longer than any camera's, before any of it is decoded.
-
-    Raises
-    ------
-    PhotoError
-        It is too wide or too high.
-    """
+    """Refuse a picture with a side longer than any camera's, before any of it is decoded."""
     if max(width, height) > _LONGEST_SIDE:
         raise PhotoError(
             f"{one_line(str(path))} has {width:,} x {height:,} pixels; "
@@ -66,19 +54,10 @@ def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int)
 
     Parameters
     ----------
-    path
-        The file.
-    width, height
-        The picture's size.
     decoding
         Bytes that decoding takes, in proportion to the pixels.
     kept
         Bytes of the file that are kept in memory meanwhile.
-
-    Raises
-    ------
-    PhotoError
-        It would take too much memory.
     """
     if decoding + kept > _MOST_MEMORY:
         most = width * height * max(_MOST_MEMORY - kept, 0) / decoding

@@ -16,11 +16,6 @@ class Reporter:
     """Reports progress, and keeps the exception that cancelled the work.
 
     It is kept because a decoder may take any exception while it reads for a damaged file.
-
-    Parameters
-    ----------
-    progress
-        Function to call, or None.
     """
 
     def __init__(self, progress: Progress | None) -> None:
@@ -39,15 +34,7 @@ class Reporter:
 
 
 class WatchedFile(io.BufferedReader):
-    """A file that reports the progress of its reading.
-
-    Parameters
-    ----------
-    path
-        The file's path.
-    report
-        Called with the progress as the file is read.
-    """
+    """A file that reports the progress of its reading."""
 
     def __init__(self, path: Path, report: Reporter) -> None:
         super().__init__(path.open("rb", buffering=0))

@@ -43,13 +43,6 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
     """Give Chebyshev polynomials, of which slowly varying levels are linear combinations.
 
-    Parameters
-    ----------
-    count
-        Number of columns.
-    freedom
-        Number of polynomials.
-
     Returns
     -------
     ndarray of float64, shape (columns, freedom)

@@ -22,11 +22,6 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
     -------
     ndarray of float64, shape (columns of the lamp's region,)
         Grey levels.
-
-    Raises
-    ------
-    ParameterError
-        The lamp lies outside the photo.
     """
     region = lamp.region
     rows, columns = photo.samples.shape

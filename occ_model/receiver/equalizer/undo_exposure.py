@@ -49,8 +49,6 @@ def response(columns: float, length: int) -> FloatArray:
     ----------
     columns
         Length of the box.
-    length
-        Columns of the signal that the spectrum is of.
 
     Returns
     -------

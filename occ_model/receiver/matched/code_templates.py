@@ -110,8 +110,6 @@ def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArra
     ----------
     values : ndarray of float64, shape (chips, n)
         Values for each chip of a packet.
-    bits
-        Bits of a code.
 
     Returns
     -------

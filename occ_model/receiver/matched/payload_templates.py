@@ -100,11 +100,6 @@ def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
         The scheme, of at most :data:`MOST_BITS` bits.
     exposure
         The exposure time in chips, exactly.
-
-    Raises
-    ------
-    ParameterError, PluginError
-        The scheme cannot encode.
     """
     codes = range(2**scheme.bits)
     response = np.fft.rfft(chip_response(scheme.length, exposure))

@@ -24,12 +24,8 @@ def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics)
 
     Parameters
     ----------
-    words
-        The code.
     memory
         Chips that an exposure reaches back to.
-    statistics
-        What the rows say.
     """
     chip_after, place_after = _steps(words)
     reach = memory + 1

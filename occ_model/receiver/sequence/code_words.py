@@ -39,8 +39,6 @@ class CodeWords:
 
     Parameters
     ----------
-    words
-        The words.
     header
         The chips at the start of every frame; empty where they are not known.
     """
@@ -61,13 +59,6 @@ def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
         Its scheme is used, not what it sends.
     memory
         Chips that a state holds.
-
-    Raises
-    ------
-    ParameterError
-        Line code and framing do not go together.
-    PluginError
-        A plug-in fails.
     """
     if transmitter.pattern:
         return CodeWords(FREE_CHIPS)

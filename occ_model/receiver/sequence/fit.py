@@ -54,8 +54,6 @@ class Fit:
 
     Parameters
     ----------
-    chips, timing, brightness
-        They.
     model : ndarray of float64, shape (rows,)
         The lit share of each row that the chips have.
     residual : ndarray of float64, shape (rows,)

@@ -32,14 +32,8 @@ def follow_timing(
 
     Parameters
     ----------
-    rows
-        The rows.
     timing
         Its phase is not used.
-    brightness
-        A guess.
-    words
-        Those of the line code.
     """
     count = len(rows.light)
     timing = find_phase(rows, timing, brightness, words)

@@ -32,8 +32,6 @@ class Chips:
 
     Parameters
     ----------
-    first
-        The number of the first of them.
     values : ndarray of uint8, shape (chips,)
         The chips.
     margins : ndarray of float64, shape (chips,)
@@ -47,15 +45,7 @@ class Chips:
 
 
 def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
-    """Find the chips whose light is nearest to the rows, from the first that a row can show.
-
-    Parameters
-    ----------
-    trellis
-        The code.
-    statistics
-        What the rows say.
-    """
+    """Find the chips whose light is nearest to the rows, from the first that a row can show."""
     # The first row shows one chip more than the state after it holds: the state before it does.
     features = np.pad(statistics.features, ((1, 0), (0, 0)))
     parts = _Parts.of(len(features), trellis.memory)
@@ -70,13 +60,6 @@ def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
 
 def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> FloatArray:
     """Return the least squared distance of rows from any chips, for several timings.
-
-    Parameters
-    ----------
-    trellis
-        The code.
-    statistics
-        What the rows say at each timing.
 
     Returns
     -------
@@ -120,8 +103,6 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    trellis
-        The code.
     features : ndarray of float64, shape (chips, ..., features)
         What the rows say.
 
@@ -140,12 +121,8 @@ def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts) -> FloatArray:
 
     Parameters
     ----------
-    trellis
-        The code.
     costs : ndarray of float64, shape (chips + 1, steps, states)
         Those of the whole sequence, and of a chip that no row shows.
-    parts
-        The parts.
     """
     shape = (parts.chips.shape[1], *costs.shape[1:])
     least = np.empty((len(parts.chips), shape[0], trellis.states))

@@ -28,8 +28,6 @@ class SoftFrame:
 
     Parameters
     ----------
-    framed
-        What the framing reads.
     certainty
         The probability that all its bits are right, 0 where none were read.
     likelihoods : ndarray of float64, shape (bits,), or None
@@ -48,8 +46,6 @@ def read_frame(ratios: FloatArray, scheme: Scheme, header: tuple[int, ...]) -> S
     ----------
     ratios : ndarray of float64, shape (chips,)
         Log-likelihood ratio of each chip.
-    scheme
-        By which it is sent.
     header
         The chips at the start of every frame, as far as they are known.
     """
@@ -77,8 +73,6 @@ def likeliest_packet(folded: FloatArray, bits: int) -> SoftFrame:
     ----------
     folded : ndarray of float64, shape (chips of a packet,)
         Log-likelihood ratio of each chip of a period, which starts anywhere.
-    bits
-        Bits of a packet.
     """
     length = packet_length(bits)
     rotated = folded[(np.arange(length)[:, None] + np.arange(length)) % length]
@@ -113,8 +107,6 @@ def _sureness(
     ----------
     ratios : ndarray of float64, shape (chips of a frame,)
         Log-likelihood ratios from the start of the frame on.
-    framed, scheme, header
-        As for :func:`read_frame`.
     """
     sent, code = scheme.encode(framed.bits), scheme.line_code
     right = probability(np.where(sent == 1, ratios, -ratios))

@@ -126,8 +126,6 @@ def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
 
     Parameters
     ----------
-    words
-        The code.
     memory
         Chips that a state holds, one less than an exposure can touch.
     """

@@ -88,10 +88,6 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
         Runs that are not cut off by the region's edges, of both kinds.
     histograms
         Their lengths, of zeros and of ones.
-
-    Returns
-    -------
-    ChipFit
     """
     short_zero, short_one = (short_run(histogram) for histogram in histograms)
     longest_one = float(len(histograms[1].counts) - 1)
@@ -119,10 +115,6 @@ def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
         Runs that are not cut off by the region's edges, of both kinds.
     nominal
         Expected columns of a chip.
-
-    Returns
-    -------
-    ChipFit
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
     # A threshold is rarely far off the middle.

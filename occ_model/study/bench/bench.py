@@ -37,25 +37,7 @@ _MOST_DECIBELS = 100.0
 def bench(
     request: BenchRequest, progress: Callable[[int, int], object] = lambda _done, _all: None
 ) -> tuple[BenchPoint, ...]:
-    """Measure all points of a request.
-
-    Parameters
-    ----------
-    request
-        What to measure.
-    progress
-        Called with the number of points that are done, and of all of them.
-
-    Returns
-    -------
-    tuple of BenchPoint
-        A point for each decoder at each point of the request.
-
-    Raises
-    ------
-    ParameterError
-        A value is not allowed, or there is no such line code, framing or decoder.
-    """
+    """Measure all points of a request."""
     check_bench(request)
     found: list[BenchPoint] = []
     for done, place in enumerate(request.points):
@@ -69,15 +51,6 @@ def measure_bench_point(
     request: BenchRequest, place: BenchPlace, heartbeat: Heartbeat = lambda: None
 ) -> tuple[BenchPoint, ...]:
     """Measure one point of a request, which :func:`check_bench` allows.
-
-    Parameters
-    ----------
-    request
-        What to measure.
-    place
-        One of its points.
-    heartbeat
-        Called before each picture; what it raises ends the measurement.
 
     Returns
     -------
@@ -138,17 +111,8 @@ def bench_scene(request: BenchRequest, scheme: str, exposure: float = 1.0) -> Sc
 
     Parameters
     ----------
-    request
-        All but the exposures and the noise is used.
-    scheme
-        One of its schemes.
     exposure
         In symbols.
-
-    Raises
-    ------
-    ParameterError
-        There is no such line code or framing, or a value is out of range.
     """
     line_code, _, framing = scheme.partition("/")
     symbol = request.rows_a_symbol * request.readout_time

@@ -20,13 +20,6 @@ def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> 
     The nulls are those of chips that alternate, the fastest wave of each line code: its frequency
     is f/2, and |sinc(t f / 2)| is nothing where the exposure lasts an even number of symbols. The
     most bits are :func:`occ_model.study.theory.gaussian_rate_bound`, which no scheme changes.
-
-    Parameters
-    ----------
-    request
-        A request that is allowed.
-    heartbeat
-        Called before each place of a curve; what it raises ends the work.
     """
 
     def bound(exposure: float, decibels: float) -> float:

@@ -30,8 +30,6 @@ class Sample:
 
     Parameters
     ----------
-    path
-        Its file.
     sampling, exposure, symbol
         The time between rows, the exposure time and the length of a symbol, in seconds.
     """
@@ -48,12 +46,6 @@ class SampleReading:
 
     Parameters
     ----------
-    sample
-        The picture.
-    decoder
-        The decoder's name.
-    chips
-        Number of chips found.
     correlation
         Of the chips' light with the signal; None where the decoder has no model of it.
     wrong_chips
@@ -71,14 +63,7 @@ class SampleReading:
 
 
 def load_samples(table: Path) -> tuple[Sample, ...]:
-    """Read the table of a data set; the pictures' paths are relative to its folder.
-
-    Raises
-    ------
-    PhotoError
-        The file cannot be read, a column is missing, or a value is not allowed; the sentence names
-        the line.
-    """
+    """Read the table of a data set; the pictures' paths are relative to its folder."""
     rows = csv.DictReader(read_text(table).splitlines())
     name = one_line(table.name)
     try:
@@ -132,26 +117,7 @@ def read_samples(
     line_code: str = "manchester",
     progress: Callable[[int, int], object] = lambda _done, _all: None,
 ) -> Iterator[SampleReading]:
-    """Decode the pictures of a data set.
-
-    Parameters
-    ----------
-    samples
-        The pictures.
-    decoder_names
-        The decoders.
-    line_code
-        The line code that was sent.
-    progress
-        Called with the number of pictures that are done, and of all of them.
-
-    Raises
-    ------
-    PhotoError
-        A picture cannot be read.
-    ParameterError
-        There is no such decoder or line code, or a time is out of range.
-    """
+    """Decode the pictures of a data set."""
     for done, sample in enumerate(samples):
         progress(done, len(samples))
         image = load_photo(sample.path, "lines").image

@@ -36,8 +36,6 @@ def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
     ----------
     frames
         Frames; the starts of frames within a packet repeat after 65.
-    seed
-        Seed of payload, start time and noise.
     """
     scene = scene_of_films(Scene()).replace(
         line_code="manchester", framing="paper", exposure_time=_EXPOSURE, iso=800.0

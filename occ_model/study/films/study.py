@@ -44,17 +44,6 @@ class FilmRequest:
         Numbers of bits of a payload.
     frame_rate
         In Hz.
-    frames
-        Frames of each film.
-    decoder
-        The decoder's name.
-    seed
-        Seed of payloads, start times and noise.
-
-    Raises
-    ------
-    ParameterError
-        A value is out of range, or there are too many points.
     """
 
     scene: Scene
@@ -107,8 +96,6 @@ class FilmPoint:
     ----------
     frequency, gap, bits
         Switching frequency in Hz, gap as a share of the frame period, bits of the payload.
-    packet_chips
-        Chips of a packet, or of a sub-packet.
     packets, read, counted
         Packets sent while the film ran, those read right, and those that exact counting finds whole
         in a frame.
@@ -151,15 +138,7 @@ class FilmPoint:
 def film_study(
     request: FilmRequest, heartbeat: Callable[[], object] = lambda: None
 ) -> Iterator[FilmPoint]:
-    """Measure one film after the other: gaps fastest, then frequencies, then bits.
-
-    Parameters
-    ----------
-    request
-        What is measured.
-    heartbeat
-        Called before each frame; what it raises ends the study.
-    """
+    """Measure one film after the other: gaps fastest, then frequencies, then bits."""
     places = product(request.bits, request.frequencies, request.gaps)
     for number, (bits, frequency, gap) in enumerate(places):
         scene = request.scene_at(frequency, gap, bits, request.seed + number)

@@ -19,17 +19,7 @@ PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]
 
 @dataclass(frozen=True, slots=True)
 class MeasuredPoints:
-    """Points that were measured together.
-
-    Parameters
-    ----------
-    points
-        The points.
-    images
-        Images that were read at each.
-    seconds
-        Time that all of them took.
-    """
+    """Points that were measured together."""
 
     points: tuple[SweepPoint, ...]
     images: int

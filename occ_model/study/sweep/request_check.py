@@ -23,23 +23,7 @@ from occ_model.study.success_rate import check_rate
 
 
 def checked_request(scene: Scene, axes: object, settings: RateSettings) -> SweepRequest:
-    """Check the arguments of a sweep, and make its request.
-
-    Parameters
-    ----------
-    scene
-        The scene, which gives the parameters that are not varied.
-    axes
-        Values by the parameters' names.
-    settings
-        How each rate is measured.
-
-    Raises
-    ------
-    ParameterError
-        An axis names no parameter, has no values, one that is out of range, or one twice; or the
-        settings are not allowed.
-    """
+    """Check the arguments of a sweep, and make its request."""
     check_scene(scene)
     check_rate(scene, settings)
     FRAME_RATE.check(settings.frames_a_second)
@@ -57,13 +41,7 @@ def checked_request(scene: Scene, axes: object, settings: RateSettings) -> Sweep
 
 
 def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
-    """Refuse axes whose combinations are too many.
-
-    Raises
-    ------
-    ParameterError
-        There are more points than a sweep may have.
-    """
+    """Refuse axes whose combinations are too many."""
     sizes = [len(values) for values in axes.values()]
     points = math.prod(sizes)
     if points > MOST_POINTS:
@@ -76,32 +54,13 @@ def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
 
 
 def processes_for(jobs: int, points: int) -> int:
-    """Give the number of processes to start.
-
-    Parameters
-    ----------
-    jobs
-        The number asked for.
-    points
-        The number of points to measure: there are no more processes than points.
-
-    Raises
-    ------
-    ParameterError
-        ``jobs`` is no whole number from 1, or too large.
-    """
+    """Give the number of processes to start."""
     check_count("jobs", jobs, 1, MOST_JOBS)
     return max(1, min(jobs, points, JOBS_A_CORE * (os.cpu_count() or 1)))
 
 
 def decoders_of(decoder: object) -> tuple[str, ...]:
-    """Give the names of the decoders, from one name or several.
-
-    Raises
-    ------
-    ParameterError
-        There is no name, or one is given twice.
-    """
+    """Give the names of the decoders, from one name or several."""
     known = ", ".join(DECODERS)
     if isinstance(decoder, str):
         return (decoder,)

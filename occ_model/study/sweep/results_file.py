@@ -31,10 +31,6 @@ class ResultsFile:
 
     Parameters
     ----------
-    path
-        The file; it is created where there is none.
-    request
-        The sweep.
     intervals
         Function that gives the interval of each rate of a point, percent.
 
@@ -119,11 +115,6 @@ class ResultsFile:
         """Read the points that the file holds already; an incomplete last point is cut off.
 
         The iterator must be exhausted before a point is appended.
-
-        Raises
-        ------
-        OutputError
-            There are lines that this sweep has not written; the file is left unchanged.
         """
         reader = PointReader(self._request)
         height = len(self._request.settings.decoders)
@@ -153,13 +144,7 @@ class ResultsFile:
         self._file.seek(whole)
 
     def append(self, point: SweepPoint) -> None:
-        """Write a point at the end of the file.
-
-        Raises
-        ------
-        OutputError
-            The point cannot be written; the points before it stay.
-        """
+        """Write a point at the end of the file."""
         self._note_order(point)
         self._write(self._text(point), keep=self._file.tell())
 

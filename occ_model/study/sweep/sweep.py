@@ -107,8 +107,6 @@ def run_sweep(
 
     Parameters
     ----------
-    request
-        A request as :func:`occ_model.study.sweep.request_check.checked_request` makes it.
     executor
         Any executor of ``concurrent.futures`` whose workers can import this package, such as
         ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
@@ -126,13 +124,6 @@ def run_sweep(
         A CSV file to which each point is appended as it comes. Where it holds a part of this same
         sweep, also one that was killed, only the remainder is measured; a complete file is in the
         order of the axes. See :class:`occ_model.study.sweep.results_file.ResultsFile`.
-
-    Raises
-    ------
-    ParameterError
-        ``jobs`` is not allowed. Nothing has been measured or written then.
-    OutputError
-        The file cannot be written, is in use by another sweep, or holds something else.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     with ExitStack() as stack:
@@ -189,14 +180,8 @@ def measure(
 
     Parameters
     ----------
-    request
-        A request as :func:`occ_model.study.sweep.request_check.checked_request` makes it.
     indices
         Which points, by default all, in the order in which they take the least time.
-    executor, jobs
-        As for :func:`sweep`.
-    heartbeat
-        Called several times a second; whatever it raises ends the work.
     """
     todo = request.in_order_of_work() if indices is None else iter(indices)
     if executor is not None:

@@ -59,13 +59,7 @@ class GivenExecutor:
         return 0
 
     def renew(self) -> None:
-        """Withdraw the jobs that have not begun.
-
-        Raises
-        ------
-        NotImplementedError
-            Always: only its owner can replace the workers.
-        """
+        """Withdraw the jobs that have not begun."""
         # An executor that breaks ends its futures one by one; one withdrawn meanwhile confuses it.
         wait(list(self._futures), timeout=_BEAT)
         for future in list(self._futures):

@@ -75,8 +75,6 @@ class DecoderProcess:
         ------
         VideoError
             There is no film in the file, or one of too large frames: the end of a sentence.
-        DecoderStoppedError
-            The process has ended.
         """
         self._forget()
         answer, _ = self._ask(
@@ -91,8 +89,6 @@ class DecoderProcess:
         ------
         VideoError
             It cannot be decoded: the end of a sentence.
-        DecoderStoppedError
-            The process has ended.
         """
         if not self._ahead:
             self._send({"do": "read"})

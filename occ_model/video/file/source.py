@@ -60,13 +60,7 @@ class FrameSource(ABC):
         """Pass over the next frame; tell whether there was one."""
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:  # noqa: ARG002
-        """Return a frame anywhere in the film, None where this source cannot find it surely.
-
-        Parameters
-        ----------
-        index, time, within
-            Its number, its time and by how much that may differ, both in seconds.
-        """
+        """Return a frame anywhere in the film, None where this source cannot find it surely."""
         return None
 
     @abstractmethod

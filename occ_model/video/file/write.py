@@ -58,12 +58,6 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
     -------
     int
         How many frames were written.
-
-    Raises
-    ------
-    OutputError
-        The ending is of no film, its kind has no such rate or no frames of that size, there are no
-        pictures, or the file cannot be written.
     """
     check_film_path(path, rate)
     name, ending = one_line(path.name), path.suffix.lower()
@@ -96,13 +90,7 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
 
 
 def check_film_path(path: Path, rate: float, size: tuple[int, int] | None = None) -> None:
-    """Refuse a path that no film of a frame rate, and of a size (lines, columns), is written to.
-
-    Raises
-    ------
-    OutputError
-        The ending is of no film, or its kind has no such rate or no frames of that size.
-    """
+    """Refuse a path that no film of a frame rate, and of a size (lines, columns), is written to."""
     ending = path.suffix.lower()
     if ending not in FILM_ENDINGS:
         raise OutputError(

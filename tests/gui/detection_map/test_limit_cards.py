@@ -7,12 +7,12 @@ from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
 from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
-from occ_gui.detection_map.advice_sentences import formatted_frequency
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.widgets.text_scale import TextSize
 from occ_model.results.advice import Advice
+from occ_model.results.advice_text import written
 from occ_model.results.limits import RangeEnd
 from occ_model.scene.scene import Scene
 from occ_model.study.advice import advice_of
@@ -55,7 +55,7 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
     cards.destination_chosen.connect(lambda *to: told.append(to))
     cards.show_advice(advice_on(small_scene))
     button = cards.cards["threshold"].go
-    assert formatted_frequency(INSIDE.value) in button.text()
+    assert written("switching_frequency", INSIDE.value) in button.text()
     button.click()
     assert told == [("switching_frequency", INSIDE.value, "threshold")]
 

@@ -7,8 +7,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.match_values import with_uncertainty
 from occ_gui.photo.photo_view import PhotoView
+from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.scene.parameter_kinds import Quantity
@@ -30,10 +30,11 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
     assert texts["switching_frequency"] == "2 kHz (given)"
     assert texts["chip"] == f"{1 / (2e3 * 14.5777e-6):.3f} columns, 4 chips a period"
-    assert texts["correlation"] == "0.9912, RMSE 2.00 grey levels"
-    assert texts["region"].startswith("columns 0 to 2, between the first edge of a stripe and the")
+    assert texts["correlation"] == "0.9912"
+    assert texts["residual"] == "2.00 grey levels"
+    assert texts["region"].startswith("columns 0 to 2, rows ")
     assert texts["saturated"].startswith("12.5 %")
-    assert view.result.values["pattern"].toolTip() == "1001 (read)"
+    assert view.result.values["pattern"].toolTip() == "1001 (read from the photo)"
 
 
 def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
@@ -101,7 +102,7 @@ def test_a_blinking_led_is_described_by_its_cycles_too(
     view.show_photo(photo)
     view.show_match(replace(match, pattern="10"))
     text = view.result.values["switching_frequency"].text()
-    assert text == "2 kHz (assumed): blinks at 1 kHz"
+    assert text == "2 kHz: blinks at 1 kHz (assumed)"
 
 
 def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, match: Match) -> None:
@@ -132,7 +133,7 @@ def test_a_value_has_the_digits_that_its_uncertainty_allows(
     value: float, spread: float | None, text: str
 ) -> None:
     assert isinstance(READOUT, Quantity)
-    assert text in with_uncertainty(READOUT, value, spread)
+    assert text in estimate_text(READOUT, value, spread)
 
 
 def test_without_a_match_there_is_nothing_to_apply(

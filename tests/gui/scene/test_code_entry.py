@@ -188,7 +188,7 @@ def test_a_payload_that_is_none_is_refused_and_the_code_is_sent(
     assert bench.store.scene.transmitter.payload == ""
     assert bench.shown() == (718, typed)
     assert len(bench.refused) == 1
-    assert f"payload has {bits} bits" in bench.refused[0]
+    assert f"Payload cannot have {bits} bits" in bench.refused[0]
 
 
 def test_a_payload_from_elsewhere_is_shown_and_undone(bench: Bench) -> None:

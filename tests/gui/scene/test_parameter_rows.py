@@ -124,7 +124,7 @@ def test_a_pattern_is_sent_without_spaces_and_rubbish_refused(qtbot: QtBot) -> N
     qtbot.keyClick(told.row.field, Qt.Key.Key_Return)
     assert told.values == ["01010011"]
     (sentence,) = told.refused
-    assert sentence.startswith("pattern is '010100112'")
+    assert sentence.startswith("Raw chip pattern cannot be '010100112'")
     told.row.end_refusal()  # another parameter was changed
     assert told.row.field.text() == "010100112"
     assert told.row.notice.text()

@@ -7,7 +7,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS, quantity
 
 QUANTITIES = [declared for declared in PARAMETERS.values() if isinstance(declared, Quantity)]
 
@@ -105,7 +105,7 @@ def test_an_impossible_value_is_refused_and_the_last_restored(
     before, shown = field.edit.value(), field.edit.text()
     field.enter(text)
     (sentence,) = field.refused
-    assert sentence.startswith(f"{name} is ")
+    assert sentence.startswith(f"{quantity(name).label} cannot be ")
     assert "; allowed: " in sentence
     assert field.edited == []
     assert (field.edit.value(), field.edit.text()) == (before, shown)

@@ -172,7 +172,7 @@ def test_rubbish_in_a_field_is_refused_by_the_row(qtbot: QtBot) -> None:
     qtbot.keyClicks(row.field, "soon")
     qtbot.keyClick(row.field, Qt.Key.Key_Return)
     (sentence,) = told.refused
-    assert sentence.startswith("exposure_time is 'soon'")
+    assert sentence.startswith("Exposure time cannot be 'soon'")
     assert told.edits == []
     assert row.slider.value() == position
 

@@ -175,7 +175,7 @@ def test_a_refused_field_is_framed_red_and_described(qtbot: QtBot) -> None:
         qtbot.addWidget(widget)
     field.resize(90, 30)
     before = reds(field)
-    notice.show_problem("columns is 0; allowed: 1 to 2.")
+    notice.show_problem("Columns cannot be 0; allowed: 1 to 2.")
     assert field.accessibleDescription() == notice.text() == "Columns cannot be 0; allowed: 1 to 2."
     assert reds(field) >= before + 4
     field.resize(140, 30)

@@ -36,10 +36,10 @@ def test_a_change_is_emitted_with_the_new_scene(
 @pytest.mark.parametrize(
     ("changes", "named"),
     [
-        ({"iso": -1.0}, "iso"),
-        ({"exposure_time": float("nan")}, "exposure_time"),
-        ({"bits": 3}, "code"),  # 718 needs more
-        ({"iso": 200.0, "averaging": "by guess"}, "averaging"),
+        ({"iso": -1.0}, "ISO speed cannot be -1;"),
+        ({"exposure_time": float("nan")}, "Exposure time cannot be nan"),
+        ({"bits": 3}, "Refused: Code is 718;"),  # 718 needs more
+        ({"iso": 200.0, "averaging": "by guess"}, "Averaging cannot be 'by guess'"),
         ({"shutter": 1.0}, "shutter"),
     ],
 )

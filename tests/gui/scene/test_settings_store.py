@@ -65,7 +65,7 @@ def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
 ) -> None:
     told.store.set_tolerance(tolerance)
     (sentence,) = told.refusals
-    assert sentence.startswith("tolerance is ")
+    assert sentence.startswith("Tolerance cannot be ")
     assert sentence.endswith(".")
     assert told.changes == []
 

@@ -5,9 +5,9 @@ See test_panes for renewing them.
 
 from collections.abc import Callable
 
-import numpy as np
 import pytest
 from gui.snapshots.drawing import show
+from matches import match_with
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -18,9 +18,8 @@ from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import palette_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.advice import EndFacts
-from occ_model.results.decoding import Region
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
-from occ_model.results.match import Match, Stripes
+from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 
 Matches = Callable[[QWidget, str], None]
@@ -28,15 +27,7 @@ THEMES = pytest.mark.parametrize("theme", ["light", "dark"])
 
 
 def match_of(scene: Scene, *reasons: str) -> Match:
-    profile = np.array([10.0, 20.0, 30.0])
-    stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
-    return Match(
-        scene=scene, stripes=stripes, readout_time=14.5777e-6, switching_frequency=2e3,
-        exposure_time=62.5e-6, start_time=1e-4, gamma=2.22,
-        uncertainties={"readout_time": 2.7e-10, "exposure_time": 2.1e-7, "start_time": 3e-7},
-        pattern="1001", pattern_was_read=True, profile=profile + 2.0, correlation=0.99123,
-        reasons=reasons,
-    )  # fmt: skip
+    return match_with(scene=scene, reasons=reasons)
 
 
 def trial(frequency: float, right: int) -> Trial:

@@ -12,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from accuracy_points import EACH_WAY
 from gui.snapshots.drawing import show
+from matches import match_with
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -31,9 +32,8 @@ from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.bench import BenchPoint
 from occ_model.results.bit_errors import BitErrors
-from occ_model.results.decoding import Region
 from occ_model.results.effect_costs import Forecast
-from occ_model.results.match import Alternative, Match, Stripes
+from occ_model.results.match import Alternative
 from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -132,17 +132,12 @@ def test_a_doubtful_match_looks_as_stored(
 ) -> None:
     view = MatchResult()
     show(qtbot, view, 360, 460)
-    profile = np.array([10.0, 20.0, 30.0])
-    stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
     other = Alternative("the scene's chips", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
-    match = Match(
-        scene=small_scene, stripes=stripes, readout_time=14.5777e-6, switching_frequency=2e3,
-        exposure_time=62.5e-6, start_time=1e-4, gamma=2.22,
-        uncertainties={"readout_time": 2.7e-10, "exposure_time": 2.1e-7, "start_time": 3e-7},
-        pattern="1001", pattern_was_read=True, profile=profile + 2.0, correlation=0.99123,
+    match = match_with(
+        scene=small_scene,
         reasons=("Only 1.2 periods of 4 chips are in view; at least 3 are needed.",),
         alternatives=(other,),
-    )  # fmt: skip
+    )
     view.show_match(match, 7.9e-5)
     matches_its_picture(view, "match-doubtful")
     view.show_outdated("of another part of the photo: match again", usable=False)

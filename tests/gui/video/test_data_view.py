@@ -6,7 +6,8 @@ from PySide6.QtGui import QTextCursor
 from pytestqt.qtbot import QtBot
 
 from occ_gui.video.data_view import DataView
-from occ_gui.video.film_reading import Figure, FilmReading
+from occ_gui.video.film_reading import FilmReading
+from occ_model.results.fact import Fact
 
 
 @pytest.fixture
@@ -18,9 +19,9 @@ def view(qtbot: QtBot) -> DataView:
 
 
 def reading(text: str = "", *figures: str, sentences: tuple[str, ...] = ()) -> FilmReading:
-    shown = tuple(Figure(name, f"{name} 1", f"What {name} is.") for name in figures)
+    shown = tuple(Fact(name, name, f"{name} 1", meaning=f"What {name} is.") for name in figures)
     states = np.zeros(0, dtype=np.uint8)
-    return FilmReading(np.zeros(0), states, text=text, figures=shown, sentences=sentences)
+    return FilmReading(np.zeros(0), states, text=text, facts=shown, sentences=sentences)
 
 
 def test_text_that_grows_keeps_what_is_selected(view: DataView) -> None:

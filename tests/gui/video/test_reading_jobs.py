@@ -69,7 +69,7 @@ def test_the_end_is_what_the_model_reads_of_the_whole_film(film: Video, film_sce
     assert found.times.tolist() == [frame.time for frame in film]
     assert len(found.packets) == len(whole.packets)
     read = np.count_nonzero(found.packets.states == MarkState.READ)
-    figures = {figure.label: figure.text for figure in found.figures}
+    figures = {fact.label: fact.text for fact in found.facts}
     assert figures["Packets"] == f"{whole.read} read, {whole.lost} lost"
     assert read == whole.read
     assert whole.clock is not None
@@ -104,4 +104,4 @@ def test_nothing_is_known_of_a_film_without_frames(film_scene: Scene) -> None:
     found = read_film(ReadingRequest(Empty(), film_scene), lambda _: None)
     assert isinstance(found, FilmReading)
     assert not len(found.times)
-    assert found.figures == ()
+    assert found.facts == ()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from occ_gui.video.reading_words import figures_of, sentences_of
+from occ_gui.video.reading_words import facts_of, sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 
@@ -31,7 +31,7 @@ def known(whole: VideoReading, placed: int = 2) -> FilmProgress:
 
 
 def said(whole: VideoReading) -> dict[str, str]:
-    return {figure.label: figure.text for figure in figures_of(known(whole), whole)}
+    return {fact.label: fact.text for fact in facts_of(known(whole), whole)}
 
 
 @pytest.mark.parametrize(

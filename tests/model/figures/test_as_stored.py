@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from accuracy_points import EACH_WAY
+from matches import match_with
 from matplotlib.figure import Figure
 from model.figures.artists import cut_off, described, is_alike
 
@@ -32,10 +33,8 @@ from occ_model.figures.window_panes import picture_drawing, profile_drawing
 from occ_model.figures.wiring import wiring_figure
 from occ_model.results.bench import BenchPoint, BenchRequest
 from occ_model.results.bit_errors import BitErrors
-from occ_model.results.decoding import Region
 from occ_model.results.frame import Frame
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer
-from occ_model.results.match import Match, Stripes
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, Shown, SweepRequest
 from occ_model.study.confidence import wilson_interval
@@ -224,15 +223,7 @@ def test_the_picture_and_its_profile(frame: Frame, is_as_stored: Compare) -> Non
 
 def test_a_page_of_a_report(is_as_stored: Compare) -> None:
     (sheet, *_) = [lesson for lesson in lessons().lessons if lesson.is_sheet]
-    profile = np.array([10.0, 20.0, 30.0])
-    stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
-    match = Match(
-        scene=SCENE, stripes=stripes, readout_time=14.5777e-6, switching_frequency=2e3,
-        exposure_time=62.5e-6, start_time=1e-4, gamma=2.22,
-        uncertainties={"readout_time": 2.7e-10, "exposure_time": 2.1e-7, "start_time": 3e-7},
-        pattern="1001", pattern_was_read=True, profile=profile + 2.0, correlation=0.99123,
-        reasons=("Only 1.2 periods of 4 chips are in view.",),
-    )  # fmt: skip
+    match = match_with(scene=SCENE, reasons=("Only 1.2 periods of 4 chips are in view.",))
     answer = CheckedAnswer("about 12", "right", "That is what the picture shows.")
     step = sheet.steps[-1]
     scene = SCENE.replace(columns=600)

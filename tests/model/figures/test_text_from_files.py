@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from matches import match_with
 
 import occ_model as occ
 from occ_model.figures.decoding import decode_drawing
@@ -119,7 +120,7 @@ def test_no_text_is_a_formula_for_a_spreadsheet(start: str) -> None:
 
 
 def test_negative_numbers_stay_numbers_in_a_table() -> None:
-    row = PhotoRow(Path("a.jpg"), "sure", "", correlation=-0.5)
+    row = PhotoRow(Path("a.jpg"), "sure", "", match_with(correlation=-0.5))
     assert ",-0.5," in csv_text(table_of(MatchSettings(SCENE), [row]))
 
 

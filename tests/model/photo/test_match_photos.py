@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matches import match_with
 from PIL import Image
 from simulated_photos import photo_of
 
@@ -51,13 +52,23 @@ def table(folder: Path) -> PhotoTable:
     return occ.match_photos(sorted(folder.iterdir()), SCENE)
 
 
-def row(value: float, error: float = 1e-9, verdict: str = "sure", **more: object) -> PhotoRow:
+def row(
+    value: float,
+    error: float = 1e-9,
+    verdict: str = "sure",
+    exposure: float = 80e-6,
+    is_exposure_doubtful: bool = False,
+    **more: object,
+) -> PhotoRow:
     made = PhotoRow(
         Path("x.png"),
         verdict,
-        readout_time=value,
-        exposure_time=80e-6,
-        uncertainties=(("readout_time", error), ("exposure_time", 1e-6)),
+        match=match_with(
+            readout_time=value,
+            exposure_time=exposure,
+            uncertainties={"readout_time": error, "exposure_time": 1e-6},
+            exposure_reasons=("Few edges.",) if is_exposure_doubtful else (),
+        ),
         lines=1000,
         size=(600, 1000),
         scanned_along="lines",
@@ -83,7 +94,8 @@ def test_a_row_says_what_the_match_of_its_photo_says(table: PhotoTable, folder: 
     for one in table.rows[:3]:
         match = occ.match_photo(occ.load_photo(one.path), SCENE)
         assert (one.readout_time, one.exposure_time) == (match.readout_time, match.exposure_time)
-        assert dict(one.uncertainties) == dict(match.uncertainties)
+        for name, deviation in match.uncertainties.items():
+            assert one.uncertainty(name) == deviation
 
 
 def test_the_mean_is_the_truth_within_its_error(table: PhotoTable) -> None:
@@ -100,6 +112,7 @@ def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
         sorted(folder.iterdir()), SCENE, jobs=2, progress=lambda *report: reports.append(report)
     )
     assert parallel.rows == table.rows
+    assert csv_text(parallel) == csv_text(table)
     assert parallel.estimated == table.estimated
     assert reports[0] == (0, 5)
     assert reports[-1] == (5, 5)
@@ -108,7 +121,9 @@ def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
 @pytest.mark.whole
 def test_photos_that_were_read_give_the_same_rows(folder: Path, table: PhotoTable) -> None:
     photos = [occ.load_photo(folder / f"{seed}.png") for seed in range(3)]
-    assert occ.match_photos(photos, SCENE).rows == table.rows[:3]
+    again = occ.match_photos(photos, SCENE).rows
+    assert again == table.rows[:3]
+    assert [one.readout_time for one in again] == [one.readout_time for one in table.rows[:3]]
 
 
 def test_doubtful_photos_never_change_the_mean() -> None:
@@ -121,7 +136,7 @@ def test_doubtful_photos_never_change_the_mean() -> None:
 
 
 def test_a_doubtful_exposure_changes_only_the_mean_of_the_readout_time() -> None:
-    apart = row(1.0002e-5, exposure_time=9e-5, is_exposure_doubtful=True)
+    apart = row(1.0002e-5, exposure=9e-5, is_exposure_doubtful=True)
     table, readouts = made(row(1e-5), row(1.0001e-5), apart), made(row(1e-5), row(1.0001e-5))
     assert table.estimated is not None
     assert table.estimated.count == 3
@@ -195,8 +210,8 @@ def test_photos_that_differ_by_less_than_matters_give_lines_to_paste() -> None:
 
 
 def test_a_measured_frequency_gives_no_line_to_paste() -> None:
-    frequency = row(1e-5, switching_frequency=5e3, uncertainties=(("switching_frequency", 1.0),))
-    table = made(frequency, estimate="switching_frequency")
+    measured = match_with(switching_frequency=5e3, uncertainties={"switching_frequency": 1.0})
+    table = made(row(1e-5, match=measured), estimate="switching_frequency")
     assert table.estimated is not None
     assert table.estimated.value == 5e3
     assert lines_to_paste(table) == {}

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from matches import match_with
 
 import occ_model as occ
 from occ_model.results.bench import DECIBELS, EXPOSURES
@@ -39,9 +40,9 @@ def test_the_root_mean_square_of_a_residual_is_in_its_levels() -> None:
 def test_an_exposure_that_was_not_estimated_has_no_verdict() -> None:
     row = PhotoRow(Path("1.png"), SURE)
     assert row.exposure_verdict == ""
-    of_one = PhotoRow(Path("1.png"), SURE, exposure_time=1e-3)
+    of_one = PhotoRow(Path("1.png"), SURE, match=match_with())
     assert of_one.exposure_verdict == SURE
-    doubted = PhotoRow(Path("1.png"), SURE, exposure_time=1e-3, is_exposure_doubtful=True)
+    doubted = PhotoRow(Path("1.png"), SURE, match=match_with(exposure_reasons=("Few edges.",)))
     assert doubted.exposure_verdict == DOUBTFUL
 
 

@@ -188,11 +188,6 @@ def test_the_first_of_many_scenes_is_read_and_no_other(tmp_path: Path) -> None:
     assert scene_inside(path) == SCENE
 
 
-def test_a_missing_file_is_refused_in_a_sentence(tmp_path: Path) -> None:
-    with pytest.raises(occ.SceneFileError, match="cannot be read: No such file"):
-        scene_inside(tmp_path / "missing.png")
-
-
 def test_a_scene_of_a_newer_version_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "figure.csv"
     text = "\n".join(f"# {line}" for line in PROVENANCE.lines())

@@ -448,8 +448,9 @@ def test_the_command_answers_with_one_table_of_all_decoders(
         assert cells[1].strip() == "500 Hz (searched to)"
         assert re.fullmatch(r" ?1[34][.\d]* kHz", cells[2])
         assert " kHz to " in cells[3]
-    assert lines[-3].startswith("  below 3.468 kHz no two packets fit, which the threshold")
-    assert lines[-1] == "  from an exposure of 1.17 ms what is lit throughout is white."
+    place = lines.index("  Below 3.468 kHz no two packets fit the picture, which it needs.")
+    assert place < lines.index("The matched decoder, switching frequency:")
+    assert lines[-1].endswith("; from 1.17 ms what is lit throughout is white.")
 
 
 def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[str]) -> None:

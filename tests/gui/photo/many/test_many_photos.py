@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from gui.stores import store_of
+from matches import match_with
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QToolButton
@@ -22,6 +23,7 @@ from occ_model.photo.many import match_photos
 from occ_model.photo.many.other_programs import stated_lines
 from occ_model.photo.many.row import MatchSettings
 from occ_model.photo.many.table import table_of
+from occ_model.results.match import Match
 from occ_model.results.photo_table import PhotoRow, PhotoTable
 from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
@@ -29,11 +31,17 @@ from occ_model.scene.parameters import quantity
 PATHS = tuple(Path(f"photo-{number}.jpg") for number in range(6))
 
 
+def found_with(readout: float, *doubts: str) -> Match:
+    return match_with(
+        readout_time=readout, exposure_time=8e-5, correlation=0.98765, exposure_reasons=doubts,
+        uncertainties={"readout_time": 2e-9, "exposure_time": 4e-7},
+    )  # fmt: skip
+
+
 def row(path: Path, readout: float = 7e-6, verdict: str = "sure", note: str = "") -> PhotoRow:
     return PhotoRow(
-        path, verdict, note, readout_time=readout, switching_frequency=2e3, exposure_time=8e-5,
-        uncertainties=(("readout_time", 2e-9), ("exposure_time", 4e-7)), noted_exposure=7.9e-5,
-        correlation=0.98765, lines=1000, size=(600, 1000), scanned_along="lines",
+        path, verdict, note, found_with(readout), noted_exposure=7.9e-5, lines=1000,
+        size=(600, 1000), scanned_along="lines",
     )  # fmt: skip
 
 
@@ -90,7 +98,7 @@ def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:
 
 
 def test_a_doubtful_exposure_says_so_in_its_cell(view: ManyPhotosView) -> None:
-    rows = (replace(ROWS[0], is_exposure_doubtful=True), *ROWS[1:])
+    rows = (replace(ROWS[0], match=found_with(7e-6, "Few edges.")), *ROWS[1:])
     view.show_table(table_of(MatchSettings(occ.Scene()), rows))
     assert column(view, VERDICT)[0] == "● sure"
     assert column(view, EXPOSURE)[:2] == ["80.00 ± 0.40 µs (doubtful)", "80.00 ± 0.40 µs"]
@@ -275,7 +283,8 @@ class Bench:
         try:
             if len(paths) == 1:
                 frequency = settings.scene.transmitter.switching_frequency
-                yield 0, replace(row(paths[0]), switching_frequency=frequency)
+                found = replace(found_with(7e-6), switching_frequency=frequency)
+                yield 0, replace(row(paths[0]), match=found)
                 return
             yield 0, ROWS[0]
             while not self.go_on.wait(0.01):

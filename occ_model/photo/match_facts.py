@@ -1,0 +1,138 @@
+"""The facts that a match states: estimates with their errors, quality of the fit, alternatives."""
+
+from collections.abc import Iterator
+
+from occ_model.photo.estimate_text import estimate_text
+from occ_model.photo.many.other_programs import frame_of_match
+from occ_model.results.fact import Fact
+from occ_model.results.match import Alternative, Match
+from occ_model.scene.parameters import quantity
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
+from occ_model.scene.units import HERTZ, Unit
+
+KNOWN = ("switching_frequency", "readout_time")
+"""Parameters of which one must be known: stripes show the product of the two."""
+
+ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
+
+LABELS = {
+    **{name: quantity(name).label for name in ESTIMATES},
+    "readout_time": "Readout time a line",
+    "frame": "Readout of the frame",
+    "noted": "Noted by the camera",
+    "others": "Or as well exposed",
+    "pattern": "Chips",
+    "chip": "Chip length",
+    "periods": "Periods in view",
+    "exposed": "Exposure in chips",
+    "duty": "Duty",
+    "averaging": "Averaging",
+    "region": "Region",
+    "correlation": "Correlation",
+    "residual": "Residual (RMSE)",
+    "saturated": "Saturated",
+    "repeats": "Stripes repeat after",
+    "alternative": "Or instead",
+}
+"""What each fact is called, in the order of all of them."""
+
+_DIGITS = 4
+
+
+def known_of(match: Match) -> str:
+    """Return which of readout time and switching frequency was given."""
+    return next(name for name in KNOWN if name not in match.uncertainties)
+
+
+def match_facts(match: Match, condition: str = "", noted: float | None = None) -> tuple[Fact, ...]:
+    """List the facts of a match, in the order of :data:`LABELS`.
+
+    Parameters
+    ----------
+    condition
+        The value that the estimates of time rest on where it is only assumed, as
+        ``"if f = 10 kHz: "``; empty where it is known.
+    noted
+        The exposure time in seconds that the camera noted in the photo, None if it did not.
+    """
+    texts = dict[str, tuple[str, str]]()
+    for name in ESTIMATES:
+        texts[name] = _estimate(match, name, condition)
+    if (frame := frame_of_match(match)) is not None:
+        texts["frame"] = condition + estimate_text(quantity("readout_time"), *frame), ""
+    exposure = quantity("exposure_time")
+    if noted is not None:
+        texts["noted"] = exposure.format(noted, _DIGITS), ""
+    if match.other_exposures:
+        others = " or ".join(exposure.format(time, _DIGITS) for time in match.other_exposures)
+        texts["others"] = condition + others, ""
+    texts |= _fit(match)
+    facts = [Fact(key, label, *texts[key]) for key, label in LABELS.items() if key in texts]
+    estimated = next(name for name in KNOWN if name != known_of(match))
+    alternatives = (_alternative(each, estimated, condition) for each in match.alternatives)
+    return (*facts, *(Fact("alternative", LABELS["alternative"], text) for text in alternatives))
+
+
+def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
+    """Write facts in lines; a parameter is called by its name, as it is typed."""
+    for fact in facts:
+        name = fact.key if fact.key in ESTIMATES else fact.label.replace("Or ", "or ")
+        name = name if name in ESTIMATES else name[:1].lower() + name[1:]
+        yield f"{name:{width}}{fact}"
+
+
+def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
+    """Return an estimate with its error and what it rests on, or a given value, and its note."""
+    deviation = match.uncertainties.get(name)
+    text = estimate_text(quantity(name), getattr(match, name), deviation)
+    if name == "switching_frequency" and len(match.pattern) == CHIPS_OF_A_CYCLE:
+        # A blinking LED is specified by its cycles, not by its chips.
+        cycles = HERTZ.format(match.switching_frequency / CHIPS_OF_A_CYCLE, _DIGITS)
+        text += f": blinks at {cycles}"
+    if deviation is None:
+        return text, "assumed" if condition and name == known_of(match) else "given"
+    # Gamma is found from the shape of the stripes, not from their timing.
+    note = "doubtful" if name in match.doubtful_alone else ""
+    return text if name == "gamma" else condition + text, note
+
+
+def _fit(match: Match) -> dict[str, tuple[str, str]]:
+    region, stripes = match.region, match.stripes
+    how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
+    found = {
+        "pattern": (match.pattern, how),
+        "chip": (f"{match.columns_per_chip:.3f} columns, {len(match.pattern)} chips a period", ""),
+        "periods": (f"{match.periods_in_view:.3g}", ""),
+        "exposed": (f"{match.exposure_in_chips:.3g}", ""),
+        "duty": (f"lit for {100.0 * match.duty:.3g} % of a period", ""),
+        "averaging": (match.scene.model.averaging, ""),
+        "region": (
+            f"columns {region.first_column} to {region.last_column - 1}, "
+            f"rows {region.first_row} to {region.last_row - 1}",
+            "",
+        ),
+        "correlation": (f"{match.correlation:.4f}", ""),
+        "residual": (f"{match.rmse:.2f} grey levels", ""),
+        "saturated": (f"{100.0 * stripes.saturated:.1f} % of the region's pixels", ""),
+    }
+    if stripes.period is not None:
+        columns = Unit("columns").format_estimate(stripes.period, stripes.period_uncertainty)
+        found["repeats"] = columns, ""
+    return found
+
+
+def _alternative(other: Alternative, estimated: str, condition: str) -> str:
+    """Write another explanation of the stripes."""
+    side = "lower" if other.evidence <= 0.0 else "higher"
+    text = (
+        f"{other.sent}: correlation {other.correlation:.3f}, log-likelihood {side} by "
+        f"{abs(other.evidence):.1f}"
+    )
+    value, declared = getattr(other, estimated), quantity(estimated)
+    if value is None or other.exposure_time is None:
+        return text
+    exposure = quantity("exposure_time").format(other.exposure_time, _DIGITS)
+    return (
+        f"{text}; {condition}{declared.label.lower()} {declared.format(value, _DIGITS)}, exposed "
+        f"for {exposure}"
+    )

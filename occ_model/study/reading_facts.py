@@ -1,0 +1,110 @@
+"""The facts that a film's reading states: packets, rates of errors, and clocks."""
+
+import math
+from collections.abc import Iterator
+
+from occ_model.results.fact import Fact
+from occ_model.results.video_reading import Clock, VideoReading
+from occ_model.scene.units import HERTZ, SECOND, Unit
+from occ_model.study.confidence import wilson_interval
+
+_PERCENT = 100.0
+_RATE = Unit("Hz/s")
+
+
+def packet_facts(reading: VideoReading) -> Iterator[Fact]:
+    """List how many packets arrived, and how many bits; nothing where none can be counted."""
+    after = reading.complete_after
+    if after is not None:
+        yield Fact(
+            "complete",
+            "Payload complete",
+            f"after {SECOND.format(after, 4)}",
+            f"{len(reading.bits) / after:.4g} bits a second",
+            "How long the film had run by the end of the frame that completed it.",
+        )
+    if not reading.packets:
+        return
+    yield Fact(
+        "packets",
+        "Packets",
+        f"{reading.read} read, {reading.lost} lost",
+        f"{len(reading.packets)} sent, {reading.doubled} doubled",
+        "Of those sent; one that no frame shows whole is lost.",
+    )
+    yield Fact(
+        "net_rate",
+        "Net rate",
+        f"{reading.net_bits_per_second:.4g} bit/s",
+        "repeats within a frame counted once",
+        "Bits that were wanted and arrived: repeats of a packet within a frame count once, as if "
+        "every frame showed another payload.",
+    )
+    (counts,) = reading.rates(1)
+    yield Fact(
+        "packet_error_rate",
+        "Packet error rate",
+        *error_rate(counts.packets_lost, counts.packets, "packets"),
+        f"Share of the packets sent that were lost: {reading.cut_off} were cut off by the edge of "
+        "a frame or fell in the gap, and the frames can all be read all the same.",
+    )
+    if counts.bits:
+        yield Fact(
+            "bit_error_rate",
+            "Bit error rate",
+            *error_rate(counts.bits_wrong, counts.bits, "bits"),
+            "Share of wrong bits in the packets that one frame shows whole, against the payload of "
+            "all together. Packets that no frame shows whole have no bits here.",
+        )
+
+
+def clock_facts(clock: Clock) -> Iterator[Fact]:
+    """List what a film says of the clocks of the camera and of the transmitter."""
+    doubt = "" if clock.is_sure else ", not sure"
+    for key, label, unit, measured, mark, meaning in (
+        (
+            "frequency", "Frequency", HERTZ, clock.switching_frequency, doubt,
+            "Switching frequency by the clock that states the frames' times.",
+        ),
+        (
+            "readout_time", "Readout time", SECOND, clock.readout_time, doubt,
+            "From one column to the next, without any LED that is known.",
+        ),
+        (
+            "gap", "Gap", SECOND, clock.gap, doubt,
+            f"The part of a frame's period, {_PERCENT * clock.gap_ratio:.3g} %, in which no "
+            "column begins.",
+        ),
+        (
+            "frame_period", "Frame period", SECOND, clock.frame_period, "",
+            "From one frame to the next.",
+        ),
+    ):  # fmt: skip
+        text = unit.format_estimate(measured.value, measured.error) + mark
+        yield Fact(key, label, text, meaning=meaning)
+    if clock.drift is not None:
+        text = _RATE.format_estimate(clock.drift.value, clock.drift.error)
+        meaning = "How the switching frequency changes while the film runs."
+        yield Fact("drift", "Drift", text, meaning=meaning)
+    yield Fact(
+        "frame_starts",
+        "Frame starts",
+        SECOND.format(clock.timing_noise, 4),
+        f"root mean square of {clock.frames} frames",
+        "How far the frames begin from the times that are stated for them.",
+    )
+
+
+def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
+    """Write a rate of errors in percent, and its 95 % interval.
+
+    The rate is written to the first digit that chance could change.
+    """
+    share = count / total
+    deviation = _PERCENT * math.sqrt(share * (1.0 - share) / total)
+    decimals = max(0, -math.floor(math.log10(deviation))) if deviation else 0
+    low, high = wilson_interval(count, total)
+    return (
+        f"{_PERCENT * share:.{decimals}f} % of {total} {what}",
+        f"{_PERCENT * low:.2g} to {_PERCENT * high:.2g} % at 95 %",
+    )

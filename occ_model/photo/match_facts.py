@@ -16,11 +16,14 @@ KNOWN = ("switching_frequency", "readout_time")
 ESTIMATES = ("readout_time", "switching_frequency", "exposure_time", "start_time", "gamma")
 
 LABELS = {
-    **{name: quantity(name).label for name in ESTIMATES},
     "readout_time": "Readout time a line",
     "frame": "Readout of the frame",
+    "switching_frequency": quantity("switching_frequency").label,
+    "exposure_time": quantity("exposure_time").label,
     "noted": "Noted by the camera",
     "others": "Or as well exposed",
+    "start_time": quantity("start_time").label,
+    "gamma": quantity("gamma").label,
     "pattern": "Chips",
     "chip": "Chip length",
     "periods": "Periods in view",
@@ -76,9 +79,8 @@ def match_facts(match: Match, condition: str = "", noted: float | None = None) -
 def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
     """Write facts in lines; a parameter is called by its name, as it is typed."""
     for fact in facts:
-        name = fact.key if fact.key in ESTIMATES else fact.label.replace("Or ", "or ")
-        name = name if name in ESTIMATES else name[:1].lower() + name[1:]
-        yield f"{name:{width}}{fact}"
+        label = fact.label[:1].lower() + fact.label[1:]
+        yield f"{fact.key if fact.key in ESTIMATES else label:{width}}{fact}"
 
 
 def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:

@@ -44,7 +44,6 @@ class BenchTable(QTableWidget):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
 
     def show_points(self, points: Sequence[BenchPoint], what: str, frames_a_second: float) -> None:
-        """Write these points."""
         for point in points:
             row = self._places[point.axis, point.exposure, point.decibels]
             column = 2 + self._decoders.index(point.errors.decoder)

@@ -88,7 +88,6 @@ class SessionFile:
                 path.replace(path.with_suffix(".unreadable"))
 
     def write(self, session: Session, in_use: bool) -> None:
-        """Write the session."""
         if self._path is None:
             raise OutputError(f"there is no free session file in {self._folder}.")
         record = {

@@ -61,7 +61,6 @@ class AnswerField(QWidget):
             self.show_checked(before)
 
     def show_checked(self, answer: CheckedAnswer) -> None:
-        """Show what the check says."""
         self.check.setEnabled(True)
         self._said = f"{_SIGNS[answer.outcome]}  {answer.sentence}"
         self._write()

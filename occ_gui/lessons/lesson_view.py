@@ -44,7 +44,6 @@ class LessonView(QWidget):
         self._pages.setCurrentIndex(0)
 
     def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
-        """Show a step of a lesson."""
         self.step.show_step(lesson, place, before)
         self._pages.setCurrentIndex(1)
 

@@ -223,7 +223,6 @@ class LightRow(StoryRow):
         painter.drawText(place, flags, self.sent_in_words())
 
     def sent_in_words(self) -> str:
-        """Return what is sent, in words."""
         if self._scene is None:
             return ""
         sent = self._scene.transmitter

@@ -106,7 +106,6 @@ class CommandPalette(QDialog):
 
     @property
     def chosen(self) -> Command | None:
-        """The chosen command, None if there is none."""
         return self._chosen
 
 

@@ -10,7 +10,7 @@ SCENE = "scene.toml"
 _SKETCH_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,62}")
 """What the Arduino IDE takes as a name."""
 
-_OTHERWISE = "blink"
+_DEFAULT_NAME = "blink"
 
 
 def sketch_name(folder: Path, board: Board) -> str:
@@ -18,7 +18,7 @@ def sketch_name(folder: Path, board: Board) -> str:
     if board.ending == ".py":
         return f"main{board.ending}"
     name = folder.resolve().name
-    return f"{name if _SKETCH_NAME.fullmatch(name) else _OTHERWISE}{board.ending}"
+    return f"{name if _SKETCH_NAME.fullmatch(name) else _DEFAULT_NAME}{board.ending}"
 
 
 def file_names(folder: Path, board: Board) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Coverage: the share of each pixel that a panel of any outline covers, sharp or blurred."""
+"""Coverage: the fraction of each pixel that a panel of any outline covers, sharp or blurred."""
 
 import math
 from dataclasses import dataclass
@@ -12,10 +12,10 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.row_interpolation import weighted
 from occ_model.camera.row_memory import MEMORY
 
-_REACH = 4.0
+_BLUR_REACH = 4.0
 """Standard deviations after which a blurred edge ends: 3e-5 of it are left."""
 
-_FINE = 4.0
+_FINE_CELLS_A_BLUR = 4.0
 """Standard deviations of the blur, in cells, from which a coarser grid is as good."""
 
 _SAMPLED_ROWS = 16
@@ -27,7 +27,7 @@ _FEW_ROWS = 4
 _RIM_WIDTH_IN_BLURS = 4
 """Width of a rim, in those of the blur, from which its rows are divided."""
 
-_EXACT = 4096
+_MOST_EXACT_ROWS = 4096
 """Rows of an outline that are all used: a blur may be wider than the panel is high."""
 
 
@@ -38,7 +38,7 @@ class CoveredPart:
     Parameters
     ----------
     share
-        The share of the light in each pixel that comes from the panel: one for all pixels, or an
+        The fraction of the light in each pixel that comes from the panel: one for all pixels, or an
         array of float32, shape (rows, columns).
     """
 
@@ -76,7 +76,7 @@ def _shares(parts: list[CoveredPart]) -> list[Pixels]:
 
 
 class Coverage:
-    """The share of the light in each pixel that comes from the panel.
+    """The fraction of the light in each pixel that comes from the panel.
 
     A pixel belongs to the panel when its centre lies inside the outline. The blur includes light
     from beyond the picture's rim, as the lens blurs before the sensor cuts.
@@ -94,11 +94,13 @@ class Coverage:
         self._key = "coverage", outline.tobytes(), rows, columns, blur
         self._starts, self._ends = outline.T, np.roll(outline, -1, axis=0).T
         self._blur = blur
-        self._margin = math.ceil(_REACH * blur)
+        self._margin = math.ceil(_BLUR_REACH * blur)
         self._seen = seen = range(-self._margin, rows + self._margin)
-        cell = max(1, int(blur / _FINE))
+        cell = max(1, int(blur / _FINE_CELLS_A_BLUR))
         # The widest blur needs no more rows than a narrow one.
-        self._stride = max(1, min(cell // _SAMPLED_ROWS, _height(outline, seen) // _EXACT))
+        self._stride = max(
+            1, min(cell // _SAMPLED_ROWS, _height(outline, seen) // _MOST_EXACT_ROWS)
+        )
         self._cell = cell - cell % self._stride
         self._coarse = self._whole(rows) if self._cell > 1 else None
 
@@ -155,7 +157,6 @@ class Coverage:
         return merged
 
     def _within(self, rows: range, columns: slice) -> Pixels:
-        """Return some columns of some rows."""
         share = np.empty((len(rows), columns.stop - columns.start), dtype=np.float32)
         for part in self.parts(rows, columns):
             share[:, part.columns.start - columns.start : part.columns.stop - columns.start] = (
@@ -196,7 +197,7 @@ class Coverage:
         return np.asarray(blurred[chosen, margin : margin + columns.stop - columns.start])
 
     def _sharp(self, rows: IndexArray, columns: slice, cell: int) -> Pixels:
-        """Return the share of each cell inside the outline; its first row is one of ``rows``."""
+        """Return the fraction of each cell inside the outline; its first row is one of ``rows``."""
         row, x, sign = self._crossings
         chosen = slice(*np.searchsorted(row, (rows[0], rows[-1] + cell)).tolist())
         line = np.searchsorted(rows, row[chosen], side="right") - 1

@@ -154,7 +154,7 @@ def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> 
 
 
 def share_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatArray:
-    """Return the share of noisy pixels above a limit, for each mean and standard deviation."""
+    """Return the fraction of noisy pixels above a limit, for each mean and standard deviation."""
     return _tail((limit - levels) / np.maximum(spread, _LEVEL_TOLERANCE))
 
 
@@ -166,7 +166,7 @@ def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, F
     step : ndarray of int64, shape (values, steps)
         The grey level below each step; below the first one lies hardly any pixel.
     passed : ndarray of float64, shape (values, steps)
-        The share of the pixels above it.
+        The fraction of the pixels above it.
     """
     reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
     lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
@@ -184,7 +184,7 @@ def _mean_passed(values: FloatArray, edge: IndexArray, passed: FloatArray) -> Fl
 
 
 def _tail(deviations: FloatArray) -> FloatArray:
-    """Return the share of a normal distribution above some standard deviations, any shape.
+    """Return the fraction of a normal distribution above some standard deviations, any shape.
 
     From a table: exact to 10^-4.
     """

@@ -16,11 +16,11 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
-_AT_ONCE = Fraction(0)
+_NO_SHIFT = Fraction(0)
 
 
 def column_phases(
-    scene: Scene, period: int, shift: Fraction = _AT_ONCE, columns: int | None = None
+    scene: Scene, period: int, shift: Fraction = _NO_SHIFT, columns: int | None = None
 ) -> Phases:
     """Return the place in the sent period where each column's exposure starts.
 
@@ -152,7 +152,7 @@ def _steps(step: Fraction, count: int) -> _Steps:
 
 
 def lit_fraction(scene: Scene) -> FloatArray:
-    """Return the share of each column's exposure in which the LED is on, t_on / t.
+    """Return the fraction of each column's exposure in which the LED is on, t_on / t.
 
     Returns
     -------
@@ -183,7 +183,7 @@ def _lit_fraction(
     frequency = Fraction(switching_frequency)
     exposure = Duration.of(Fraction(exposure_time) * frequency, waveform.period)
     starts = _column_starts(
-        switching_frequency, readout_time, start_time, waveform.period, _AT_ONCE, columns
+        switching_frequency, readout_time, start_time, waveform.period, _NO_SHIFT, columns
     )
     lit = waveform.lit_chips(starts, exposure)
     lit /= exposure.in_chips(waveform.period)

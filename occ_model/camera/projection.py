@@ -13,7 +13,7 @@ MAX_PIXELS = 170_000_000
 """Largest image that is made or read; a larger one is refused, as it would fill the memory."""
 
 _NEAREST_SHARE = 1e-6
-"""Depth, as a share of the distance, below which a corner counts as in the camera's plane.
+"""Depth, as a fraction of the distance, below which a corner counts as in the camera's plane.
 
 A depth is a difference of numbers; a smaller one has too few digits to place the corner.
 """

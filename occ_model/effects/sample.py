@@ -313,7 +313,6 @@ def _covers(
 
 
 def _sets_of(names: list[str]) -> list[frozenset[str]]:
-    """Return all sets of some names."""
     numbers = range(2 ** len(names))
     return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
 

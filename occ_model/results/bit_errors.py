@@ -31,7 +31,7 @@ class BitErrors:
     pictures_right
         Pictures of which all bits were right, and accepted by the decoder.
     right_low, right_high
-        The 95 % interval of the share of pictures of which all bits are right.
+        The 95 % interval of the fraction of pictures of which all bits are right.
     picture_time
         Time in seconds in which the columns of the panel are read out.
     readout_time
@@ -52,7 +52,7 @@ class BitErrors:
 
     @property
     def rate(self) -> float:
-        """The share of the bits that are wrong, from 0 to 1."""
+        """The fraction of the bits that are wrong, from 0 to 1."""
         return self.errors / self.bits
 
     @property
@@ -62,7 +62,7 @@ class BitErrors:
 
     @property
     def bits_a_picture(self) -> float:
-        """Bits of a payload, times the share of the payloads that are right."""
+        """Bits of a payload, times the fraction of the payloads that are right."""
         return self.bits / self.pictures * (self.pictures_right / self.pictures)
 
     @property

@@ -28,7 +28,7 @@ class Stripes:
     period_uncertainty
         Its standard deviation in columns.
     saturated
-        Share of the region's pixels that are white.
+        Fraction of the region's pixels that are white.
     """
 
     region: Region
@@ -110,7 +110,7 @@ _SHOWN_TOLERANCE = 5e-7
 """Relative difference of two values that are the same in the six digits that are shown."""
 
 _ERROR_TOLERANCE = 1e-3
-"""Share of an estimate's deviation by which two values may differ and yet be the same."""
+"""Fraction of an estimate's deviation by which two values may differ and yet be the same."""
 
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
 
@@ -229,7 +229,7 @@ class Match:
 
     @property
     def duty(self) -> float:
-        """Share of the pattern in which the LED is on, from 0 to 1."""
+        """Fraction of the pattern in which the LED is on, from 0 to 1."""
         return self.pattern.count("1") / len(self.pattern)
 
     @property
@@ -248,8 +248,8 @@ class Match:
         return float(np.sqrt(np.mean(self.residual**2)))
 
 
-_USUAL = 0.95
-"""Share of columns whose residual an axis shows whole: a single edge is not to set it."""
+_USUAL_FRACTION = 0.95
+"""Fraction of columns whose residual an axis shows whole: a single edge is not to set it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -286,7 +286,7 @@ class Comparison:
     @property
     def usual_residual(self) -> float:
         """The grey levels that 95 of 100 columns stay within: what an axis is to show."""
-        return float(np.quantile(np.abs(self.residual), _USUAL))
+        return float(np.quantile(np.abs(self.residual), _USUAL_FRACTION))
 
     @property
     def rmse(self) -> float:

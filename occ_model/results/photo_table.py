@@ -128,10 +128,10 @@ class CombinedEstimate:
     @property
     def agrees(self) -> bool:
         """Whether the estimates agree within their standard deviations, at a level of 1 %."""
-        return self.probability >= _DISAGREE
+        return self.probability >= _LEAST_PROBABILITY
 
 
-_DISAGREE = 0.01
+_LEAST_PROBABILITY = 0.01
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,7 +28,7 @@ class PacketReading:
     frame
         The frame that shows it whole; None where none does.
     seen
-        Share of its chips that lie whole in any frame, from 0 to 1.
+        Fraction of its chips that lie whole in any frame, from 0 to 1.
     bits : ndarray of uint8 or None
         The bits read of this packet alone; None where it was not read.
     wrong_bits

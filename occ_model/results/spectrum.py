@@ -10,7 +10,7 @@ LEVELS = _WHITE + 1
 """Grey levels of a picture."""
 
 SATURATED_FROM = 0.01
-"""Share of white pixels from which light is said to be lost."""
+"""Fraction of white pixels from which light is said to be lost."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -43,19 +43,19 @@ class LevelHistogram:
     Parameters
     ----------
     shares : ndarray of float64, shape (256,)
-        Share of the pixels at each level; they add up to 1.
+        Fraction of the pixels at each level; they add up to 1.
     """
 
     shares: FloatArray
 
     @property
     def white(self) -> float:
-        """Share of pixels that are white."""
+        """Fraction of pixels that are white."""
         return float(self.shares[_WHITE])
 
     @property
     def black(self) -> float:
-        """Share of pixels that are black."""
+        """Fraction of pixels that are black."""
         return float(self.shares[0])
 
     @property

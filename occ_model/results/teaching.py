@@ -151,7 +151,7 @@ class RollingShutter:
     exposure_time
         How long each lasts, in seconds.
     lit_fraction : ndarray of float64, shape (shown,)
-        Share of each exposure for which the LED is on.
+        Fraction of each exposure for which the LED is on.
     edges : ndarray of float64, shape (chips + 1,)
         When each chip begins, and when the last one ends, in seconds.
     lit : ndarray of uint8, shape (chips,)

@@ -101,7 +101,7 @@ class Clock:
 
     @property
     def gap_ratio(self) -> float:
-        """The gap's share of the frame period."""
+        """The gap's fraction of the frame period."""
         return self.gap.value / self.frame_period.value
 
 
@@ -140,7 +140,7 @@ class FilmProgress:
     payload
         The payload as far as it is known, as the scene writes it; unknown letters are dots.
     known
-        Share of the payload's chips that were seen.
+        Fraction of the payload's chips that were seen.
     complete
         Whether the whole payload is read.
     clock
@@ -245,17 +245,17 @@ class VideoReading:
 
     @property
     def reception_rate(self) -> float | None:
-        """Share of the packets sent that were read right; None where none were counted."""
+        """Fraction of the packets sent that were read right; None where none were counted."""
         return self.read / len(self.packets) if self.packets else None
 
     @property
     def packet_error_rate(self) -> float | None:
-        """Share of the packets sent that were lost; None where none were counted."""
+        """Fraction of the packets sent that were lost; None where none were counted."""
         return self.lost / len(self.packets) if self.packets else None
 
     @property
     def bit_error_rate(self) -> float | None:
-        """Share of wrong bits in the packets that were read; None where none was compared."""
+        """Fraction of wrong bits in the packets that were read; None where none was compared."""
         bits, wrong = _compared(self.packets.in_view)
         return wrong / bits if bits else None
 

@@ -25,7 +25,7 @@ _SHORT_FORM = re.compile(r"\s*(?:0x([0-9a-f ]+)|0b([01 ]+))", re.IGNORECASE)
 
 _DIGITS_ALONE = re.compile("[0-9 ]*")
 
-_UNREADABLE = "?"
+_REPLACEMENT_LETTER = "?"
 """In place of bytes that are no text."""
 
 
@@ -116,7 +116,8 @@ def payload_of_bits(bits: Sequence[int], form: str) -> str:
         return octets.hex()
     text = octets.decode("utf-8", errors="replace")
     return "".join(
-        letter if letter.isprintable() and letter != "\ufffd" else _UNREADABLE for letter in text
+        letter if letter.isprintable() and letter != "\ufffd" else _REPLACEMENT_LETTER
+        for letter in text
     )
 
 

@@ -38,8 +38,10 @@ USER_FOLDER = "OCC_PRESETS"
 """The environment variable that names another folder for the user's own presets."""
 
 _NAME = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9 _-]{0,58}[A-Za-z0-9_-])?")
-_NAMES = "1 to 60 letters, digits, spaces, - and _, the first a letter or digit, the last no space"
-_DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
+_NAME_RULE = (
+    "1 to 60 letters, digits, spaces, - and _, the first a letter or digit, the last no space"
+)
+_WINDOWS_DEVICE = re.compile(r"con|prn|aux|nul|(?:com|lpt)[0-9]", re.IGNORECASE)
 """Names that Windows reserves for devices."""
 
 
@@ -203,7 +205,7 @@ def _own_file(name: str) -> Path:
 def _name_problem(name: object) -> str | None:
     """Return why a preset of the user's own cannot have a name, None where it can."""
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        return f"A preset cannot be named {shown(name)}; allowed: {_NAMES}."
+        return f"A preset cannot be named {shown(name)}; allowed: {_NAME_RULE}."
     if name.lower() in {other.lower() for other in _built_in()}:
         return f"{shown(name)} is a preset of the program; choose another name."
     return None
@@ -211,8 +213,8 @@ def _name_problem(name: object) -> str | None:
 
 def _check_name(name: str) -> None:
     problem = _name_problem(name)
-    if problem is None and _DEVICE.fullmatch(name):
-        problem = f"A preset cannot be named {shown(name)}; allowed: {_NAMES}."
+    if problem is None and _WINDOWS_DEVICE.fullmatch(name):
+        problem = f"A preset cannot be named {shown(name)}; allowed: {_NAME_RULE}."
     if problem is not None:
         raise PresetError(problem)
 

@@ -50,7 +50,7 @@ MOTIONS = tuple(Pose.declarations())
 _PREFIX = "recording."
 """Before the name of a setting in the note of a film."""
 
-_MOST_JITTER = 6
+_JITTERS_IN_GAP = 6
 """The gap holds three standard deviations of jitter on either side."""
 
 
@@ -181,7 +181,7 @@ class Recording:
         return float(1 / Fraction(self.frame_rate) - read)
 
     def gap_ratio(self, scene: Scene) -> float:
-        """Return the share of the frame period that the gap takes."""
+        """Return the fraction of the frame period that the gap takes."""
         return self.gap(scene) * self.frame_rate
 
     def check(self, scene: Scene) -> None:
@@ -212,11 +212,11 @@ class Recording:
                 condition=f"in a film of {HERTZ.format(self.frame_rate)}",
                 parameters=("exposure_time",),
             )
-        if self.frame_jitter > gap / _MOST_JITTER:
+        if self.frame_jitter > gap / _JITTERS_IN_GAP:
             raise ParameterError.of(
                 "frame_jitter",
                 SECOND.format(self.frame_jitter),
-                f"up to a sixth of it, {SECOND.format(gap / _MOST_JITTER)}",
+                f"up to a sixth of it, {SECOND.format(gap / _JITTERS_IN_GAP)}",
                 condition=f"with a gap of {SECOND.format(gap)} between frames",
             )
 

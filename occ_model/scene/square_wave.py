@@ -9,18 +9,18 @@ SQUARE_WAVE = "10"
 
 CHIPS_OF_A_CYCLE = len(SQUARE_WAVE)
 
-_CHIPS = quantity("switching_frequency")
+_CHIP_RATE = quantity("switching_frequency")
 
 SQUARE_FREQUENCY = Quantity(
     "square_frequency",
     "Frequency of the square wave",
     "",
     "Cycles per second of a blinking LED, each of two chips: one lit, one dark.",
-    unit=_CHIPS.unit,
-    low=_CHIPS.low / CHIPS_OF_A_CYCLE,
-    high=_CHIPS.high / CHIPS_OF_A_CYCLE,
+    unit=_CHIP_RATE.unit,
+    low=_CHIP_RATE.low / CHIPS_OF_A_CYCLE,
+    high=_CHIP_RATE.high / CHIPS_OF_A_CYCLE,
     slider=(50.0, 2e4),
-    scale=_CHIPS.scale,
+    scale=_CHIP_RATE.scale,
     default=1000.0,
 )
 

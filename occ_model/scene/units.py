@@ -29,8 +29,8 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 _MOST_DECIMALS = 6
 """Decimals of an estimate above which its error is written in a unit of its own."""
 
-_EXACT = 1e-12
-"""Share of a value below which its error is that of the arithmetic, and is not stated."""
+_ROUNDING_ERROR = 1e-12
+"""Fraction of a value below which its error is that of the arithmetic, and is not stated."""
 
 LONGEST_TEXT = 200
 """Most characters of a quantity's text: several times those of 17 digits and a unit."""
@@ -138,7 +138,7 @@ class Unit:
 
         Without a deviation, or with one that says nothing, the value alone is written.
         """
-        if deviation is None or not _EXACT * abs(value) < deviation < math.inf:
+        if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return self.format(value)
         symbol, factor = self.display(max(abs(value), deviation))
         decimals = _decimals(deviation / factor)
@@ -162,7 +162,7 @@ class Unit:
 
         The step is at most a tenth of the deviation: no more is known.
         """
-        if deviation is None or not _EXACT * abs(value) < deviation < math.inf:
+        if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return value
         _, factor = self.display(value)
         return _scaled(round(value / factor, max(_decimals(deviation / factor), 0)), factor)

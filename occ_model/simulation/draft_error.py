@@ -21,10 +21,10 @@ from occ_model.camera.photometry import WHITE
 _BLOCK = 8
 """Rows of a part: those of a block of a JPEG file, in which its errors are not independent."""
 
-_REACH = 4.0
+_BLUR_REACH = 4.0
 """Standard deviations of the lens's blur that a rim reaches into the panel."""
 
-_CONFIDENCE = 5.0
+_DEVIATIONS_ADDED = 5.0
 """Standard deviations of an estimate by which the stated error is larger."""
 
 
@@ -108,7 +108,7 @@ def _error(
     top, bottom = int(first.min()) // _BLOCK * _BLOCK, int(last.max())
     crop = np.ascontiguousarray(drafted.image[top:bottom, panel.columns])
     first, last = np.maximum(first - top, 0), np.maximum(last - top, 0)
-    variance, rim = _of_parts(crop, means, first, last, math.ceil(_REACH * panel.blur / step))
+    variance, rim = _of_parts(crop, means, first, last, math.ceil(_BLUR_REACH * panel.blur / step))
     short = seen & np.isnan(variance)
     rounding = panel.rounding * drafted.stretch
     largest = min(panel.largest_rounding * drafted.stretch, swing)
@@ -120,7 +120,7 @@ def _error(
     # Rows of the blurred rim that the draft does not show at all.
     rim += swing * np.minimum(4.0 * panel.blur / np.maximum(step * (last - first), 1), 1.0)
     count = max(len(means) / _BLOCK, 1.0)
-    margin = 1.0 + _CONFIDENCE / math.sqrt(2.0 * count)
+    margin = 1.0 + _DEVIATIONS_ADDED / math.sqrt(2.0 * count)
     random = margin * math.sqrt((1.0 + 1.0 / step) * float(variance[seen].sum()) / len(means))
     return min(random + math.sqrt(float((rim[seen] ** 2).sum()) / len(means)), WHITE)
 

@@ -51,7 +51,7 @@ class SampledPicture:
     ----------
     image : ndarray of uint8, shape (rows, columns)
         The rows one below the other, those beside the panel repeated until each part has as many as
-        its share of the whole picture.
+        its fraction of the whole picture.
     rows_each
         Rows of the whole picture that each row across the panel stands for.
     """

@@ -13,7 +13,7 @@ from typing import TypeVar
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
-_AHEAD = 2
+_ITEMS_AHEAD = 2
 """Items for each thread that are prepared before their turn."""
 
 
@@ -43,7 +43,7 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
     with ThreadPoolExecutor(count, "band") as pool:
         for item in items:
             waiting.append(pool.submit(work, item))
-            if len(waiting) > _AHEAD * count:
+            if len(waiting) > _ITEMS_AHEAD * count:
                 yield waiting.popleft().result()
         while waiting:
             yield waiting.popleft().result()

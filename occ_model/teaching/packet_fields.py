@@ -13,7 +13,7 @@ from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
 _MOST_EXCEPTIONS = 0.05
-"""Largest share of columns that a level may part otherwise than the decoder's threshold."""
+"""Largest fraction of columns that a level may part otherwise than the decoder's threshold."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from occ_model.transmitter.framings.registry import FRAMINGS
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.line_codes.registry import LINE_CODES
 
-_PAPERS = ("differential-manchester", "paper", "none")
+_PAPER_SCHEME = ("differential-manchester", "paper", "none")
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Scheme:
     @property
     def is_papers(self) -> bool:
         """Whether it is the paper's: differential Manchester after the header 1 1 1 0."""
-        return (self.line_code.name, self.framing.name, self.correction) == _PAPERS
+        return (self.line_code.name, self.framing.name, self.correction) == _PAPER_SCHEME
 
     @property
     def finds_wrong_chip(self) -> bool:

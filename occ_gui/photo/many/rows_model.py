@@ -131,7 +131,6 @@ class PhotoRowsModel(QAbstractTableModel):
         return 0 if parent.isValid() else len(self.paths)
 
     def columnCount(self, parent: _Index = QModelIndex()) -> int:  # noqa: B008, N802 - Qt's
-        """Count the columns."""
         return 0 if parent.isValid() else NOTE + 1
 
     def headerData(  # noqa: N802 - Qt's name

@@ -10,8 +10,8 @@ from occ_model.scene.parameters.group import (
 )
 from occ_model.scene.units import METRE, NONE, RADIAN, SECOND
 
-_STEEP = math.radians(89.99)
-_TILT = math.radians(60.0)
+_LARGEST_ANGLE = math.radians(89.99)
+_SLIDER_ANGLE = math.radians(60.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,20 +41,22 @@ class Pose(Group):
         "Yaw",
         "",
         "Turn of the panel about the rows axis.",
-        unit=RADIAN, low=-_STEEP, high=_STEEP, slider=(-_TILT, _TILT), scale="linear", default=0.0,
+        unit=RADIAN, low=-_LARGEST_ANGLE, high=_LARGEST_ANGLE,
+        slider=(-_SLIDER_ANGLE, _SLIDER_ANGLE), scale="linear", default=0.0,
     )
     pitch: float = quantity_field(
         "Pitch",
         "",
         "Turn of the panel about the columns axis.",
-        unit=RADIAN, low=-_STEEP, high=_STEEP, slider=(-_TILT, _TILT), scale="linear", default=0.0,
+        unit=RADIAN, low=-_LARGEST_ANGLE, high=_LARGEST_ANGLE,
+        slider=(-_SLIDER_ANGLE, _SLIDER_ANGLE), scale="linear", default=0.0,
     )
     roll: float = quantity_field(
         "Roll",
         "",
         "Turn of the panel about the optical axis.",
         unit=RADIAN, low=-math.pi, high=math.pi,
-        slider=(-_TILT, _TILT), scale="linear", default=0.0,
+        slider=(-_SLIDER_ANGLE, _SLIDER_ANGLE), scale="linear", default=0.0,
     )
     # fmt: on
 

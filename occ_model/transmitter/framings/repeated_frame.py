@@ -12,10 +12,10 @@ from occ_model.transmitter.framings.framing import (
     is_unique,
 )
 
-_FEW_PLACES = 32
+_MOST_WHOLE_FRAMES = 32
 """Places of a preamble behind all of which the whole frame is read."""
 
-_START_CHIPS = 120
+_CHECKED_CHIPS = 120
 """Chips behind other preambles that must obey the line code: whole blocks of 2, 6, 10 and 12."""
 
 ReadData = Callable[[ByteArray], Framed]
@@ -71,7 +71,7 @@ def _candidates(
     Of very many preambles only those count behind which the line code is obeyed.
     """
     headers = find_preambles(chips, preamble)
-    many = len(headers) > _FEW_PLACES
+    many = len(headers) > _MOST_WHOLE_FRAMES
     tried: set[bytes] = set()
     frames = (_whole(chips, preamble, length, headers), _wrapped(chips, preamble, length))
     for wrapped, datas in enumerate(frames):
@@ -79,7 +79,7 @@ def _candidates(
             content = data[: length - len(preamble)].tobytes()
             is_new = content not in tried
             tried.add(content)
-            if is_new and (not many or _obeys(data[:_START_CHIPS], preamble, form)):
+            if is_new and (not many or _obeys(data[:_CHECKED_CHIPS], preamble, form)):
                 yield bool(wrapped), data
 
 

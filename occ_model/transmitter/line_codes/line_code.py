@@ -89,7 +89,7 @@ class LineCode:
 
     @property
     def overhead(self) -> Fraction:
-        """Share of the chips that carry no bit."""
+        """Fraction of the chips that carry no bit."""
         return 1 - 1 / self.chips_a_bit
 
     def chips_for(self, bits: int) -> int:

@@ -10,11 +10,12 @@ import occ_model as occ
 from occ_gui.background.task import Report
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.marks import Marks, MarkState
-from occ_gui.video.reading_words import facts_of, sentences_of
+from occ_gui.video.reading_words import sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.scene.scene import Scene
+from occ_model.study.reading_facts import film_facts
 
 _INTERVAL = 0.1
 """Seconds between two reports, so that the window can draw each of them."""
@@ -132,7 +133,7 @@ class _Collected:
             text=whole.payload
             if is_whole and whole is not None and whole.payload
             else known.payload,
-            facts=facts_of(known, whole),
+            facts=film_facts(known, whole),
             sentences=sentences_of(known, whole, self._request.film.problem),
         )
 

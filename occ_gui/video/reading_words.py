@@ -1,38 +1,6 @@
-"""Words for a film's reading: its rates, its clocks, and what is not sure."""
+"""Words for what is not sure of a film's reading."""
 
-from occ_model.results.fact import Fact
 from occ_model.results.video_reading import FilmProgress, VideoReading
-from occ_model.study.reading_facts import clock_facts, packet_facts
-
-
-def facts_of(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
-    """List the facts on a film that is being read.
-
-    Parameters
-    ----------
-    whole
-        What the frames said together when they were last looked at; None before.
-    """
-    facts = [
-        Fact(
-            "placed",
-            "Frames placed",
-            f"{known.placed} of {known.frames}",
-            meaning="Frames whose place in what is sent over and over is known.",
-        ),
-        Fact(
-            "known",
-            "Packet known",
-            f"{100.0 * known.known:.0f} %",
-            meaning="Share of the chips of a period that are known, those of a header included.",
-        ),
-    ]
-    if whole is not None:
-        facts += packet_facts(whole)
-    clock = known.clock if whole is None or whole.clock is None else whole.clock
-    if clock is not None:
-        facts += clock_facts(clock)
-    return tuple(facts)
 
 
 def sentences_of(

@@ -4,12 +4,42 @@ import math
 from collections.abc import Iterator
 
 from occ_model.results.fact import Fact
-from occ_model.results.video_reading import Clock, VideoReading
+from occ_model.results.video_reading import Clock, FilmProgress, VideoReading
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.confidence import wilson_interval
 
 _PERCENT = 100.0
 _RATE = Unit("Hz/s")
+
+
+def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
+    """List the facts of a film that is being read.
+
+    Parameters
+    ----------
+    whole
+        What the frames said together when they were last looked at; None before.
+    """
+    facts = [
+        Fact(
+            "placed",
+            "Frames placed",
+            f"{known.placed} of {known.frames}",
+            meaning="Frames whose place in what is sent over and over is known.",
+        ),
+        Fact(
+            "known",
+            "Packet known",
+            f"{100.0 * known.known:.0f} %",
+            meaning="Share of the chips of a period that are known, those of a header included.",
+        ),
+    ]
+    if whole is not None:
+        facts += packet_facts(whole)
+    clock = known.clock if whole is None or whole.clock is None else whole.clock
+    if clock is not None:
+        facts += clock_facts(clock)
+    return tuple(facts)
 
 
 def packet_facts(reading: VideoReading) -> Iterator[Fact]:

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 
-from occ_gui.video.reading_words import facts_of, sentences_of
+from occ_gui.video.reading_words import sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
+from occ_model.study.reading_facts import film_facts
 
 _BITS = np.zeros(10, dtype=np.uint8)
 
@@ -31,7 +32,7 @@ def known(whole: VideoReading, placed: int = 2) -> FilmProgress:
 
 
 def said(whole: VideoReading) -> dict[str, str]:
-    return {fact.label: fact.text for fact in facts_of(known(whole), whole)}
+    return {fact.label: fact.text for fact in film_facts(known(whole), whole)}
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ from occ_gui.detection_map.wiring import Measuring
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
-from occ_gui.photo.photo_controller import PhotoController, PhotoReading
+from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.feature import picture
 from occ_gui.pins.pin_controller import PinController
@@ -40,6 +40,7 @@ from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story.story_view import StoryView
+from occ_gui.values.photo_results import OpenPhoto
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
@@ -52,8 +53,8 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.cause import Step
 
 if TYPE_CHECKING:
+    from occ_gui.photo.pane import PhotoPane
     from occ_gui.photo.photo_view import PhotoView
-    from occ_gui.photo.wiring import PhotoWiring
 
 
 class Application(QObject):
@@ -93,7 +94,7 @@ class Application(QObject):
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.window = MainWindow(self.controls, self.story, undo_stack=self.store.undo_stack)
         self.messages = StatusMessages(self.window, self.controls)
-        self.photos = PhotoController()
+        self.photos = PhotoController(workspace, self.board)
         self.presets = PresetController(self.window, self.store)
         self.present = PresentResults(self.simulation)
         self.files = FileController(
@@ -113,6 +114,7 @@ class Application(QObject):
         self.desktop = Desktop(self)
         self.welcome = Welcome(self.window, self.shell, self.preferences, self.files)
         self._match_next, self._front_next = False, True
+        self._photo_path: Path | None = None
         self._connect_scene()
         self._connect_settings()
         self._connect_photo()
@@ -181,12 +183,13 @@ class Application(QObject):
         self.settings.refused.connect(self.messages.show_refusal)
 
     def _connect_photo(self) -> None:
+        reading = self.photos.work
         self.photos.failed.connect(self._on_photo_failure)
-        self.photos.another_read.connect(self._bring_photo_to_front)
         self.photos.opened.connect(self._on_photo)
-        self.photos.begun.connect(self._begin_photo)
-        self.photos.progressed.connect(self.window.reading.show_progress)
-        self.photos.ended.connect(self.window.reading.end)
+        reading.begun.connect(self._begin_photo)
+        reading.task.reported.connect(self.window.reading.show_progress)
+        reading.ended.connect(self.window.reading.end)
+        reading.found.connect(self._on_photo_read)
         self.window.reading.cancelled.connect(self._cancel_photo)
         self.preferences.changed.connect(self._list_recent)
         self.window.dropped.connect(self.files.open_dropped)
@@ -209,7 +212,8 @@ class Application(QObject):
         menus = self.window.menus
         self.window.actions_by_name["match_all"].setEnabled(False)
         menus.scan_axes.triggered.connect(lambda action: self.photos.scan_along(action.data()))
-        self.photos.reading_changed.connect(self._show_scan_axis)
+        axis = self.store.store.select(lambda workspace: workspace.photo.reading.scan_axis)
+        axis.changed.connect(self._show_scan_axis)
         menus.overlays.triggered.connect(lambda action: self.show_mode(action.data()))
         overlay = self.store.store.select(lambda workspace: workspace.overlay)
         overlay.changed.connect(self._show_overlay)
@@ -267,12 +271,12 @@ class Application(QObject):
 
     def about_photo(self) -> str:
         """Return the photo's name and what its match is worth; empty if none is open."""
-        pane: PhotoWiring | None = self.shell.made_pane("photo")
+        pane: PhotoPane | None = self.shell.made_pane("photo")
         return "" if pane is None else pane.verdict.about()
 
     @property
-    def _photo(self) -> "PhotoWiring":
-        pane: PhotoWiring = self.shell.pane("photo")
+    def _photo(self) -> "PhotoPane":
+        pane: PhotoPane = self.shell.pane("photo")
         return pane
 
     def choose_decoder(self, name: str) -> None:
@@ -291,7 +295,7 @@ class Application(QObject):
         elif name == "photo":
             self._connect_photo_pane(pane, pane.view)
 
-    def _connect_photo_pane(self, wiring: "PhotoWiring", view: "PhotoView") -> None:
+    def _connect_photo_pane(self, pane: "PhotoPane", view: "PhotoView") -> None:
         verdict = view.verdict
         self.messages.follow(view)
         self.window.leave_messages_to(verdict.sentence, verdict.wrapped)
@@ -304,18 +308,18 @@ class Application(QObject):
             copying.copied.connect(self.window.say)
         # They are enabled once there is a photo.
         for name, slot in {
-            "match_all": wiring.match_all,
-            "find_lamps": wiring.lamps.find,
+            "match_all": pane.match_all,
+            "find_lamps": pane.parts.find,
             "region_by_hand": view.lamps.by_hand.toggle,
-            "whole_photo": wiring.lamps.match_whole,
-            "apply_match": wiring.matching.apply,
+            "whole_photo": pane.parts.match_whole,
+            "apply_match": pane.matching.apply,
             "save_match": self._save_match,
-            "use_settings": wiring.matching.use_notes,
+            "use_settings": pane.matching.use_notes,
         }.items():
             self.window.actions_by_name[name].triggered.connect(slot)
-        wiring.matching.saved.connect(self.presets.report_saved)
-        wiring.matching.matched.connect(self._on_match)
-        wiring.matching.failed.connect(self.messages.show_match_failure)
+        pane.matching.saved.connect(self.presets.report_saved)
+        pane.match_shown.connect(self._on_match)
+        pane.matching.failed.connect(self.messages.show_match_failure)
 
     def _save_match(self) -> None:
         self.presets.ask_to_save_match(self._photo.matching)
@@ -340,7 +344,7 @@ class Application(QObject):
         self.window.bring_to_front("compare")
 
     def _show_several(self, paths: list[Path]) -> None:
-        self._photo.many.show_files(paths)
+        self._photo.many.choose_files(paths)
         self.window.bring_to_front("photo")
 
     def _show_listed(self) -> None:
@@ -355,8 +359,8 @@ class Application(QObject):
     def _show_overlay(self, mode: str) -> None:
         self.window.menus.show_choice(self.window.menus.overlays, mode)
 
-    def _show_scan_axis(self, reading: PhotoReading) -> None:
-        self.window.menus.show_choice(self.window.menus.scan_axes, reading.scan_axis)
+    def _show_scan_axis(self, scan_axis: str) -> None:
+        self.window.menus.show_choice(self.window.menus.scan_axes, scan_axis)
 
     def _match(self) -> None:
         self.window.bring_to_front("photo")
@@ -407,21 +411,26 @@ class Application(QObject):
         else:
             self.store.change(NO_GESTURE, **step.changes)
 
-    def _bring_photo_to_front(self) -> None:
-        if self._front_next:
+    def _on_photo_read(self, opened: OpenPhoto) -> None:
+        """Bring a photo to the front that was read for the first time, and not in another way."""
+        last, self._photo_path = self._photo_path, opened.source.path
+        if self._front_next and last != self._photo_path:
             self.window.bring_to_front("photo")
+        self._front_next = True
 
     def _on_photo(self, photo: Photo | None) -> None:
         self.messages.end_photo_failure()
         self.window.show_photo_name(None if photo is None else photo.path.name)
-        self.window.menus.show_match_found(self._photo.matching.match is not None)
-        self._front_next = True
+        if photo is None:
+            self._photo_path = None
         if self._match_next:
             self._photo.match()
 
-    def _on_match(self, _match: Match) -> None:
+    def _on_match(self, match: Match | None) -> None:
+        self.window.menus.show_match_found(match is not None)
+        if match is None:
+            return
         self.messages.end_match_failure()
-        self.window.menus.show_match_found(True)
         if self._match_next:
             self._match_next = False
             self._photo.matching.apply()

@@ -1,7 +1,6 @@
 """Desktop features of the window: export, session, layout, theme, command palette, shortcuts."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from PySide6.QtCore import QObject
@@ -10,7 +9,6 @@ from PySide6.QtGui import QAction
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.video_pane import VideoPane
-from occ_gui.core.workspace import Step
 from occ_gui.export.animation import AnimationExport
 from occ_gui.export.export_controller import ExportController
 from occ_gui.files.autosave import Autosave
@@ -19,11 +17,10 @@ from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
 from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session, UserState
+from occ_gui.files.session_record import Session
 from occ_gui.help.help_menu import HelpMenu
 from occ_gui.help.pages import PAGE_OF_PANE
 from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.picture.placement import MODES
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.frame_rate import FrameRate
@@ -33,6 +30,7 @@ from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
+from occ_gui.values.placement import MODES
 from occ_gui.window.command_palette import CommandPalette, commands_of, shortcuts_of
 from occ_gui.window.current_pane import CurrentPane
 from occ_gui.window.dock_layout import DockLayout
@@ -47,7 +45,6 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
 
 if TYPE_CHECKING:
-    from occ_gui.photo.wiring import PhotoWiring
     from occ_gui.transmitter.transmitter_controller import TransmitterController
 
 _THEME, _OVERLAY, _PICTURE = "view/theme", "view/overlay", "view/picture"
@@ -88,7 +85,6 @@ class Desktop(QObject):
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._parts = parts
-        self._photo: Path | None = None
         window, preferences = parts.window, parts.preferences
         figures = parts.shell.figures.values()
         window.menus.add_figures({figure.name: figure.title for figure in figures})
@@ -127,6 +123,8 @@ class Desktop(QObject):
         for taker in (parts.simulation, parts.files):
             whose.changed.connect(taker.choose_picture)
         parts.photos.opened.connect(self._on_photo)
+        photo = parts.store.store.select(lambda workspace: workspace.photo)
+        photo.changed.connect(self.autosave.note_change)
         for source in (
             self.export,
             self.animation.writer,
@@ -177,8 +175,6 @@ class Desktop(QObject):
             from occ_gui.window.cursor_readout import follow_profile
 
             follow_profile(pane.view, window.pointed.set_full_text)
-        elif name == "photo":
-            pane.lamps.region_changed.connect(self.autosave.note_change)
 
     def _show_before(self, shown: bool) -> None:
         self._parts.shell.pane("picture").view.before.chosen.setChecked(shown)
@@ -219,19 +215,17 @@ class Desktop(QObject):
     def session(self) -> Session:
         """Return what the user is working on; what a lesson shows in its place is not kept."""
         parts = self._parts
-        photo: PhotoWiring | None = parts.shell.made_pane("photo")
-        aside = parts.lessons.users_own()
-        own = aside or UserState(parts.store.scene, parts.settings.settings, self._photo)
+        own = parts.lessons.users_own() or parts.store.store.workspace
         return Session(
             scene=own.scene,
             settings=own.settings,
             scene_file=self.document.path,
-            photo=own.photo,
-            region=None if aside or photo is None else photo.lamps.rectangle,
+            photo=own.photo.path,
+            region=own.photo.rectangle,
             film=parts.video.path,
             preset=parts.presets.base_of(own.scene),
             pins=parts.pins.kept,
-            history=parts.store.store.history(Step(own.scene, dict(own.settings.force))),
+            history=parts.store.store.history(own.step),
         )
 
     def resume(self, file: SessionFile, session: Session, scene_wins: bool, fresh: bool) -> None:
@@ -268,9 +262,7 @@ class Desktop(QObject):
         self.autosave.written.connect(self._keep_view)
 
     def _on_photo(self, photo: Photo | None) -> None:
-        self._photo = None if photo is None else photo.path
         self.document.show_photo(None if photo is None else photo.path.name)
-        self.autosave.note_change()
 
     def _choose_theme(self, action: QAction) -> None:
         self.theme.choose(action.data())

@@ -63,7 +63,7 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         equations(store, lambda: shell.pane("profile").view.plot),
         spectrum(),
         compare(parts.pins),
-        lessons(store, photos, parts.controls, parts.preferences),
+        lessons(store, parts.board, parts.controls, parts.preferences),
         video(store),
         bench(store, parts.frame_rate, parts.measuring.for_bench, parts.window.say),
     )

@@ -1,16 +1,12 @@
 """Lessons in the window: what their steps show and do there, beside their own pane."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.files.session_record import UserState
+from occ_gui.core.workspace import Workspace
 from occ_gui.shell.shell import Shell
 from occ_gui.window.main_window import MainWindow
-
-if TYPE_CHECKING:
-    from occ_gui.photo.kept_photo import KeptPhoto
-    from occ_gui.photo.wiring import PhotoWiring
 
 _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match": "match"}
 """The menu entries that the buttons of lessons stand for."""
@@ -47,22 +43,6 @@ class LessonsInWindow(QObject):
         lessons.begun.connect(self.begun)
         lessons.columns_held.connect(self.columns_held)
         lessons.action_wanted.connect(self._do)
-        lessons.use_match(lambda: None if self._photo is None else self._photo.matching.match)
-        lessons.frequency_told.connect(self._begin_form)
-        lessons.keep_photos_by(
-            lambda: None if self._photo is None else self._photo.kept(), self._give_back
-        )
-
-    def _begin_form(self, frequency: float) -> None:
-        self._shell.pane("photo").begin_form(frequency)
-
-    def _give_back(self, kept: "KeptPhoto") -> None:
-        self._shell.pane("photo").give_back(kept)
-
-    @property
-    def _photo(self) -> "PhotoWiring | None":
-        pane: PhotoWiring | None = self._shell.made_pane("photo")
-        return pane
 
     def _do(self, action: str) -> None:
         """Do what a step of a lesson has a button for: an entry of the menus."""
@@ -80,10 +60,10 @@ class LessonsInWindow(QObject):
                 self._brought = name
         self.photo_explained.emit(name == "photo")
 
-    def users_own(self) -> UserState | None:
+    def users_own(self) -> Workspace | None:
         """Return what the user was working on, if a lesson is under way."""
         pane = self._shell.made_pane("lessons")
-        own: UserState | None = None if pane is None else pane.controller.users_own()
+        own: Workspace | None = None if pane is None else pane.controller.users_own()
         return own
 
     def end(self) -> None:

@@ -71,9 +71,12 @@ class Start:
         if not wins and self.session.film is not None:
             application.video.keep(self.session.film)
         if with_photo and not wins and self.session.photo is not None:
-            if self.session.region is not None:
-                application.shell.pane("photo").lamps.keep(self.session.photo, self.session.region)
-            application.open_photo(self.session.photo, front=False)
+            photo, region = self.session.photo, self.session.region
+            if region is not None:
+                from occ_gui.values.photo_choice import PhotoFrame
+
+                application.photos.edit(lambda each: each.with_part(PhotoFrame(photo), region))
+            application.open_photo(photo, front=False)
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:

@@ -102,7 +102,8 @@ class _ProfileLink(QObject):
         super().__init__(story)
         self._story, self._store, self._board = story, store, board
         story.picture_chosen.connect(self._choose)
-        board.photo_profile_changed.connect(self._show_photo)
+        profile = board.select(lambda results: results.photo_profile)
+        profile.changed.connect(self._show_photo)
 
     def _choose(self, whose: str) -> None:
         is_enhanced = whose == "receiver"

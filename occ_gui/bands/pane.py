@@ -22,6 +22,7 @@ class BandsPane(Pane[Scene]):
         super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
         self._task: Task[Scene, ShownBands] = Task(_work, "bars")
+        self.tasks = (self._task,)
         self._task.finished.connect(self._show)
         self._task.failed.connect(self.view.show_failure)
         self.view.exposure_chosen.connect(self._take)
@@ -36,15 +37,6 @@ class BandsPane(Pane[Scene]):
     def _take(self, exposure: float) -> None:
         scene = as_bright(self._scenes.scene, exposure)
         self._scenes.put(scene, "shutter speed without bars")
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether the bars of the last scene are counted."""
-        return self._task.is_idle
-
-    def stop(self) -> None:
-        """Count no more."""
-        self._task.stop()
 
 
 def _work(scene: Scene, _report: Reporter) -> ShownBands:

@@ -1,7 +1,7 @@
 """Store: holds the workspace, tells who looks at a part of it, and keeps the steps to undo."""
 
 from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QUndoCommand, QUndoStack
@@ -20,14 +20,21 @@ MOST_STEPS = 500
 
 
 class Selection(QObject, Generic[T]):
-    """A part of the workspace, which tells when it differs."""
+    """A part of the workspace, or of the results, which tells when it differs."""
 
     changed = Signal(object)
     """The new value."""
 
-    def __init__(self, of: Callable[[Workspace], T], workspace: Workspace) -> None:
+    def __init__(self, of: Callable[[Any], T], whole: object) -> None:
         super().__init__()
-        self.of, self.value = of, of(workspace)
+        self._of, self.value = of, of(whole)
+
+    def look(self, whole: object) -> None:
+        """Look at the part anew."""
+        value = self._of(whole)
+        if value != self.value:
+            self.value = value
+            self.changed.emit(value)
 
 
 class Store(QObject):
@@ -70,10 +77,7 @@ class Store(QObject):
             while self._told is not self.workspace:
                 self._told = self.workspace
                 for selection in self._selections:
-                    value = selection.of(self.workspace)  # the present one, not that of the change
-                    if value != selection.value:
-                        selection.value = value
-                        selection.changed.emit(value)
+                    selection.look(self.workspace)  # the present one, not that of the change
         finally:
             self._is_telling = False
 

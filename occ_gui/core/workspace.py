@@ -1,9 +1,10 @@
 """Workspace: all that the user has set, as one value; nothing that was computed, and no pixels."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
+from occ_gui.values.photo_choice import PhotoChoice
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.recording import FRAME_RATE
@@ -45,6 +46,7 @@ class Workspace:
     """How a photo is shown with the picture: beside it, or over it in one of several ways."""
     is_enhanced: bool = False
     """Whether profiles are shown after the receiver's enhancement."""
+    photo: PhotoChoice = field(default_factory=PhotoChoice)
 
     @property
     def step(self) -> Step:

@@ -28,15 +28,6 @@ _MOST_OF_HISTORY = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class UserState:
-    """What the user is working on, or was before a lesson began."""
-
-    scene: Scene
-    settings: SimulationSettings
-    photo: Path | None
-
-
-@dataclass(frozen=True, slots=True)
 class Session:
     """What a window is working on, as far as it is known.
 

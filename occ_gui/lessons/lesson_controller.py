@@ -1,27 +1,24 @@
 """Lesson controller: each step sets its scene, opens its photo and shows its pane."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.core.workspace import FIRST_SETTINGS
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.file_controller import sample_photos
-from occ_gui.files.session_record import UserState
 from occ_gui.lessons.answers import LessonAnswers, MatchedPhoto
 from occ_gui.lessons.changed_scene import changed_sentence
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.photo.kept_photo import KeptPhoto
-from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.photo.photo_part import found_in
 from occ_gui.scene.gesture import new_gesture
-from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.results import Board
+from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
-from occ_model.photo.reading.load import Photo
 from occ_model.results.lessons import Lesson, LessonList, Step
-from occ_model.results.match import Match
 from occ_model.teaching.explanations import explanation
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
@@ -36,10 +33,10 @@ class LessonController(QObject):
 
     Parameters
     ----------
-    scenes
-        The store of the scene.
-    photos
-        Opens the photo of a step.
+    store
+        What the user has set, which a lesson replaces while it is under way.
+    board
+        The match of the photo.
     pane
         Shows the lessons.
     answers
@@ -65,9 +62,6 @@ class LessonController(QObject):
     equation_wanted = Signal(str)
     """The name of the equation that explains a step; empty for none."""
 
-    frequency_told = Signal(float)
-    """The switching frequency in Hz of the sample photo that a step has opened."""
-
     action_wanted = Signal(str)
     """What a step has a button for, as the step names it."""
 
@@ -76,30 +70,25 @@ class LessonController(QObject):
 
     def __init__(
         self,
-        scenes: SceneStore,
-        photos: PhotoController,
+        store: Store,
+        board: Board,
         pane: LessonView,
         answers: LessonAnswers,
     ) -> None:
         super().__init__()
-        self._scenes = scenes
-        self._photos = photos
+        self._store, self._board = store, board
         self._pane = pane
         self._answers = answers
         self._all = LessonList(())
         self._current: Lesson | None = None
         self._done: dict[str, int] = {}
         self._places: dict[str, int] = {}
-        self._open: Path | None = photos.path  # opened before this pane was first shown
-        self._user: UserState | None = None
+        self._user: Workspace | None = None
+        self._first: Path | None = None
+        """The photo that was open before the lesson: it is out of sight in a step without one."""
         self._last: Lesson | None = None
-        self._match: Callable[[], Match | None] = lambda: None
-        self._keep_photo: Callable[[], KeptPhoto | None] = lambda: None
-        self._give_back: Callable[[KeptPhoto], None] = lambda _kept: None
-        self._kept: KeptPhoto | None = None
-        photos.opened.connect(self._note_photo)
         answers.checked.connect(self._show_checked)
-        scenes.changed.connect(self._follow_scene)
+        store.select(lambda workspace: workspace.scene).changed.connect(self._follow_scene)
         pane.list.chosen.connect(self.choose)
         pane.list_asked.connect(self.leave)
         pane.step.moved.connect(self.go)
@@ -109,16 +98,6 @@ class LessonController(QObject):
         pane.step.action_asked.connect(self._ask_action)
         pane.end.report_asked.connect(self._ask_report)
         pane.end.next_asked.connect(self._go_to_following)
-
-    def use_match(self, match: Callable[[], Match | None]) -> None:
-        """Compare answers about a photo with the match that this function gives."""
-        self._match = match
-
-    def keep_photos_by(
-        self, keep: Callable[[], KeptPhoto | None], give_back: Callable[[KeptPhoto], None]
-    ) -> None:
-        """Keep the user's photo by one function, and show it again by the other one."""
-        self._keep_photo, self._give_back = keep, give_back
 
     def set_seen(self, seen: bool) -> None:
         """Read the lessons when their pane is shown, unless one is under way."""
@@ -195,44 +174,26 @@ class LessonController(QObject):
             self._all.lessons, self._places | self._done, "", self._all.problems
         )
 
-    def users_own(self) -> UserState | None:
+    def users_own(self) -> Workspace | None:
         """Return what the end of the lesson restores; None where none is under way."""
-        if self._user is None or not self._shows_own_photo:
+        present = self._store.workspace.photo
+        if self._user is None or not is_own(present):
             return self._user
-        return replace(self._user, photo=self._open)  # opened meanwhile: it stays
+        return replace(self._user, photo=present)  # opened or matched meanwhile: it stays
 
     def _begin(self) -> None:
         if self._user is None:
             self.begun.emit()
-            settings = self._scenes.settings.settings
-            self._user = UserState(self._scenes.scene, settings, self._open)
-            self._kept = self._keep_photo()
-            self._scenes.settings.restore(FIRST_SETTINGS)
+            self._user = self._store.workspace
+            self._first = self._user.photo.path
 
     def restore_user(self) -> None:
         """Restore what the user was working on; the scene in one step that can be undone."""
         user, self._user = self.users_own(), None
-        kept, self._kept = self._kept, None
         self.columns_held.emit(None)
-        if user is None:
-            return
-        self._scenes.settings.restore(user.settings)
-        title = "end of the lesson"
-        self._scenes.put(user.scene, title, new_gesture(), force=user.settings.force)
-        self._return_photo(user.photo, kept)
-        self.pane_wanted.emit("")
-
-    def _return_photo(self, photo: Path | None, kept: KeptPhoto | None) -> None:
-        """Open the photo again that was open before the lesson."""
-        self._give_up_sample()
-        if self._open == photo and photo not in sample_photos():
-            return  # with what the user has found in it meanwhile
-        if photo is None:
-            self._photos.close()
-        elif kept is not None and kept.photo.path == photo:
-            self._give_back(kept)  # with what was found in it: a photo read anew has no match
-        else:
-            self._photos.open(photo)
+        if user is not None:
+            self._store.put(user, "end of the lesson", new_gesture())
+            self.pane_wanted.emit("")
 
     def set_again(self) -> None:
         """Set the scene of the step again, undoing all changes to it."""
@@ -253,65 +214,35 @@ class LessonController(QObject):
         self._follow_scene()
 
     def _set(self, lesson: Lesson, place: int) -> None:
-        step = lesson.steps[place]
-        self._scenes.settings.restore(FIRST_SETTINGS)  # not the tolerance of the step before
+        step, user = lesson.steps[place], self.users_own()
+        if user is None:
+            return
+        self._user = user
         title = f"step {place + 1} of “{lesson.title}”"
-        self._scenes.put(step.scene, title, new_gesture(), force={})
+        photo = self._photo_of(step, user.photo)
+        # With the first settings: not with the tolerance of the step before.
+        workspace = replace(user, scene=step.scene, settings=FIRST_SETTINGS, photo=photo)
+        self._store.put(workspace, title, new_gesture())
         packet = QUANTITIES["packet-columns"].compute(step.scene, "")
         self.columns_held.emit(PACKETS_IN_VIEW * packet)
-        self._open_photo(step)
+        if step.photo and photo.path is None:
+            self.status_message.emit(f"The photo {step.photo} is missing.")
         self.pane_wanted.emit(step.pane)
 
-    def _open_photo(self, step: Step) -> None:
+    def _photo_of(self, step: Step, users: PhotoChoice) -> PhotoChoice:
+        """Give the photo of a step: the sample that it names, the user's own, or none."""
+        present = self._store.workspace.photo
         samples = {path.stem: path for path in sample_photos()}
+        if step.own_photo and is_own(users):
+            return users  # which the sample would stand in for
+        if not step.photo:
+            is_since = is_own(present) and present.path != self._first
+            return present if is_since else replace(users, path=None)
         wanted = samples.get(step.photo)
-        if step.own_photo and self._show_users_photo():
-            return  # which the sample would stand in for
-        if step.photo and wanted is None:
-            self.status_message.emit(f"The photo {step.photo} is missing.")
-        elif wanted is not None and wanted == self._open:
-            self._tell_frequency(step)
-        elif wanted is not None:
-            self._photos.open(wanted)
-        elif not step.photo:
-            self._give_up_sample()
-            self._put_photo_aside()
-
-    def _show_users_photo(self) -> bool:
-        """Show the user's own photo, if there is one; return whether there is."""
-        if self._open is None and self._kept is not None:
-            self._give_back(self._kept)
-        return self._shows_own_photo
-
-    @property
-    def _shows_own_photo(self) -> bool:
-        """Whether a photo of the user's own is open, and no sample."""
-        return self._open not in {None, *sample_photos()}
-
-    def _put_photo_aside(self) -> None:
-        """Close a sample, or the photo that was open before the lesson, which its end restores."""
-        if self._shows_own_photo:
-            if self._user is None or self._open != self._user.photo:
-                return  # opened during the lesson
-            self._kept = self._keep_photo()  # with what has been found in it meanwhile
-        if self._open is not None:
-            self._photos.close()
-
-    def _give_up_sample(self) -> None:
-        """Read no more the sample of a step that is left: it would be opened after it."""
-        if self._photos.awaited in sample_photos():
-            self._photos.cancel()
-
-    def _note_photo(self, photo: Photo | None) -> None:
-        self._open = None if photo is None else photo.path
-        step = self._step()
-        if step is not None:
-            self._tell_frequency(step)
-
-    def _tell_frequency(self, step: Step) -> None:
-        """Tell what a step says of the sample that it shows: how fast its lamp switches."""
-        if step.photo and self._open in sample_photos() and self._open.stem == step.photo:
-            self.frequency_told.emit(step.scene.transmitter.switching_frequency)
+        if wanted is None:
+            return replace(users, path=None)
+        sample = present if present.path == wanted else users.opened(wanted)
+        return sample.shown_by(step.scene.transmitter.switching_frequency)
 
     @property
     def lesson_under_way(self) -> Lesson | None:
@@ -331,12 +262,12 @@ class LessonController(QObject):
         step = self._step()
         if step is None:
             return
-        scene = self._scenes.scene
+        scene = self._store.workspace.scene
         self._pane.step.show_changed(changed_sentence(step, scene))
         self._pane.step.show_explanation(explanation(step, scene))
         self._mark_answer()
         if step.animation:
-            self._pane.step.animation.show_shutter(rolling_shutter(self._scenes.scene))
+            self._pane.step.animation.show_shutter(rolling_shutter(scene))
 
     def _mark_answer(self) -> None:
         """Say of an answer that was checked at another scene that it was."""
@@ -344,16 +275,20 @@ class LessonController(QObject):
         if lesson is not None:
             place = self._places[lesson.name]
             self._pane.step.answer_field.show_outdated(
-                not self._answers.is_at(lesson, place, self._scenes.scene)
+                not self._answers.is_at(lesson, place, self._store.workspace.scene)
             )
 
     def _check(self, text: str) -> None:
         lesson = self._current
         if lesson is not None:
             self._pane.step.answer_field.show_waiting()
-            name = "" if self._open is None else one_line(self._open.name)
-            photo = MatchedPhoto(name, self._match())
-            self._answers.check(lesson, self._places[lesson.name], text, self._scenes.scene, photo)
+            results = self._board.results
+            name = "" if results.photo is None else one_line(results.photo.path.name)
+            found = found_in(results)
+            photo = MatchedPhoto(name, None if found is None else found.match)
+            self._answers.check(
+                lesson, self._places[lesson.name], text, self._store.workspace.scene, photo
+            )
 
     def _show_checked(self, lesson: Lesson, place: int) -> None:
         answer = self._answers.of(lesson, place)
@@ -371,3 +306,8 @@ class LessonController(QObject):
     def _ask_report(self) -> None:
         if self._last is not None:
             self.report_asked.emit(self._last)
+
+
+def is_own(photo: PhotoChoice) -> bool:
+    """Return whether a photo of the user's own is open, and no sample."""
+    return photo.path not in {None, *sample_photos()}

@@ -9,11 +9,11 @@ from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.lessons.report import LessonReports
-from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.spotlight import Spotlight
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import Board
 from occ_model.errors import OccError
 from occ_model.results.lessons import Lesson
 from occ_model.teaching.lessons import begin_lessons_folder
@@ -26,10 +26,8 @@ class LessonPane(Pane[None]):
     ----------
     scenes
         The store of the scene.
-    photos
-        Opens the photo of a step.
-    pane
-        Shows the lessons.
+    board
+        The match of a photo.
     controls
         The controls, of which a step marks one.
     preferences
@@ -42,16 +40,16 @@ class LessonPane(Pane[None]):
     def __init__(
         self,
         scenes: SceneStore,
-        photos: PhotoController,
-        pane: LessonView,
+        board: Board,
         controls: ControlPanel,
         preferences: Preferences,
     ) -> None:
+        self.view = pane = LessonView()
         super().__init__(pane)
-        self.view = pane
         self.answers = LessonAnswers()
-        self.controller = LessonController(scenes, photos, pane, self.answers)
+        self.controller = LessonController(scenes.store, board, pane, self.answers)
         self.reports = LessonReports(pane, preferences)
+        self.tasks = (self.answers.runner, self.reports.runner)
         self._end = pane.end
         self._end.author.setText(self.reports.author)
         self._end.author.editingFinished.connect(self._keep_author)
@@ -69,11 +67,6 @@ class LessonPane(Pane[None]):
         """Explain the step that is seen."""
         self.controller.set_seen(seen)
 
-    @property
-    def is_idle(self) -> bool:
-        """Whether all answers are checked and all reports written."""
-        return self.answers.runner.is_idle and self.reports.runner.is_idle
-
     def open_folder(self) -> None:
         """Open the folder of the user's own lessons, with one to begin with where it is empty."""
         try:
@@ -88,11 +81,6 @@ class LessonPane(Pane[None]):
         """Restore what the user was working on."""
         self.spotlight.end()
         self.controller.restore_user()
-
-    def stop(self) -> None:
-        """Stop all work in the background."""
-        self.answers.runner.stop()
-        self.reports.runner.stop()
 
     def _keep_author(self) -> None:
         self.reports.keep_author(self._end.author.text())

@@ -3,31 +3,37 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from occ_gui.core.workspace import Workspace
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
-from occ_gui.shell.results import Board
-from occ_gui.simulation.snapshot import Reading
+from occ_gui.shell.results import Board, Results
 
 if TYPE_CHECKING:
+    from occ_gui.photo.photo_part import PhotoPart
     from occ_gui.picture.image_view import ImageView
 
 
 def photo(
     scenes: SceneStore, photos: PhotoController, image: "Callable[[], ImageView]", board: Board
-) -> Feature[Reading | None]:
+) -> "Feature[PhotoPart]":
     """Declare the pane: a photo is shown with the picture, which ``image`` gives."""
 
-    def make() -> Pane[Reading | None]:
-        from occ_gui.photo.wiring import PhotoWiring
+    def make() -> "Pane[PhotoPart]":
+        from occ_gui.photo.pane import PhotoPane
 
-        return PhotoWiring(scenes, photos, image(), board)
+        return PhotoPane(scenes, photos, image(), board)
+
+    def part(workspace: Workspace, results: Results) -> "PhotoPart":
+        from occ_gui.photo.photo_part import PhotoPart  # with the pane, which asks for it
+
+        return PhotoPart.of(workspace, results)
 
     return Feature(
         name="photo",
         title="Photo",
         help="photos.md",
         make=make,
-        part=lambda _, results: results.reading,
+        part=part,
         goes_on_hidden=True,
     )

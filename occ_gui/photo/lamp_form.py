@@ -146,11 +146,14 @@ class LampForm(QWidget):
         with QSignalBlocker(self.by_hand):
             self.by_hand.setChecked(by_hand)
 
-    def show_searching(self, searching: bool) -> None:
-        """Show whether lamps are being searched."""
-        self.search.setEnabled(not searching)
-        if searching:
-            self.place.setText("Searching for lamps…")
+    def show_searching(self) -> None:
+        """Show that lamps are being searched."""
+        self.search.setEnabled(False)
+        self.place.setText("Searching for lamps…")
+
+    def show_searched(self) -> None:
+        """Show that no lamps are being searched any more."""
+        self.search.setEnabled(True)
 
     def _choose(self) -> None:
         rows = {item.row() for item in self.table.selectedItems()}

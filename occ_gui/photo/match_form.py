@@ -15,11 +15,11 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.photo.assumption import is_certain
-from occ_gui.photo.match_choice import KNOWN, MatchChoice
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
+from occ_gui.values.match_choice import KNOWN, MatchChoice
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -41,8 +41,11 @@ class MatchForm(QWidget):
     edited = Signal(str, object, int)
     """A known value was entered: name, value in SI units, and the number of the gesture."""
 
-    certain_changed = Signal(object)
-    """The known values that the user has confirmed for this photo, in SI units by name."""
+    chosen = Signal(object)
+    """Another choice was made: a MatchChoice."""
+
+    certain_chosen = Signal(str, object)
+    """A known value was confirmed for this photo, in SI units, or is only assumed: None."""
 
     cancelled = Signal()
     refused = Signal(str)
@@ -54,8 +57,9 @@ class MatchForm(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._scene: Scene | None = None
-        self._certain: dict[str, float] = {}
-        self._forgotten: dict[str, float] = {}
+        self._shown = MatchChoice()
+        self._certain: Mapping[str, float] = {}
+        self._forgotten: Mapping[str, float] = {}
         """The values that were confirmed of the photos before."""
         self.sent = KeyedComboBox(
             "What was sent",
@@ -95,6 +99,10 @@ class MatchForm(QWidget):
         self._lay_out()
         self.sent.chosen.connect(self._take_sent)
         self.estimate.chosen.connect(self._show_known)
+        for change in (
+            self.sent.chosen, self.estimate.chosen, self.square.edited, self.gamma.clicked,
+        ):  # fmt: skip
+            change.connect(self._tell)
         self.square.edited.connect(self._confirm_square)
         self._show_known()
 
@@ -138,6 +146,9 @@ class MatchForm(QWidget):
         self._set_certain(name, value)
         self.edited.emit(name, value, new_gesture())
 
+    def _tell(self) -> None:
+        self.chosen.emit(self._choice())
+
     def _take_sent(self, sent: str) -> None:
         self._show_known()
         if sent == "square":  # who chooses it says that its frequency is that of the lamp
@@ -157,20 +168,7 @@ class MatchForm(QWidget):
         self._set_certain(name, self.known[name].value() if certain else None)
 
     def _set_certain(self, name: str, value: float | None) -> None:
-        self._forgotten.pop(name, None)
-        if value is None:
-            self._certain.pop(name, None)
-        else:
-            self._certain[name] = value
-        self._show_known()
-        self.certain_changed.emit(dict(self._certain))
-
-    def forget_certain(self) -> None:
-        """Take no value as confirmed, and say so of those that were: another photo is open."""
-        self._forgotten |= self._certain
-        self._certain.clear()
-        self._show_known()
-        self.certain_changed.emit({})
+        self.certain_chosen.emit(name, value)
 
     def _make_run(self) -> None:
         self.start = QPushButton("&Match photo")
@@ -217,6 +215,9 @@ class MatchForm(QWidget):
         """Return the choices, including values that are typed but not yet entered."""
         for field in (self.square, *self.known.values()):
             field.take_typed()
+        return self._choice()
+
+    def _choice(self) -> MatchChoice:
         return MatchChoice(
             sent=self.sent.key(),
             square_frequency=self.square.value(),
@@ -229,15 +230,18 @@ class MatchForm(QWidget):
         """The known values that the user has confirmed, in SI units by name."""
         return dict(self._certain)
 
-    def show_choice(self, choice: MatchChoice, certain: Mapping[str, float]) -> None:
-        """Show the choices that belong to a photo, and which known values are confirmed."""
-        self.sent.show_key(choice.sent)
-        self.square.set_value(choice.square_frequency)
-        self.estimate.show_key(choice.estimate)
-        self.gamma.setChecked(choice.fit_gamma)
-        self._certain, self._forgotten = dict(certain), {}
+    def show_choice(
+        self, choice: MatchChoice, certain: Mapping[str, float], forgotten: Mapping[str, float]
+    ) -> None:
+        """Show the choices, which known values are confirmed, and which were of other photos."""
+        if choice != self._shown:  # what was typed since and is not entered stays
+            self._shown = choice
+            self.sent.show_key(choice.sent)
+            self.square.set_value(choice.square_frequency)
+            self.estimate.show_key(choice.estimate)
+            self.gamma.setChecked(choice.fit_gamma)
+        self._certain, self._forgotten = certain, forgotten
         self._show_known()
-        self.certain_changed.emit(dict(certain))
 
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene."""

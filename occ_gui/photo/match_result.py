@@ -38,8 +38,7 @@ class MatchResult(QWidget):
         self._cure: Cure | None = None
         self._noted: float | None = None
         self._scene: Scene | None = None
-        self.given = math.nan
-        """The known value of the scene when the match was made, in SI units."""
+        self._given = math.nan
         self._certain: Mapping[str, float] = {}
         self.verdict, self.figures = VerdictView(), MatchValues()
         self.paste = PasteLines()
@@ -95,18 +94,20 @@ class MatchResult(QWidget):
         """The labels of the figures, by name."""
         return self.figures.labels
 
-    def show_match(self, match: Match, noted: float | None, *, turned: bool = False) -> None:
+    def show_match(
+        self, match: Match, noted: float | None, given: float = math.nan, *, turned: bool = False
+    ) -> None:
         """Show a match.
 
         Parameters
         ----------
         noted
             The exposure time in seconds that the camera noted, if it did.
+        given
+            The known value of the scene when the match was asked for, in SI units.
         """
         self._match, self._noted, self._turned = match, noted, turned
-        self._cure = None
-        if self._scene is not None:
-            self.given = float(self._scene.value(known_of(match)))
+        self._cure, self._given = None, given
         self._show_stale()
         self.verdict.show_verdict(match.verdict, match.all_reasons)
         self._show_figures(match)
@@ -168,11 +169,6 @@ class MatchResult(QWidget):
         for button in (self.apply, self.save, self.without_bars):
             button.setEnabled(usable)
 
-    def show_given(self, given: float) -> None:
-        """Show a match again that was made while the scene's known value was this."""
-        self.given = given
-        self._show_stale()
-
     def show_scene(self, scene: Scene) -> None:
         """Show whether the match was made with the known value of this scene."""
         self._scene = scene
@@ -189,4 +185,4 @@ class MatchResult(QWidget):
             f"Found with {declared.format(then)}; the scene has {declared.format(now)} "
             "now: match again."
         )
-        self.stale.setVisible(is_stale(name, then, self.given, now, self._certain))
+        self.stale.setVisible(is_stale(name, then, self._given, now, self._certain))

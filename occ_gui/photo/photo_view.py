@@ -1,7 +1,6 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -21,7 +20,9 @@ from occ_gui.photo.photo_facts import PhotoFacts
 from occ_gui.photo.photo_steps import EARLIER, PhotoSteps
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
-from occ_gui.picture.placement import Placement
+from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.photo_results import FoundMatch
+from occ_gui.values.placement import Placement
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
@@ -68,15 +69,8 @@ class PhotoView(QWidget):
         layout.addWidget(self.steps)
         layout.addWidget(self._pages)
         self.result.hide()
-        self._noted: float | None = None
-        self._turned = False
-        self._path: Path | None = None
-        self.form.certain_changed.connect(self.result.show_certain)
-        self.form.certain_changed.connect(self.many.show_certain)
-        self.form.certain_changed.connect(self.verdict.show_certain)
-        self._has_photo = False
+        self._photo: Photo | None = None
         self.many.files_shown.connect(self._show_page)
-        self.many.files_shown.connect(self._forget_certain)
         self.many.rows_changed.connect(self._show_row)
         for form in (self.form, self.placement):
             form.refused.connect(self.refused)
@@ -119,40 +113,37 @@ class PhotoView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
-        self._has_photo, self._match, self._is_outdated = photo is not None, None, False
+        self._photo, self._match, self._is_outdated = photo, None, False
         self.verdict.show_photo(photo)
         self._show_page()
         self._show_steps()
-        self._noted = None if photo is None else photo.exposure_time
-        self._turned = photo is not None and photo.turned
-        path = None if photo is None else photo.path
-        before, self._path = self._path, path
-        listed = self.many.rows.paths
-        if path != before and not (path in listed and before in (None, *listed)):
-            # Not the same photo, read in another way, nor another one of the table.
-            self.form.forget_certain()
+        self.many.rows.show_open(None if photo is None else photo.path)
         self._show_row()
         if photo is not None:
             self.facts.show_photo(photo)
 
-    def _forget_certain(self) -> None:
-        if self.many.rows.paths:
-            self.form.forget_certain()
+    def show_choice(self, choice: PhotoChoice) -> None:
+        """Show how photos are read, and what is known of this one."""
+        self.facts.show_reading(choice.reading.channel, choice.reading.scan_axis)
+        self.form.show_choice(choice.form, choice.certain, choice.forgotten)
+        for part in (self.result, self.many, self.verdict):
+            part.show_certain(choice.certain)
 
     def _show_row(self) -> None:
         """Show in the verdict what the table has found in the open photo."""
-        self.verdict.show_row(None if self._path is None else self.many.rows.row_of(self._path))
+        photo = self._photo
+        self.verdict.show_row(None if photo is None else self.many.rows.row_of(photo.path))
 
     @property
     def has_photo(self) -> bool:
         """Whether a photo is open."""
-        return self._has_photo
+        return self._photo is not None
 
     def _show_page(self) -> None:
         """Show the forms where there is a photo or a table of several, else the invitation."""
-        self._pages.setCurrentIndex(1 if self._has_photo or self.many.rows.paths else 0)
+        self._pages.setCurrentIndex(1 if self.has_photo or self.many.rows.paths else 0)
         for part in (self.facts, self.form.start, self.placement):
-            part.setVisible(self._has_photo)
+            part.setVisible(self.has_photo)
 
     def show_scene(self, scene: Scene) -> None:
         """Show the known values of this scene."""
@@ -169,7 +160,7 @@ class PhotoView(QWidget):
         )
         self.verdict.show_applied(is_applied)
         worth = "" if match is None else EARLIER if self._is_outdated else match.verdict
-        self.steps.show_state(has_photo=self._has_photo, match=worth, is_applied=is_applied)
+        self.steps.show_state(has_photo=self.has_photo, match=worth, is_applied=is_applied)
 
     def _go_to_step(self, step: str) -> None:
         """Open a photo, match it, apply the match, or show where what was sent is chosen."""
@@ -196,24 +187,30 @@ class PhotoView(QWidget):
         """Show the fraction of the work that is done, from 0 to 1."""
         self.form.show_progress(share)
 
-    def show_match(self, match: Match | None) -> None:
-        """Show this match in place of the previous one, or that there is none."""
+    def show_match_ended(self) -> None:
+        """Show that no match is running; the previous one stays."""
         self.form.show_running(False)
+        self.verdict.show_ended()
+
+    def show_match(self, found: FoundMatch | None, cure: Cure | None = None) -> None:
+        """Show this match, and what takes its bars away, or that there is none."""
+        match = None if found is None else found.match
         self.result.setVisible(match is not None)
         self._match, self._is_outdated = match, False
         self.verdict.show_match(match)
         self._show_steps()
-        if match is not None:
-            self.result.show_match(match, self._noted, turned=self._turned)
-            self._bring_into_view(self.result)
-
-    def show_cure(self, cure: Cure) -> None:
-        """Show what takes the bars out of the match's picture."""
+        if found is None or match is None or cure is None or self._photo is None:
+            return
+        bar = self._scroll.verticalScrollBar()
+        place, photo = bar.value(), self._photo
+        self.result.show_match(match, photo.exposure_time, found.given, turned=photo.turned)
         self.result.show_cure(cure)
+        self._bring_into_view(self.result)
+        if found.is_listed:  # the table stays at hand
+            bar.setValue(place)
 
     def show_match_refused(self, reasons: Sequence[str]) -> None:
         """Show the reasons why no match was found, or none; the previous match stays."""
-        self.form.show_running(False)
         self.verdict.show_ended(reasons)
 
     def show_match_outdated(self, why: str, usable: bool) -> None:
@@ -225,20 +222,7 @@ class PhotoView(QWidget):
 
     def show_match_failed(self, sentence: str) -> None:
         """Show why the match failed; the previous one stays."""
-        self.form.show_running(False)
         self.verdict.show_ended([sentence])
-
-    def show_match_cancelled(self) -> None:
-        """Show that the match was cancelled; the previous one stays."""
-        self.form.show_running(False)
-        self.verdict.show_ended()
-
-    def keep_in_view(self, show: Callable[[], None]) -> None:
-        """Show something, and leave the page where it is: the table stays at hand."""
-        bar = self._scroll.verticalScrollBar()
-        place = bar.value()
-        show()
-        bar.setValue(place)
 
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, after the page has been laid out again."""

@@ -10,10 +10,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.picture.placement import LARGEST_SCALE, LEAST_SCALE, Placement
 from occ_gui.scene.decimal_edit import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
+from occ_gui.values.placement import LARGEST_SCALE, LEAST_SCALE, Placement
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.units import NONE, PIXEL

@@ -5,9 +5,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from occ_gui.core.store import Store
-from occ_gui.picture.placement import MODES
 from occ_gui.shell.figures import Draw, Figure, NothingToDraw
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.placement import MODES
 
 if TYPE_CHECKING:
     from occ_gui.picture.image_view import ImageView
@@ -72,7 +72,7 @@ def _with_photo(view: "ImageView", opened: "Photo", shown: Snapshot, mode: str, 
     def draw() -> "Drawing":
         from occ_gui.picture.difference_image import difference_cells
         from occ_gui.picture.photo_overlay import rect_of
-        from occ_gui.picture.placement import Placement
+        from occ_gui.values.placement import Placement
         from occ_model.figures.overlay import Difference, PhotoLayer
         from occ_model.figures.window_panes import MOST_CELLS, picture_drawing
 

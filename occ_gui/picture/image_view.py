@@ -15,9 +15,9 @@ from PySide6.QtWidgets import (
 from occ_gui.picture.before_wipe import BeforeWipe
 from occ_gui.picture.photo_overlay import PhotoOverlay
 from occ_gui.picture.picture_pane import PicturePane
-from occ_gui.picture.placement import MODES, Placement
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.placement import MODES, Placement
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame

@@ -5,10 +5,10 @@ from typing import TypeAlias
 
 from occ_gui.core.store import Store
 from occ_gui.picture.image_view import ImageView
-from occ_gui.picture.placement import MODES
 from occ_gui.shell.feature import Pane
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.placement import MODES
 from occ_model.results.frame import PICTURES
 
 PicturePart: TypeAlias = tuple[

@@ -6,8 +6,8 @@ from typing import TypeAlias
 from occ_gui.core.store import Store
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.shell.feature import Pane
-from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.photo_results import PhotoProfile
 from occ_model.results.match import ChipReading
 
 ProfilePart: TypeAlias = tuple[

@@ -18,9 +18,9 @@ from PySide6.QtWidgets import (
 
 from occ_gui.profile.chip_strip import ChipStrip
 from occ_gui.profile.residual_plot import ResidualPlot
-from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.pens import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin

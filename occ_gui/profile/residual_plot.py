@@ -5,7 +5,7 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.shell.photo_profile import PhotoProfile
+from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.pens import PHOTO, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot

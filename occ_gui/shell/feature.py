@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QWidget
 
+from occ_gui.background.task import Task
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.figures import Figure
 from occ_gui.shell.results import Results
@@ -29,6 +30,9 @@ class Pane(QObject, Generic[Part]):
     of_pictures: tuple[QWidget, ...] = ()
     """What is marked while the picture, before it is decoded, is of an earlier scene."""
 
+    tasks: tuple[Task[Any, Any], ...] = ()
+    """The work that the pane waits for, and that ends with it."""
+
     def __init__(self, widget: QWidget) -> None:
         super().__init__()
         self.widget = widget
@@ -42,7 +46,7 @@ class Pane(QObject, Generic[Part]):
     @property
     def is_idle(self) -> bool:
         """Whether nothing is at work."""
-        return True
+        return all(task.is_idle for task in self.tasks)
 
     @property
     def is_measured(self) -> bool:
@@ -51,6 +55,8 @@ class Pane(QObject, Generic[Part]):
 
     def stop(self) -> None:
         """End all work; nothing is shown any more."""
+        for task in self.tasks:
+            task.stop()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,14 +1,27 @@
 """Results: what has been computed for the workspace, as one value that all panes read."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.shell.photo_profile import PhotoProfile
+from occ_gui.core.store import Selection
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.photo_results import (
+    FoundMatch,
+    ListedRows,
+    OpenPhoto,
+    PhotoProfile,
+    StripeSearch,
+)
+from occ_model.photo.reading.load import Photo
+from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading
 from occ_model.results.plan import Decision
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -30,11 +43,31 @@ class Results:
     switched: tuple[Decision, ...] = ()
     """The effects that the plan has just switched in or out."""
 
+    opened: OpenPhoto | None = None
+    """The photo that was read last; another one may be on its way."""
+
+    lamps: tuple[Lamp, ...] = ()
+    """The lamps that were found in it."""
+
+    stripes: StripeSearch | None = None
+    """Its stripes, or those of the part that is matched."""
+
+    chips: ChipReading | None = None
+    """The chips in them."""
+
+    match: FoundMatch | None = None
+    """What the match that was asked for last has come to."""
+
+    listed: ListedRows | None = None
+    """What was found in the photos of the table."""
+
     photo_profile: PhotoProfile | None = None
     """The profile of the open photo, beside the simulated one."""
 
-    chips: ChipReading | None = None
-    """The chips of the open photo."""
+    @property
+    def photo(self) -> Photo | None:
+        """The photo that is shown."""
+        return None if self.opened is None else self.opened.photo
 
 
 class Board(QObject):
@@ -43,17 +76,23 @@ class Board(QObject):
     changed = Signal()
     """There are others."""
 
-    photo_profile_changed = Signal()
-    """There is another profile of a photo, or none any more."""
-
     def __init__(self) -> None:
         super().__init__()
         self.results = Results()
+        self._selections: list[Selection[Any]] = []
+
+    def select(self, of: Callable[[Results], T]) -> Selection[T]:
+        """Look at a part of the results from now on, after the panes have."""
+        selection = Selection(of, self.results)
+        self._selections.append(selection)
+        return selection
 
     def put(self, results: Results) -> None:
         """Put these in place of the last ones."""
         self.results = results
         self.changed.emit()
+        for selection in self._selections:
+            selection.look(self.results)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Put an exact picture in place of the last one."""
@@ -74,12 +113,3 @@ class Board(QObject):
     def show_switched(self, switched: tuple[Decision, ...]) -> None:
         """Put what the plan has just switched in place of what it switched before."""
         self.put(replace(self.results, switched=switched))
-
-    def show_photo_profile(self, profile: PhotoProfile | None) -> None:
-        """Put the profile of a photo in place of the last one, or none."""
-        self.put(replace(self.results, photo_profile=profile))
-        self.photo_profile_changed.emit()
-
-    def show_chips(self, chips: ChipReading | None) -> None:
-        """Put the chips of a photo in place of the last ones, or none."""
-        self.put(replace(self.results, chips=chips))

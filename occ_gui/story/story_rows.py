@@ -4,7 +4,6 @@ import numpy as np
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
-from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.band_drift import drift_of, what_is_compared, why_it_drifts
 from occ_gui.simulation.preview import Picture, PictureView
 from occ_gui.simulation.snapshot import ColumnView
@@ -21,6 +20,7 @@ from occ_gui.story.profile_row import ProfileRow
 from occ_gui.story.scales import ColumnScale, TimeScale
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.story.text_room import gutter_of
+from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results.decoding import DecodeResult

@@ -14,11 +14,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.story.story_rows import RANGES, StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
+from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.first_periods import first_periods
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox

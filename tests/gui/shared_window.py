@@ -3,7 +3,7 @@
 import gc
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from PySide6.QtCore import QEvent, QSize
@@ -31,10 +31,9 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS
-from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.photo_controller import PhotoReading
-from occ_gui.picture.placement import MODES as OVERLAYS
-from occ_gui.picture.placement import Placement
+from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.placement import MODES as OVERLAYS
 from occ_gui.window.modes.mode import MODES
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
@@ -97,14 +96,11 @@ def state_of(application: Application) -> list[object]:
     """Give what a test could have changed in a window beside its widgets."""
     window = application.window
     return [
-        application.store.scene,
+        application.store.store.workspace,
         application.store.undo_stack.count(),
-        application.settings.settings,
-        application.photos.reading,
-        application.shell.pane("photo").matching.photo,
-        application.shell.pane("photo").placements.placement,
+        application.board.results.photo,
+        application.shell.pane("photo").placement,
         application.view("photo").form.choice(),
-        application.view("photo").form.certain_values,
         application.preferences.files,
         application.video.path,
         (application.pins.pinned.a, application.pins.pinned.b),
@@ -232,20 +228,14 @@ class SharedWindow:
         window, mode, home = kept.window, next(iter(MODES)), self._home
         assert home is not None
         forget_lessons(kept)
-        kept.photos.close()
-        kept.photos.scan_along(PhotoReading().scan_axis)
-        kept.shell.pane("photo").placements.reset()
-        kept.shell.pane("photo").placements.suggest(Placement())
         kept.video.close()
         kept.pins.clear()
         kept.preferences.clear()
-        kept.store.put(scene, "first scene", force={})
-        kept.settings.restore(FIRST_SETTINGS)
+        first = replace(kept.store.store.workspace, scene=scene, settings=FIRST_SETTINGS)
+        kept.store.store.put(replace(first, photo=PhotoChoice()), "first scene")
         kept.store.undo_stack.clear()
         kept.desktop.document.path = None
         kept.desktop.document.show_photo(None)  # writes the title
-        kept.shell.pane("photo").many.show_files(())
-        kept._show_listed()
         if kept.desktop.theme.theme != THEMES[0]:
             kept.desktop.theme.choose(THEMES[0])
         is_moved = window.size() != home.size or bool(window.modes.layouts)
@@ -256,7 +246,8 @@ class SharedWindow:
             window.modes.layouts.clear()
         elif is_moved or home.docks != Home.of(kept).docks:
             window.modes.reset()
-        kept.view("photo").form.show_choice(home.choice, {})
+        kept.view("photo").form._shown = None
+        kept.view("photo").form.show_choice(home.choice, {}, {})
         kept.story.show_whole_picture(False)
         kept.view("picture").before.chosen.setChecked(False)
         for pages in kept.controls.findChildren(QTabWidget):

@@ -22,9 +22,9 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
-from occ_gui.picture.placement import MODES
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.story.column_axis import Crosshair
+from occ_gui.values.placement import MODES
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES

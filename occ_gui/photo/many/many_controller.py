@@ -6,14 +6,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 
 from occ_gui.background.task import Report, Task
+from occ_gui.photo.known_scene import known_scene
 from occ_gui.photo.many.many_view import ManyPhotosView
-from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.match_request import known_scene
-from occ_gui.photo.photo_controller import PhotoReading
+from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.results import Board
+from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.photo_results import ListedRows
 from occ_model.errors import OccError
 from occ_model.results.photo_table import PhotoRow, PhotoTable, known_beside
 
@@ -67,26 +69,32 @@ class ManyPhotosController(QObject):
     ----------
     scenes
         The scene with the known values.
+    photos
+        Which photos are listed, and how they are read.
     view
         The table.
+    board
+        Takes what is found in them.
     jobs
         Number of processes; by default one for each core.
     """
 
-    matched = Signal(object)
-    """The complete table: a PhotoTable."""
-
-    def __init__(self, scenes: SceneStore, view: ManyPhotosView, jobs: int | None = None) -> None:
+    def __init__(
+        self,
+        scenes: SceneStore,
+        photos: PhotoController,
+        view: ManyPhotosView,
+        board: Board,
+        jobs: int | None = None,
+    ) -> None:
         super().__init__()
-        self._scenes = scenes
+        self._scenes, self._photos, self._board = scenes, photos, board
         self._view = view
         self._jobs = jobs
-        self._paths: tuple[Path, ...] = ()
-        self._done = 0
         self._settings: MatchSettings | None = None
+        self._found: dict[int, PhotoRow] = {}
+        self._done = 0
         self.table: PhotoTable | None = None
-        self.reading: PhotoReading | None = None
-        """How the photos of the table were read; None before they are matched."""
         self.runner: Task[ManyRequest, PhotoTable] = Task(
             match_all, "match of several photos", impatient=True
         )
@@ -98,17 +106,24 @@ class ManyPhotosController(QObject):
         view.rows.known_given.connect(self._match_again)
 
     def _close(self) -> None:
-        self.show_files(())
+        self.choose_files(())
 
-    def show_files(self, paths: Sequence[Path]) -> None:
-        """Show these files in place of the previous ones."""
+    def choose_files(self, paths: Sequence[Path]) -> None:
+        """List these photos in place of the previous ones; nothing is certain of them yet."""
+        listed = tuple(paths)
+        self._photos.edit(lambda each: replace(each.uncertain() if listed else each, listed=listed))
+
+    def show_files(self, paths: tuple[Path, ...]) -> None:
+        """Show the photos that are listed now."""
         self.runner.cancel()
-        self._paths, self.table = tuple(paths), None
-        self._view.show_files(self._paths)
+        self._found, self.table = {}, None
+        self._board.put(replace(self._board.results, listed=None))
+        self._view.show_files(paths)
 
-    def start(self, choice: MatchChoice, reading: PhotoReading) -> None:
+    def start(self, choice: MatchChoice) -> None:
         """Match all photos with the current scene."""
-        if not self._paths:
+        paths, reading = self._photos.choice.listed, self._photos.choice.reading
+        if not paths:
             return
         try:
             scene, sent = known_scene(self._scenes.scene, choice)
@@ -117,19 +132,21 @@ class ManyPhotosController(QObject):
             return
         from occ_model.photo.many.row import MatchSettings
 
-        settings = MatchSettings(
+        known = known_beside(choice.estimate)
+        settings = self._settings = MatchSettings(
             scene,
             choice.estimate,
             sent,
             fit_gamma=choice.fit_gamma,
             scan_axis=reading.scan_axis,
             channel=reading.channel,
-            known=self._view.rows.given(known_beside(choice.estimate)),
+            known=self._view.rows.given(known),
         )
-        self._settings = settings
-        self._done, self.table, self.reading = 0, None, reading
+        self._found, self._done, self.table = {}, 0, None
+        self._listed = ListedRows((), reading, float(self._scenes.scene.value(known)))
+        self._tell()
         self._view.show_begun(choice.estimate, scene)
-        self.runner.ask(ManyRequest(self._paths, settings, self._jobs))
+        self.runner.ask(ManyRequest(paths, settings, self._jobs))
 
     def _match_again(self, place: int) -> None:
         """Match the photo whose known value was given; before all are matched, only with them."""
@@ -140,7 +157,8 @@ class ManyPhotosController(QObject):
         self._settings = settings = replace(settings, known=known)
         self._done, self.table = len(table.rows) - 1, None
         self._view.show_busy(settings.estimate, settings.scene)
-        self.runner.ask(ManyRequest(self._paths, settings, self._jobs, table.rows, place))
+        paths = self._photos.choice.listed
+        self.runner.ask(ManyRequest(paths, settings, self._jobs, table.rows, place))
 
     def cancel(self) -> None:
         """Cancel the work; the rows that are done stay."""
@@ -148,16 +166,20 @@ class ManyPhotosController(QObject):
             self.runner.cancel()
             self._view.show_ended()
 
-    def stop(self) -> None:
-        """Stop the work, and end its thread."""
-        self.runner.stop()
-
     def _take_row(self, found: tuple[int, PhotoRow] | None) -> None:
         if found is not None:
+            place, row = found
+            self._found[place] = row
             self._done += 1
-            self._view.show_row(*found, self._done)
+            self._view.show_row(place, row, self._done)
 
     def _take(self, table: PhotoTable) -> None:
         self.table = table
+        self._found = dict(enumerate(table.rows))
         self._view.show_table(table)
-        self.matched.emit(table)
+        self._tell()
+
+    def _tell(self) -> None:
+        """Put what was found so far among the results."""
+        listed = replace(self._listed, rows=tuple(self._found.values()))
+        self._board.put(replace(self._board.results, listed=listed))

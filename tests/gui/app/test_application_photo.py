@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
-from occ_gui.picture.placement import Placement
+from occ_gui.values.placement import Placement
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
@@ -106,11 +106,11 @@ def test_a_match_finds_the_readout_time_and_one_step_applies_it(
 def test_an_applied_match_lies_on_the_photo_pixel_by_pixel(
     matched: Application, user: User
 ) -> None:
-    corner = matched.shell.pane("photo").placements.placement
+    corner = matched.shell.pane("photo").placement
     assert corner != Placement()
     matched.view("photo").result.apply.click()
     user.wait_until_idle()
-    assert matched.shell.pane("photo").placements.placement == Placement()
+    assert matched.shell.pane("photo").placement == Placement()
     found = matched.shell.pane("photo").matching.match
     assert found is not None
     columns, levels = matched.view("profile").photo.getOriginalDataset()
@@ -118,7 +118,7 @@ def test_an_applied_match_lies_on_the_photo_pixel_by_pixel(
     simulated = matched.view("profile").simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
-    assert matched.shell.pane("photo").placements.placement == corner
+    assert matched.shell.pane("photo").placement == corner
 
 
 def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> None:
@@ -132,19 +132,19 @@ def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> Non
 def test_moving_the_photo_moves_it_in_every_pane_until_reset(
     matched: Application, user: User
 ) -> None:
-    before = matched.shell.pane("photo").placements.placement
+    before = matched.shell.pane("photo").placement
     matched.view("photo").placement.by_mouse.click()
     assert matched.view("picture").mode.key() == "blend"
     assert matched.view("picture").overlay.frame.isVisible()
     matched.view("picture").overlay.frame.setPos((199.5, 49.5))
-    assert matched.shell.pane("photo").placements.placement == Placement(200.0, 50.0)
+    assert matched.shell.pane("photo").placement == Placement(200.0, 50.0)
     assert matched.view("photo").placement.column.value() == 200.0
     columns, _ = matched.view("profile").photo.getOriginalDataset()
     found = matched.shell.pane("photo").matching.match
     assert found is not None
     assert columns[0] == 200 + found.region.first_column
     matched.view("photo").placement.reset.click()
-    assert matched.shell.pane("photo").placements.placement == before
+    assert matched.shell.pane("photo").placement == before
 
 
 def test_a_photo_without_stripes_gives_a_sentence_everywhere(
@@ -204,14 +204,14 @@ def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
 ) -> None:
     application.open_photo(photos / "led_1khz_frame.png")
     user.wait_until_idle()
-    assert application.photos.reading.scan_axis == "auto"
+    assert application.photos.choice.reading.scan_axis == "auto"
     application.view("photo").form.sent.show_key("square")
     user.choose("&Match photo")
     found = application.shell.pane("photo").matching.match
     assert found is not None
     assert found.readout_time == pytest.approx(14.565e-6, rel=3e-3)
     user.choose("&Apply to the scene")
-    assert application.shell.pane("photo").placements.placement == Placement()
+    assert application.shell.pane("photo").placement == Placement()
     told = application.view("profile").residual.numbers.toolTip()
     assert float(told.split("correlation ")[1].split()[0]) >= 0.99
 

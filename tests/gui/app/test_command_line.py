@@ -12,7 +12,7 @@ from PIL import Image
 
 from occ_gui.app.command_line import OVERLAYS, main
 from occ_gui.app.system_libraries import missing_libraries
-from occ_gui.picture.placement import MODES
+from occ_gui.values.placement import MODES
 
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 
@@ -27,7 +27,7 @@ NOISE = (0xCC, 0x79, 0xA7)
 COLD_START = """
 import sys
 from occ_gui.app.command_line import OVERLAYS, main
-from occ_gui.picture.placement import MODES
+from occ_gui.values.placement import MODES
 code = main(["--screenshot", sys.argv[1]])
 heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
          "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",

@@ -19,7 +19,7 @@ from occ_gui.detection_map.map_controller import MapRequest
 from occ_gui.detection_map.map_schedule import SHAPE
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.export import jobs
-from occ_gui.picture.placement import MODES
+from occ_gui.values.placement import MODES
 from occ_model.figures import drawing
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.sweep_request import SweepPoint

@@ -442,6 +442,7 @@ def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choice
     application.open_photo(sample)
     user.wait_until_idle()
     application.view("photo").form.sent.show_key("square")
+    application.view("photo").form.sent.chosen.emit("square")
     sheet.click()
     for _ in range(2):
         guide.step.next.click()

@@ -16,7 +16,7 @@ from occ_gui.app.command_line import PANES
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session, UserState
+from occ_gui.files.session_record import Session
 from occ_gui.lessons import lesson_controller
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.window.main_window import MainWindow
@@ -34,6 +34,13 @@ def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
     guide = application.shell.pane("lessons").view
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
     return guide
+
+
+def choose_sent(application: Application, sent: str) -> None:
+    """Choose what was sent, as with the mouse."""
+    chosen = application.view("photo").form.sent
+    chosen.show_key(sent)
+    chosen.chosen.emit(sent)
 
 
 def in_front(application: Application, name: str) -> bool:
@@ -165,7 +172,7 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
-    application.view("photo").form.sent.show_key("read")
+    choose_sent(application, "read")
     application.window.bring_to_front("lessons")
     guide.list.choices[1].click()
     user.wait_until_idle()
@@ -214,13 +221,13 @@ def test_a_step_about_a_photo_shows_its_verdict_first_and_takes_its_frequency_as
     application: Application, guide: LessonView, user: User
 ) -> None:
     story, photo = application.story, application.view("photo")
-    photo.form.sent.show_key("square")  # of the user's own photo before
+    choose_sent(application, "square")  # of the user's own photo before
     guide.list.choices[5].click()
     for frequency in (2e3, 6e3):
         user.wait_until_idle()
         assert photo.form.sent.key() == "auto"
         assert photo.form.certain.isChecked()
-        assert photo.form.certain_values == {"switching_frequency": frequency}
+        assert application.photos.choice.certain == {"switching_frequency": frequency}
         assert photo.verdict.isVisible()
         assert not story.verdict.isVisible()
         guide.step.next.click()
@@ -326,10 +333,10 @@ def test_the_users_photo_returns_after_a_lesson(
     user.wait_until_idle()
     guide.list.choices[5].click()
     user.wait_until_idle()
-    assert application.desktop._photo != photo_file
+    assert application.photos.path != photo_file
     guide.step.all.click()
     user.wait_until_idle()
-    assert application.desktop._photo == photo_file
+    assert application.photos.path == photo_file
 
 
 @pytest.mark.whole
@@ -339,9 +346,8 @@ def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that
     photo, sample = application.view("photo"), sample_photos()[0]
     application.open_photo(sample)
     user.wait_until_idle()
-    photo.form.sent.show_key("square")
-    photo.form.sent.chosen.emit("square")
-    application.shell.pane("photo").lamps.draw(Region(100, 800, 0, 900))
+    choose_sent(application, "square")
+    application.shell.pane("photo").parts.draw(Region(100, 800, 0, 900))
     user.choose("&Match photo")
 
     def state() -> tuple[object, ...]:
@@ -349,8 +355,8 @@ def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that
         title = photo.verdict.heading
         return (
             application.shell.pane("photo").matching.match, photo.form.choice(),
-            photo.form.certain_values, photo.form.certain.isChecked(),
-            application.shell.pane("photo").lamps.region, shown, title, photo.result.isHidden(),
+            application.photos.choice.certain, photo.form.certain.isChecked(),
+            application.shell.pane("photo").parts.part, shown, title, photo.result.isHidden(),
             photo.result.stale.isHidden(), application.photos.path,
         )  # fmt: skip
 
@@ -364,7 +370,7 @@ def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that
     guide.step.next.click()
     user.wait_until_idle()
     assert application.photos.path != sample
-    photo.form.sent.show_key("read")
+    choose_sent(application, "read")
     guide.step.all.click()
     user.wait_until_idle()
     assert state() == before
@@ -411,7 +417,7 @@ def test_a_photo_opened_during_a_lesson_stays_open(
     user.wait_until_idle()
     guide.step.all.click()
     user.wait_until_idle()
-    assert application.desktop._photo == photo_file
+    assert application.photos.path == photo_file
 
 
 def test_a_crash_during_a_lesson_leaves_the_users_own_state(
@@ -427,17 +433,17 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     application.settings.set_tolerance(7.0)
     application.open_photo(photo_file)
     user.wait_until_idle()
-    before = UserState(small_scene, application.settings.settings, photo_file)
+    before = application.store.store.workspace
     guide.list.choices[5].click()
     user.wait_until_idle()
     assert application.store.scene != before.scene
-    assert application.desktop._photo != before.photo
+    assert application.photos.path != photo_file
     autosave.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert record["in_use"]
     assert Scene.from_toml(record["scene"]) == before.scene
     assert record["settings"] == asdict(before.settings)
-    assert record["photo"] == str(before.photo)
+    assert record["photo"] == str(photo_file)
     guide.step.all.click()
     user.wait_until_idle()
     application.store.change(distance=2.0)

@@ -1,6 +1,7 @@
 """A photo's pane and a match to show on it."""
 
 import pytest
+from gui.photo.photo_bench import LiveView
 from matches import match_with
 from pytestqt.qtbot import QtBot
 
@@ -11,7 +12,7 @@ from occ_model.results.match import Match
 
 @pytest.fixture
 def view(qtbot: QtBot) -> PhotoView:
-    view = PhotoView()
+    view = LiveView()
     qtbot.addWidget(view)
     view.resize(380, 500)
     view.show()

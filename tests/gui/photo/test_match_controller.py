@@ -1,7 +1,7 @@
 """A match: asked for in the user's words, cancelled, applied as one step, kept as a preset."""
 
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from datetime import date
 from pathlib import Path
@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.stores import store_of
+from gui.photo.photo_bench import PhotoBench
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo.match_choice import MatchChoice
 from occ_gui.photo.match_controller import MatchController
+from occ_gui.photo.part_edits import PartEdits
+from occ_gui.values.match_choice import MatchChoice
 from occ_model.errors import MatchError
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
-from occ_model.results.bands import Cure
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
 from occ_model.scene.presets import USER_FOLDER, preset_named, user_presets
@@ -43,22 +43,24 @@ def match_of(scene: Scene, **changes: Any) -> Match:
     )  # fmt: skip
 
 
-class Bench:
-    """A controller on a mock pane, and a model with a given answer."""
+class Bench(PhotoBench):
+    """A controller on a photo, and a model with a given answer."""
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, scene: Scene) -> None:
+        super().__init__(scene)
         self.events: list[object] = []
-        self.ages: list[str] = []
-        self.used: list[Match] = []
         self.failures: list[str] = []
         self.asked: list[dict[str, Any]] = []
         self.begun, self.go_on = threading.Event(), threading.Event()
         self.go_on.set()
         self.refusal: tuple[str, ...] = ()
         monkeypatch.setattr(occ, "match_photo", self._match)
-        self.store = store_of(scene)
-        self.controller = MatchController(self.store, self)
-        self.controller.matched.connect(self.used.append)
+        self.controller = MatchController(self.scenes, self.board)
+        self.parts = PartEdits(self.store, self.board)
+        work = self.controller.work
+        work.begun.connect(lambda: self.events.append("begun"))
+        work.task.reported.connect(self.events.append)
+        work.ended.connect(lambda: self.events.append("ended"))
         self.controller.failed.connect(self.failures.append)
         self._qtbot = qtbot
 
@@ -73,32 +75,14 @@ class Bench:
 
     def start(self, **choice: Any) -> None:
         self.controller.start(MatchChoice(**choice))
-        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.work.task.is_idle)
 
-    def show_match_begun(self) -> None:
-        self.events.append("begun")
-
-    def show_progress(self, share: float) -> None:
-        self.events.append(share)
-
-    def show_match(self, match: Match | None) -> None:
-        self.events.append(match)
-
-    def show_cure(self, cure: Cure) -> None:
-        self.cure = cure
-
-    def show_match_refused(self, reasons: Sequence[str]) -> None:
-        self.events.append(reasons)
-
-    def show_match_outdated(self, why: str, usable: bool) -> None:
-        assert usable or why
-        self.ages.append(why)
-
-    def show_match_failed(self, sentence: str) -> None:
-        self.events.append(sentence)
-
-    def show_match_cancelled(self) -> None:
-        self.events.append("cancelled")
+    @property
+    def age(self) -> str:
+        """Why the match is not the present one."""
+        why, is_usable = self.part.age
+        assert is_usable or why
+        return why
 
 
 @pytest.fixture
@@ -106,17 +90,16 @@ def bench(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, small_scene: Scene, photo: Photo
 ) -> Iterator[Bench]:
     bench = Bench(qtbot, monkeypatch, small_scene)
-    bench.controller.show_photo(photo)
-    bench.events.clear()
+    bench.show_photo(photo)
     yield bench
     bench.go_on.set()
-    bench.controller.stop()
+    bench.controller.work.task.stop()
 
 
 def test_a_match_is_announced_from_its_start_to_its_result(bench: Bench) -> None:
     bench.start()
-    assert bench.events == ["begun", 0.0, 0.5, bench.controller.match]
-    assert bench.used == [bench.controller.match]
+    assert bench.events == ["begun", 0.0, 0.5, "ended"]
+    assert bench.controller.match is not None
     assert bench.failures == []
 
 
@@ -147,7 +130,7 @@ def test_a_square_wave_that_cannot_be_is_refused_with_a_sentence(bench: Bench) -
     bench.start(sent="square", square_frequency=1e12)
     (sentence,) = bench.failures
     assert "switching_frequency" in sentence
-    assert bench.events == [sentence]
+    assert bench.asked == []
 
 
 def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> None:
@@ -156,51 +139,50 @@ def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> N
     bench.refusal = ("No scene explains these stripes.", "They do not repeat.")
     bench.start()
     assert bench.failures == ["No scene explains these stripes. They do not repeat."]
-    assert bench.events[-1] == bench.refusal
+    assert bench.part.refusal == bench.refusal
     assert bench.controller.match is found
-    assert "refused" in bench.ages[-1]
+    assert "refused" in bench.age
     bench.refusal = ()
     bench.start()
-    assert bench.ages[-1] == ""
+    assert bench.age == ""
+    assert bench.part.refusal == ()
 
 
 PARTS = (Region(0, 5, 0, 20), Region(0, 5, 20, 40))
 
 
 def test_a_match_of_another_region_is_marked_as_such(bench: Bench) -> None:
-    bench.controller.set_region(PARTS[0])
+    bench.parts.draw(PARTS[0])
     bench.start()
-    assert bench.ages[-1] == ""
-    bench.controller.set_region(PARTS[1])
-    assert "another part" in bench.ages[-1]
-    before = bench.store.scene
+    assert bench.asked[-1]["region"] == PARTS[0]
+    assert bench.age == ""
+    bench.parts.draw(PARTS[1])
+    assert "another part" in bench.age
+    before = bench.scenes.scene
     bench.controller.apply()
-    assert bench.store.scene == before
+    assert bench.scenes.scene == before
     assert "another part" in bench.failures[-1]
-    bench.controller.set_region(None)
-    assert "another part" in bench.ages[-1]
-    bench.controller.set_region(replace(PARTS[0]))
-    assert bench.ages[-1] == ""
+    bench.parts.match_whole()
+    assert "another part" in bench.age
+    bench.parts.draw(replace(PARTS[0]))
+    assert bench.age == ""
 
 
 def test_a_match_is_marked_while_another_photo_is_read(bench: Bench) -> None:
     bench.start()
-    bench.controller.show_reading(True)
-    assert "is being read" in bench.ages[-1]
-    bench.controller.show_reading(False)  # it could not be read
-    assert bench.ages[-1] == ""
+    shown = bench.choice
+    bench.choose(path=Path("other.png"))
+    assert "is being read" in bench.age
+    bench.store.put(replace(bench.store.workspace, photo=shown))  # it could not be read
+    assert bench.age == ""
 
 
-def test_another_region_ends_the_match_and_puts_a_refusal_away(bench: Bench) -> None:
+def test_a_refusal_is_of_the_part_that_was_matched(bench: Bench) -> None:
     bench.refusal = ("No scene explains these stripes.",)
     bench.start()
-    assert bench.events[-1] == bench.refusal
-    bench.go_on.clear()
-    bench.controller.start(MatchChoice())
-    bench.controller.set_region(PARTS[0])
-    bench.go_on.set()
-    assert bench.events[-2:] == ["cancelled", ()]
-    assert bench.controller.runner.is_idle
+    assert bench.part.refusal == bench.refusal
+    bench.parts.draw(PARTS[0])
+    assert bench.part.refusal == ()
 
 
 def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:
@@ -213,10 +195,12 @@ def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qt
     bench.controller.cancel()
     bench.go_on.set()
     qtbot.wait(20)
-    assert bench.events[-1] == "cancelled"
+    assert bench.events.count("ended") == 2
     assert bench.controller.match is found
+    assert bench.controller.work.task.is_idle
     bench.controller.cancel()
-    assert bench.events.count("cancelled") == 1
+    assert bench.events.count("ended") == 2
+    assert len(bench.asked) == 2
 
 
 def test_another_photo_ends_the_match_and_forgets_what_was_found(
@@ -225,17 +209,28 @@ def test_another_photo_ends_the_match_and_forgets_what_was_found(
     bench.start()
     bench.go_on.clear()
     bench.controller.start(MatchChoice())
-    bench.controller.show_photo(replace(photo))
-    assert bench.events[-2:] == ["cancelled", None]
+    bench.show_photo(replace(photo))
+    assert bench.events[-1] == "ended"
     bench.go_on.set()
     bench.controller.apply()
     assert bench.controller.match is None
-    assert bench.store.scene == small_scene
+    assert bench.scenes.scene == small_scene
+
+
+def test_a_match_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
+    """As at the end of a lesson."""
+    bench.start()
+    users, opened, found = bench.store.workspace, bench.board.results.opened, bench.part.found
+    bench.show_photo(replace(photo))
+    assert bench.controller.match is None
+    bench.store.put(users)
+    bench.board.put(replace(bench.board.results, opened=opened))
+    assert bench.part.found == found
+    assert len(bench.asked) == 1
 
 
 def test_without_a_photo_nothing_is_matched(bench: Bench) -> None:
-    bench.controller.show_photo(None)
-    bench.events.clear()
+    bench.show_photo(None)
     bench.start()
     assert bench.events == []
 
@@ -244,40 +239,40 @@ def test_applying_puts_what_was_found_into_the_scene_as_one_step(
     bench: Bench, small_scene: Scene
 ) -> None:
     bench.start(sent="square")
-    assert bench.store.scene == small_scene
+    assert bench.scenes.scene == small_scene
     bench.controller.apply()
     assert bench.controller.match is not None
-    assert bench.store.scene == bench.controller.match.scene
-    assert bench.store.undo_stack.count() == 1
-    assert "stripes.png" in bench.store.undo_stack.undoText()
-    bench.store.undo_stack.undo()
-    assert bench.store.scene == small_scene
+    assert bench.scenes.scene == bench.controller.match.scene
+    assert bench.scenes.undo_stack.count() == 1
+    assert "stripes.png" in bench.scenes.undo_stack.undoText()
+    bench.scenes.undo_stack.undo()
+    assert bench.scenes.scene == small_scene
 
 
 def test_what_the_camera_noted_goes_into_the_scene_as_one_step(
     bench: Bench, photo: Photo, small_scene: Scene
 ) -> None:
-    bench.controller.show_photo(replace(photo, exposure_time=1e-3, iso=800.0))
+    bench.show_photo(replace(photo, exposure_time=1e-3, iso=800.0))
     bench.controller.use_notes()
-    assert bench.store.scene == small_scene.replace(exposure_time=1e-3, iso=800.0)
-    assert bench.store.undo_stack.count() == 1
-    assert "stripes.png" in bench.store.undo_stack.undoText()
+    assert bench.scenes.scene == small_scene.replace(exposure_time=1e-3, iso=800.0)
+    assert bench.scenes.undo_stack.count() == 1
+    assert "stripes.png" in bench.scenes.undo_stack.undoText()
 
 
 def test_a_note_that_cannot_be_is_refused_with_a_sentence(
     bench: Bench, photo: Photo, small_scene: Scene
 ) -> None:
-    bench.controller.show_photo(replace(photo, iso=1e12, exposure_time=1e-3))
+    bench.show_photo(replace(photo, iso=1e12, exposure_time=1e-3))
     bench.controller.use_notes()
     (sentence,) = bench.failures
     assert sentence.startswith("iso is ")
-    assert bench.store.scene == small_scene
+    assert bench.scenes.scene == small_scene
 
 
 def test_a_photo_without_notes_changes_nothing(bench: Bench, small_scene: Scene) -> None:
     bench.controller.use_notes()
-    assert bench.store.scene == small_scene
-    assert bench.store.undo_stack.count() == 0
+    assert bench.scenes.scene == small_scene
+    assert bench.scenes.undo_stack.count() == 0
 
 
 @pytest.fixture
@@ -290,7 +285,7 @@ def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, o
     received: list[str] = []
     bench.controller.saved.connect(received.append)
     bench.start(sent="square", square_frequency=1000.0)
-    bench.controller.show_certain({"switching_frequency": 2000.0})
+    bench.choose(certain={"switching_frequency": 2000.0})
     bench.controller.save("my phone", "Measured from stripes.png", DAY)
     assert received == ["my phone"]
     assert (own / "my phone.toml").is_file()
@@ -311,7 +306,7 @@ def test_a_saved_match_records_the_inputs_it_was_made_with(bench: Bench, own: Pa
     bench.controller.save("mine", "", DAY)
     source = preset_named("mine").sources["readout_time"]
     assert "switching frequency assumed to be 10 kHz" in source
-    bench.controller.show_certain({"switching_frequency": 10e3})
+    bench.choose(certain={"switching_frequency": 10e3})
     bench.controller.save("sure", "", DAY)
     assert "switching frequency being 10 kHz" in preset_named("sure").sources["readout_time"]
 

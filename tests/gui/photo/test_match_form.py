@@ -5,19 +5,19 @@ from pathlib import Path
 
 import pytest
 from gui.combo_box import choose
+from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.photo_view import PhotoView
+from occ_gui.values.match_choice import MatchChoice
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 
-def test_every_option_of_the_models_match_can_be_chosen(view: PhotoView) -> None:
+def test_every_option_of_the_models_match_can_be_chosen(view: LiveView) -> None:
     sent = [view.form.sent.itemData(place) for place in range(view.form.sent.count())]
     estimates = [view.form.estimate.itemData(p) for p in range(view.form.estimate.count())]
     assert set(sent) == {*PATTERN_SOURCES, "square"}
@@ -25,9 +25,9 @@ def test_every_option_of_the_models_match_can_be_chosen(view: PhotoView) -> None
 
 
 def test_the_button_asks_for_a_match_as_it_is_chosen(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     asked: list[MatchChoice] = []
     view.form.asked.connect(asked.append)
     qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
@@ -41,18 +41,18 @@ def test_the_button_asks_for_a_match_as_it_is_chosen(
 
 
 def test_a_frequency_is_asked_for_only_with_a_square_wave(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     for key in ("scene", "square", "read", "auto"):
         choose(qtbot, view.form.sent, key)
         assert view.form.square.isVisible() == (key == "square")
 
 
 def test_what_is_known_beside_the_estimate_is_shown(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
@@ -67,21 +67,19 @@ def test_what_is_known_beside_the_estimate_is_shown(
 
 
 def test_who_chooses_a_square_wave_tells_its_frequency(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
-    told: list[dict[str, float]] = []
-    view.form.certain_changed.connect(told.append)
+    view.open(photo)
     assert not view.form.certain.isChecked()
     choose(qtbot, view.form.sent, "square")
     assert view.form.certain.isChecked()
-    assert told == [{"switching_frequency": 2e3}]
+    assert view.choice.certain == {"switching_frequency": 2e3}
 
 
 def test_what_is_known_can_be_entered_where_it_is_asked_for(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(occ.Scene())
     received: list[tuple[str, float]] = []
     view.form.edited.connect(lambda name, value, _: received.append((name, value)))
@@ -94,42 +92,42 @@ def test_what_is_known_can_be_entered_where_it_is_asked_for(
     assert received == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
 
 
-def test_a_match_of_outdated_inputs_is_marked(view: PhotoView, photo: Photo, match: Match) -> None:
-    view.show_photo(photo)
+def test_a_match_of_outdated_inputs_is_marked(view: LiveView, photo: Photo, match: Match) -> None:
+    view.open(photo)
     scene = occ.Scene().replace(switching_frequency=2e3)
     view.show_scene(scene)
-    view.show_match(match)
+    view.show_matched(match)
     for frequency, stale in ((2e3, False), (1e3, True), (2e3, False)):
         view.show_scene(scene.replace(switching_frequency=frequency, exposure_time=5e-5))
         assert view.result.stale.isVisible() == stale
     view.show_scene(scene.replace(switching_frequency=1e3))
     assert view.result.stale.text() == "Found with 2 kHz; the scene has 1 kHz now: match again."
     # Who is certain of the photo's frequency needs not the scene's.
-    view.form.certain_changed.emit({"switching_frequency": 2e3})
+    view.confirm({"switching_frequency": 2e3})
     assert not view.result.stale.isVisible()
-    view.form.certain_changed.emit({"switching_frequency": 3e3})
+    view.confirm({"switching_frequency": 3e3})
     assert view.result.stale.isVisible()
-    view.show_match(replace(match, switching_frequency=1e3))
+    view.show_matched(replace(match, switching_frequency=1e3))
     assert not view.result.stale.isVisible()
 
 
 def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
-    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+    view: LiveView, photo: Photo, match: Match, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.activateWindow()
     qtbot.waitActive(view)
     view.form.start.setFocus()
     view.show_match_begun()
     assert view.form.cancel.hasFocus()
-    view.show_match(match)
+    view.show_matched(match)
     assert view.form.start.hasFocus()
 
 
 def test_an_impossible_frequency_is_refused_and_the_last_stays(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     choose(qtbot, view.form.sent, "square")
     view.form.square.selectAll()
     qtbot.keyClicks(view.form.square, "fast")
@@ -139,9 +137,9 @@ def test_an_impossible_frequency_is_refused_and_the_last_stays(
 
 
 def test_a_running_match_shows_progress_and_a_cancel_button(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     form = view.form
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
     view.show_match_begun()
@@ -150,19 +148,18 @@ def test_a_running_match_shows_progress_and_a_cancel_button(
     assert form.progress.value() == form.progress.maximum() / 4
     with qtbot.waitSignal(form.cancelled):
         qtbot.mouseClick(form.cancel, Qt.MouseButton.LeftButton)
-    view.show_match_cancelled()
+    view.show_match_ended()
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
 
 
 def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(occ.Scene().replace(switching_frequency=7e3))
-    told: list[dict[str, float]] = []
-    view.form.certain_changed.connect(told.append)
     assert not view.form.certain.isChecked()
     qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
+    assert view.choice.certain == {"switching_frequency": 7e3}
     view.show_scene(occ.Scene().replace(switching_frequency=8e3))  # by a slider, say
     assert not view.form.certain.isChecked()
     field = view.form.known["switching_frequency"]
@@ -170,17 +167,18 @@ def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
     qtbot.keyClicks(field, "9 kHz\r")
     view.show_scene(occ.Scene().replace(switching_frequency=9e3))
     assert view.form.certain.isChecked()
+    assert view.choice.certain == {"switching_frequency": 9e3}
     choose(qtbot, view.form.estimate, "switching_frequency")
     assert not view.form.certain.isChecked()
     choose(qtbot, view.form.estimate, "readout_time")
     qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
-    assert told == [{"switching_frequency": 7e3}, {"switching_frequency": 9e3}, {}]
+    assert view.choice.certain == {}
 
 
 def test_the_frequency_of_a_square_wave_is_certain_once_entered(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     choose(qtbot, view.form.sent, "square")
     view.form.certain.click()
     assert not view.form.certain.isChecked()
@@ -191,9 +189,9 @@ def test_the_frequency_of_a_square_wave_is_certain_once_entered(
 
 
 def test_a_refused_known_value_says_why_at_its_field_until_mended(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(occ.Scene())
     view.form.edited.connect(
         lambda name, value, _: view.show_scene(occ.Scene().replace(**{name: value}))
@@ -224,9 +222,9 @@ def test_a_refused_known_value_says_why_at_its_field_until_mended(
 
 
 def test_a_field_that_is_no_longer_asked_for_has_no_sentence(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(occ.Scene())
     field = view.form.known["switching_frequency"]
 
@@ -245,7 +243,7 @@ def test_a_field_that_is_no_longer_asked_for_has_no_sentence(
     assert view.form.notices[field].text() == ""
 
 
-def test_what_was_confirmed_of_a_square_wave_ends_with_it(view: PhotoView) -> None:
+def test_what_was_confirmed_of_a_square_wave_ends_with_it(view: LiveView) -> None:
     view.form.sent.show_key("square")
     view.form._take_sent("square")
     assert view.form.certain.isChecked()
@@ -257,16 +255,16 @@ def test_what_was_confirmed_of_a_square_wave_ends_with_it(view: PhotoView) -> No
 
 @pytest.mark.parametrize("how", ["another photo", "several photos"])
 def test_what_was_certain_of_one_photo_is_said_to_be_assumed_of_the_next(
-    view: PhotoView, photo: Photo, qtbot: QtBot, how: str
+    view: LiveView, photo: Photo, qtbot: QtBot, how: str
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     choose(qtbot, view.form.sent, "square")
     assert view.form.certain.isChecked()
     assert "assumed" not in view.form.hint.text()
     others = [Path("b.png"), Path("c.png")]
     if how == "several photos":
         view.many.show_files(others)
-    view.show_photo(replace(photo, path=others[0]))
+    view.open(replace(photo, path=others[0]))
     assert (view.form.sent.key(), view.form.certain.isChecked()) == ("square", False)
     assert view.form.hint.isVisible()
     assert "Only assumed here" in view.form.hint.text()

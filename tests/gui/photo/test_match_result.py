@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 import pytest
+from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
@@ -20,11 +20,11 @@ READOUT = PARAMETERS["readout_time"]
 
 
 def test_results_stand_with_uncertainty_in_the_screens_units(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.result.show_certain({"switching_frequency": 2e3})
-    view.show_match(match)
+    view.show_matched(match)
     texts = {name: label.text() for name, label in view.result.values.items()}
     assert texts["readout_time"] == "14.57770 ± 0.00027 µs"
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
@@ -38,11 +38,11 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
 
 
 def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     match = replace(match, scene=match.scene.replace(columns=1000))
-    view.show_match(match)
+    view.show_matched(match)
     paste = view.result.paste
     assert view.result.values["frame"].text() == "if f = 2 kHz: 14.57770 ± 0.00027 ms"
     assert (paste.lines, paste.why_none.isVisible()) == ({}, True)
@@ -53,30 +53,30 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     assert "LeftToRight" in texts["Gyroflow"]
     assert paste.note.isVisible()
     assert "direction in Gyroflow's line is assumed" in paste.note.text()
-    view.show_match(replace(match, reasons=("Few periods.",)))
+    view.show_matched(replace(match, reasons=("Few periods.",)))
     assert paste.lines == {}
     assert not paste.note.isVisible()
 
 
 def test_an_exposure_that_is_hardly_known_has_an_upper_limit(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.result.show_certain({"switching_frequency": 2e3})
     spreads = {**match.uncertainties, "exposure_time": 15e-6}
-    view.show_match(replace(match, exposure_time=6e-6, uncertainties=spreads))
+    view.show_matched(replace(match, exposure_time=6e-6, uncertainties=spreads))
     assert view.result.values["exposure_time"].text() == "below 36 µs (6 ± 15 µs)"
     assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
 
 
 def test_a_match_says_which_shutter_speeds_show_no_bars(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     scene = match.scene.replace(pattern="10", switching_frequency=3840.0)
     view.result.show_certain({"switching_frequency": 2e3})
-    view.show_match(replace(match, scene=scene))
-    view.show_cure(cure_of(scene))
+    found = replace(match, scene=scene)
+    view.show_matched(found, cure_of(scene))
     rest = (
         "no bars at whole multiples of 520.8 µs. "
         "Set 1/640 s or 1/320 s if the camera keeps what is written, else 1/240 s or 1/120 s."
@@ -87,29 +87,28 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(
     assert view.result.cure.text() == lamp + depth + rest
     # Half a period is left of 1.5: (1/2) / (1.5 / 2), and less with 0.05 more or fewer.
     longer = scene.replace(exposure_time=1.5 / 1920.0)
-    view.show_cure(cure_of(longer, exposure_error=0.025 / 1920.0))
+    view.show_matched(found, cure_of(longer, exposure_error=0.025 / 1920.0))
     assert "bars of 58.1 to 66.7 % of its light" in view.result.cure.text()
-    view.show_match(replace(match, scene=scene, exposure_reasons=("Two exposures fit.",)))
-    view.show_cure(cure_of(scene))
+    view.show_matched(replace(found, exposure_reasons=("Two exposures fit.",)), cure_of(scene))
     assert view.result.cure.text() == lamp + rest
     view.result.show_certain({})
     assert view.result.cure.text().endswith("1/120 s. (if f = 2 kHz)")
 
 
 def test_a_blinking_led_is_described_by_its_cycles_too(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(replace(match, pattern="10"))
+    view.open(photo)
+    view.show_matched(replace(match, pattern="10"))
     text = view.result.values["switching_frequency"].text()
     assert text == "2 kHz: blinks at 1 kHz (assumed)"
 
 
-def test_what_was_not_estimated_is_not_shown(view: PhotoView, photo: Photo, match: Match) -> None:
-    view.show_photo(photo)
+def test_what_was_not_estimated_is_not_shown(view: LiveView, photo: Photo, match: Match) -> None:
+    view.open(photo)
     estimated = replace(match, uncertainties={"gamma": 0.05}, other_exposures=(1e-3, 2e-3))
     for shown, there in ((match, False), (estimated, True)):
-        view.show_match(shown)
+        view.show_matched(shown)
         titles = [label.text() for label in view.result.findChildren(QLabel) if label.isVisible()]
         assert ("Gamma" in titles) == there
         assert ("if f = 2 kHz: 1 ms or 2 ms" in titles) == there
@@ -137,10 +136,10 @@ def test_a_value_has_the_digits_that_its_uncertainty_allows(
 
 
 def test_without_a_match_there_is_nothing_to_apply(
-    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+    view: LiveView, photo: Photo, match: Match, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     for button, signal in (
         (view.result.apply, view.result.apply_asked),
         (view.result.save, view.result.save_asked),
@@ -148,21 +147,21 @@ def test_without_a_match_there_is_nothing_to_apply(
     ):
         with qtbot.waitSignal(signal):
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-    view.show_match(None)
+    view.show_matched(None)
     assert not view.result.isVisible()
 
 
-def estimates(view: PhotoView) -> list[str]:
+def estimates(view: LiveView) -> list[str]:
     names = ("readout_time", "switching_frequency", "exposure_time")
     return [view.result.values[name].text() for name in names]
 
 
 def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
-    view: PhotoView, photo: Photo, match: Match, qtbot: QtBot
+    view: LiveView, photo: Photo, match: Match, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(match.scene.replace(switching_frequency=2e3))
-    view.show_match(match)
+    view.show_matched(match)
     assumed = [
         "if f = 2 kHz: 14.57770 ± 0.00027 µs",
         "2 kHz (assumed)",
@@ -171,18 +170,18 @@ def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
     assert estimates(view) == assumed
     qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
     assert estimates(view) == ["14.57770 ± 0.00027 µs", "2 kHz (given)", "62.50 ± 0.21 µs"]
-    view.show_photo(replace(photo, channel="red"))  # the same photo, read in another way
+    view.open(replace(photo, channel="red"))  # the same photo, read in another way
     assert estimates(view)[1] == "2 kHz (given)"
-    view.show_photo(replace(photo, path=photo.path.with_name("another.png")))
+    view.open(replace(photo, path=photo.path.with_name("another.png")))
     assert estimates(view) == assumed
 
 
 def test_a_frequency_that_rests_on_a_readout_time_says_so(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     spreads = {"switching_frequency": 1.0, "exposure_time": 2e-7, "gamma": 0.05}
-    view.show_match(replace(match, uncertainties=spreads))
+    view.show_matched(replace(match, uncertainties=spreads))
     readout, frequency, exposure = estimates(view)
     assert readout == "14.5777 µs (assumed)"
     assert frequency.startswith("if t_r = 14.5777 µs: 2.0000 ± 0.0010 kHz")

@@ -6,12 +6,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.stores import store_of
 from numpy.typing import NDArray
 from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo.photo_controller import PhotoController, PhotoReading
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.shell.results import Board
+from occ_gui.values.photo_choice import PhotoReading
 from occ_model.photo.reading.load import Photo, load_photo
 
 Grey = NDArray[np.uint8]
@@ -23,15 +26,17 @@ class Bench:
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
         self.shown: list[Photo | None] = []
-        self.opened: list[Photo | None] = []
         self.failures: list[str] = []
         self.begun = threading.Event()
         self.go_on = threading.Event()
         self.go_on.set()
         monkeypatch.setattr(occ, "load_photo", self._read)
-        self.controller = PhotoController()
-        self.controller.show_on([self])
-        self.controller.opened.connect(self.opened.append)
+        store = store_of().store
+        self.controller = PhotoController(store, Board())
+        self.controller.opened.connect(self.shown.append)
+        self.readings: list[PhotoReading] = []
+        reading = self.reading = store.select(lambda workspace: workspace.photo.reading)
+        reading.changed.connect(self.readings.append)
         self.controller.failed.connect(self.failures.append)
         self._load = load_photo
         self._qtbot = qtbot
@@ -43,12 +48,9 @@ class Bench:
         assert self.go_on.wait(PATIENCE_S)
         return self._load(path, scan_axis, channel=channel, progress=progress)
 
-    def show_photo(self, photo: Photo | None) -> None:
-        self.shown.append(photo)
-
     def wait_until_idle(self) -> None:
         self.go_on.set()
-        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.work.task.is_idle)
 
     def open(self, path: Path) -> None:
         self.controller.open(path)
@@ -73,7 +75,7 @@ def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     bench = Bench(qtbot, monkeypatch)
     yield bench
     bench.go_on.set()
-    bench.controller.stop()
+    bench.controller.work.task.stop()
 
 
 @pytest.fixture
@@ -86,7 +88,7 @@ def other_file(tmp_path: Path) -> Path:
 def test_a_photo_is_read_shown_and_announced(bench: Bench, photo_file: Path, stripes: Grey) -> None:
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes)
-    assert bench.opened == bench.shown
+    assert len(bench.shown) == 1
     assert bench.failures == []
 
 
@@ -108,7 +110,6 @@ def test_closing_shows_none(bench: Bench, photo_file: Path) -> None:
     bench.open(photo_file)
     bench.controller.close()
     assert bench.shown[-1] is None
-    assert bench.opened[-1] is None
 
 
 def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
@@ -117,14 +118,14 @@ def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
     bench.open_and_hold(photo_file)
     bench.controller.close()
     bench.wait_until_idle()
-    assert bench.shown == [None]
+    assert bench.shown == []
 
 
 def test_progress_is_shown_from_start_to_end(bench: Bench, photo_file: Path) -> None:
     received: list[object] = []
-    bench.controller.begun.connect(lambda: received.append("begun"))
-    bench.controller.progressed.connect(received.append)
-    bench.controller.ended.connect(lambda: received.append("ended"))
+    bench.controller.work.begun.connect(lambda: received.append("begun"))
+    bench.controller.work.task.reported.connect(received.append)
+    bench.controller.work.ended.connect(lambda: received.append("ended"))
     bench.open(photo_file)
     assert (received[0], received[1], received[-2], received[-1]) == ("begun", 0.0, 1.0, "ended")
 
@@ -134,10 +135,10 @@ def test_a_cancelled_reading_ends_and_the_last_photo_stays(
 ) -> None:
     bench.open(photo_file)
     ended: list[bool] = []
-    bench.controller.ended.connect(lambda: ended.append(True))
+    bench.controller.work.ended.connect(lambda: ended.append(True))
     bench.open_and_hold(other_file)
     bench.controller.cancel()
-    assert bench.controller.runner.is_idle
+    assert bench.controller.work.task.is_idle
     assert ended == [True]
     bench.go_on.set()
     bench.controller.scan_along("lines")
@@ -226,10 +227,29 @@ def test_another_channel_applies_to_this_photo_and_the_next(
     assert bench.image.max() == 20
 
 
-def test_how_photos_are_read_is_emitted_at_every_change(bench: Bench) -> None:
-    received: list[object] = []
-    bench.controller.reading_changed.connect(received.append)
+def test_how_photos_are_read_is_told_at_every_change(bench: Bench) -> None:
     bench.controller.scan_along("lines")
     bench.controller.take_channel("red")
-    assert received == [PhotoReading("lines", "brightest"), PhotoReading("lines", "red")]
-    assert bench.controller.reading == received[-1]
+    assert bench.readings == [PhotoReading("lines", "brightest"), PhotoReading("lines", "red")]
+
+
+def test_a_file_that_is_opened_again_is_read_again(
+    bench: Bench, photo_file: Path, stripes: Grey
+) -> None:
+    bench.open(photo_file)
+    Image.fromarray(np.full((8, 9), 5, dtype=np.uint8)).save(photo_file)
+    bench.open(photo_file)
+    assert bench.image.shape == (8, 9)
+
+
+def test_a_choice_that_comes_back_shows_its_photo_without_reading_it(
+    bench: Bench, photo_file: Path, other_file: Path
+) -> None:
+    """As at the end of a lesson."""
+    bench.open(photo_file)
+    first, choice = bench.shown[-1], bench.controller.choice
+    bench.open(other_file)
+    bench.begun.clear()
+    bench.controller.edit(lambda _present: choice)
+    assert bench.shown[-1] is first
+    assert not bench.begun.is_set()

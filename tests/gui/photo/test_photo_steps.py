@@ -3,12 +3,12 @@
 from functools import partial
 
 import pytest
+from gui.photo.photo_bench import LiveView
 from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QCommonStyle
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_steps import STEPS, PhotoSteps
-from occ_gui.photo.photo_view import PhotoView
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 
@@ -56,10 +56,10 @@ def test_a_doubtful_match_has_no_tick(steps: PhotoSteps) -> None:
 
 
 def test_an_earlier_match_is_no_step_towards_the_present_one(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     assert spoken(view.steps)[2:] == ["Match: done", "Apply: done"]
     view.show_match_outdated("of another part of the photo: match again", usable=False)
     assert spoken(view.steps)[2:] == ["Match: next step", "Apply"]
@@ -69,12 +69,12 @@ def test_an_earlier_match_is_no_step_towards_the_present_one(
 
 
 def test_a_scene_that_differs_by_rounding_is_the_matched_one(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
     scene = match.scene
     brighter = scene.replace(luminance=scene.transmitter.luminance * (1.0 + 1e-10))
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     for shown, word in ((brighter, "done"), (scene.replace(luminance=4e3), "next step")):
         view.show_scene(shown)
         assert spoken(view.steps)[3] == f"Apply: {word}"
@@ -92,18 +92,18 @@ def test_a_click_goes_to_its_step(steps: PhotoSteps) -> None:
 
 
 def test_the_pane_leads_from_step_to_step(qtbot: QtBot, photo: Photo) -> None:
-    view = PhotoView()
+    view = LiveView()
     qtbot.addWidget(view)
     view.show()
     with qtbot.waitSignal(view.open_asked):
         view.steps.buttons["open"].click()
-    view.show_photo(photo)
+    view.open(photo)
     assert spoken(view.steps)[1] == "Sent?: next step"
     view.steps.buttons["sent"].click()
     assert view.focusWidget() is view.form.sent
     with qtbot.waitSignal(view.form.asked):
         view.steps.buttons["match"].click()
-    view.show_photo(None)
+    view.open(None)
     assert spoken(view.steps)[0] == "Open: next step"
 
 

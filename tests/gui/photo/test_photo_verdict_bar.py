@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 import pytest
+from gui.photo.photo_bench import LiveView
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
-from occ_gui.photo.photo_view import PhotoView
 from occ_gui.widgets.state_look import State
 from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.reading.load import Photo
@@ -18,7 +18,7 @@ REASONS = ("Only 2 periods of 24 chips are in view.", "The correlation is 0.85."
 
 
 @pytest.fixture
-def bar(view: PhotoView) -> PhotoVerdictBar:
+def bar(view: LiveView) -> PhotoVerdictBar:
     view.verdict.resize(1400, 60)
     return view.verdict
 
@@ -28,30 +28,30 @@ def chips(bar: PhotoVerdictBar) -> dict[str, str]:
 
 
 def test_each_step_on_the_way_to_a_match_has_a_verdict(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
     assert (bar.state, bar.heading) == (State.NEUTRAL, "No photo is open")
-    view.show_photo(photo)
+    view.open(photo)
     assert (bar.state, bar.heading) == (State.NEUTRAL, "Photo: no match yet")
     view.show_match_begun()
     assert (bar.state, bar.heading) == (State.WAITING, "Photo: matching…")
-    view.show_match_cancelled()
+    view.show_match_ended()
     assert bar.state is State.NEUTRAL
     view.show_match_begun()
     view.show_match_refused(REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert " ".join(REASONS) in bar.accessibleDescription()  # nothing else says them
-    view.show_match(match)
+    view.show_matched(match)
     assert (bar.state, bar.heading) == (State.GOOD, "Photo: sure match")
-    view.show_photo(None)
+    view.open(None)
     assert bar.heading == "No photo is open"
 
 
 def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     told = bar.accessibleDescription()
     assert "readout time 14.57770 ± 0.00027 µs" in told
     assert "exposure time 62.50 ± 0.21 µs" in told
@@ -59,10 +59,10 @@ def test_a_sure_match_says_what_was_found_and_on_what_it_rests(
 
 
 def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(replace(match, exposure_reasons=REASONS[:1]))
+    view.open(photo)
+    view.show_matched(replace(match, exposure_reasons=REASONS[:1]))
     assert (bar.state, bar.heading) == (
         State.GOOD, "Photo: sure, but for the exposure",
     )  # fmt: skip
@@ -73,13 +73,13 @@ def test_a_match_whose_exposure_is_doubtful_is_not_called_sure_without_saying_so
 
 
 def test_bar_and_figures_rest_on_the_same_value_until_it_is_confirmed(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     for shown in (match, replace(match, pattern="10")):
-        view.show_match(shown)
+        view.show_matched(shown)
         for certain in ({}, {"switching_frequency": 2e3}, {"switching_frequency": 4e3}):
-            view.form.certain_changed.emit(certain)
+            view.confirm(certain)
             figure = view.result.values["readout_time"].text()
             condition, colon, _ = figure.rpartition(": ")
             told = bar.accessibleDescription().lower()
@@ -88,51 +88,51 @@ def test_bar_and_figures_rest_on_the_same_value_until_it_is_confirmed(
 
 
 def test_a_blinking_lamp_is_named_by_its_own_frequency(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(replace(match, pattern="10"))
+    view.open(photo)
+    view.show_matched(replace(match, pattern="10"))
     assert "If it is a lamp of 1 kHz (2 kHz chips): readout" in bar.accessibleDescription()
 
 
 def test_an_open_photo_has_the_verdict_of_its_row_until_it_is_matched_by_itself(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
     view.many.show_files((photo.path,))
-    view.show_photo(photo)
+    view.open(photo)
     assert bar.heading == "Photo: no match yet"
-    view.form.certain_changed.emit({"switching_frequency": 2e3})
+    view.confirm({"switching_frequency": 2e3})
     for verdict, state in (("refused", State.BAD), ("sure", State.GOOD)):
         view.many.show_row(0, PhotoRow(photo.path, verdict, REASONS[1]), 1)
-        view.show_photo(photo)
+        view.open(photo)
         assert (bar.state, bar.heading) == (state, f"Photo: {verdict} in the table")
         assert REASONS[1] in bar.accessibleDescription()
-    view.show_match(match)
+    view.show_matched(match)
     assert bar.heading == "Photo: sure match"
-    view.show_photo(photo)
+    view.open(photo)
     view.many.show_begun("readout_time", occ.Scene())
     assert bar.heading == "Photo: no match yet"
 
 
-def test_another_photo_of_the_table_keeps_what_is_certain(view: PhotoView, photo: Photo) -> None:
+def test_another_photo_of_the_table_keeps_what_is_certain(view: LiveView, photo: Photo) -> None:
     other = replace(photo, path=photo.path.with_name("other.png"))
     view.many.show_files((photo.path, other.path))
-    view.show_photo(photo)
+    view.open(photo)
     view.form.certain.click()
-    view.show_photo(other)
+    view.open(other)
     assert view.form.certain.isChecked()
-    view.show_photo(replace(photo, path=photo.path.with_name("alone.png")))
+    view.open(replace(photo, path=photo.path.with_name("alone.png")))
     assert not view.form.certain.isChecked()
 
 
 def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
 ) -> None:
     bar.setParent(None)
     qtbot.addWidget(bar)
     bar.resize(400, 60)
     bar.show()
-    view.show_photo(photo)
+    view.open(photo)
     low = bar.minimumSizeHint().height()
     last = "They repeat after 40.0 columns."
     view.show_match_refused([PLAIN_STRIPES, last])
@@ -140,24 +140,24 @@ def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
     assert bar.wrapped.text().endswith(f"{PLAIN_STRIPES} {last}")
     assert bar.minimumSizeHint().height() > low
     assert bar.wrapped.heightForWidth(bar.wrapped.width()) <= bar.wrapped.height() + 2
-    view.show_photo(photo)
+    view.open(photo)
     assert bar.minimumSizeHint().height() == low
 
 
 def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(replace(match, reasons=REASONS))
+    view.open(photo)
+    view.show_matched(replace(match, reasons=REASONS))
     assert (bar.state, bar.heading) == (State.DOUBTFUL, "Photo: doubtful match")
     assert f"{REASONS[0]} And 1 more." in bar.accessibleDescription()
 
 
 def test_a_match_of_something_else_is_no_verdict_on_the_photo(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     view.show_match_outdated("of another part of the photo: match again", usable=False)
     assert bar.state is State.WAITING
     assert "another part" in bar.accessibleDescription()
@@ -166,11 +166,11 @@ def test_a_match_of_something_else_is_no_verdict_on_the_photo(
 
 
 def test_a_match_that_the_scene_does_not_have_is_marked_as_not_applied(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_scene(match.scene)
-    view.show_match(match)
+    view.show_matched(match)
     assert "applied" not in chips(bar)
     view.show_scene(occ.Scene().replace(distance=2.0))
     assert chips(bar)["applied"] == "not applied"
@@ -184,12 +184,12 @@ def test_the_verdict_on_the_simulation_is_a_chip_beside_it(bar: PhotoVerdictBar)
 
 
 def test_a_figure_is_told_the_photo_and_what_its_match_is_worth(
-    view: PhotoView, bar: PhotoVerdictBar, photo: Photo, match: Match
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, match: Match
 ) -> None:
     assert bar.about() == ""
-    view.show_photo(photo)
+    view.open(photo)
     assert bar.about() == "photo stripes.png, not matched"
-    view.show_match(match)
+    view.show_matched(match)
     assert bar.about().startswith("photo stripes.png, the match is sure. If f = 2 kHz: readout")
     assert "exposure time 62.50 ± 0.21 µs" in bar.about()
     bar.show_applied(False)  # the picture in the figure is of another scene

@@ -3,18 +3,18 @@
 from dataclasses import replace
 
 from gui.combo_box import choose
+from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.photo_view import PhotoView
-from occ_gui.picture.placement import Placement
+from occ_gui.values.placement import Placement
 from occ_model.photo.reading.load import CHANNELS, Photo
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results.match import Match
 
 
-def test_without_a_photo_all_a_user_can_press_opens_one(view: PhotoView, qtbot: QtBot) -> None:
+def test_without_a_photo_all_a_user_can_press_opens_one(view: LiveView, qtbot: QtBot) -> None:
     assert not view.form.isVisible()
     visible = [b for b in view.findChildren(type(view.form.start)) if b.isVisible()]
     able = [button for button in visible if button.isEnabled()]
@@ -24,7 +24,7 @@ def test_without_a_photo_all_a_user_can_press_opens_one(view: PhotoView, qtbot: 
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
 
 
-def test_what_is_known_of_a_photo_is_shown_with_its_units(view: PhotoView, photo: Photo) -> None:
+def test_what_is_known_of_a_photo_is_shown_with_its_units(view: LiveView, photo: Photo) -> None:
     noted = replace(
         photo,
         exposure_time=1 / 8000,
@@ -33,7 +33,7 @@ def test_what_is_known_of_a_photo_is_shown_with_its_units(view: PhotoView, photo
         camera="Maker Model 5",
         turned=True,
     )
-    view.show_photo(noted)
+    view.open(noted)
     facts = view.facts
     assert facts.name.toolTip().endswith("stripes.png")
     assert facts.size_line.toolTip() == "Maker Model 5, 60 x 100 px, grey, turned"
@@ -41,29 +41,29 @@ def test_what_is_known_of_a_photo_is_shown_with_its_units(view: PhotoView, photo
     assert facts.use_settings.isEnabled()
 
 
-def test_a_photo_without_notes_offers_none(view: PhotoView, photo: Photo) -> None:
-    view.show_photo(photo)
+def test_a_photo_without_notes_offers_none(view: LiveView, photo: Photo) -> None:
+    view.open(photo)
     assert view.facts.size_line.toolTip() == "100 x 60 px, grey"
     assert not view.facts.use_settings.isEnabled()
 
 
-def test_a_raw_photo_says_that_it_has_no_gamma(view: PhotoView, photo: Photo) -> None:
-    view.show_photo(replace(photo, is_linear=True))
+def test_a_raw_photo_says_that_it_has_no_gamma(view: LiveView, photo: Photo) -> None:
+    view.open(replace(photo, is_linear=True))
     assert view.facts.size_line.toolTip() == "100 x 60 px, grey, RAW: gamma 1"
 
 
 def test_using_the_photos_settings_emits_a_signal(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(replace(photo, iso=400.0))
+    view.open(replace(photo, iso=400.0))
     with qtbot.waitSignal(view.facts.settings_asked):
         qtbot.mouseClick(view.facts.use_settings, Qt.MouseButton.LeftButton)
 
 
 def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     received: list[str] = []
     view.facts.channel_chosen.connect(received.append)
     view.facts.scan_axis_chosen.connect(received.append)
@@ -78,11 +78,12 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
 
 
 def test_a_failure_is_a_sentence_and_what_was_found_before_stays(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     view.show_match_begun()
+    view.show_match_ended()
     view.show_match_failed("No scene explains these stripes.")
     assert "No scene explains these stripes." in view.verdict.accessibleDescription()
     assert view.result.isVisible()
@@ -92,11 +93,11 @@ def test_a_failure_is_a_sentence_and_what_was_found_before_stays(
 
 
 def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
-    view: PhotoView, photo: Photo
+    view: LiveView, photo: Photo
 ) -> None:
     received: list[Placement] = []
     view.placement.placed.connect(received.append)
-    view.show_photo(photo)
+    view.open(photo)
     view.show_placement(Placement(862.237, 3.5, 1.25), by_hand=True)
     form = view.placement
     assert (form.column.value(), form.row.value(), form.scale.value()) == (862.24, 3.5, 1.25)
@@ -107,11 +108,11 @@ def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
 
 
 def test_a_changed_field_moves_the_photo_and_keeps_other_digits(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
     received: list[Placement] = []
     view.placement.placed.connect(received.append)
-    view.show_photo(photo)
+    view.open(photo)
     view.show_placement(Placement(862.237123, 3.5, 1.0), by_hand=False)
     field = view.placement.row
     field.selectAll()
@@ -121,9 +122,9 @@ def test_a_changed_field_moves_the_photo_and_keeps_other_digits(
 
 
 def test_moving_by_mouse_and_resetting_emit_signals(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.show_placement(Placement(), by_hand=True)
     with qtbot.waitSignal(view.placement.moving_chosen) as moving:
         qtbot.mouseClick(view.placement.by_mouse, Qt.MouseButton.LeftButton)
@@ -133,11 +134,11 @@ def test_moving_by_mouse_and_resetting_emit_signals(
 
 
 def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
-    view: PhotoView, photo: Photo, qtbot: QtBot
+    view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
     placed: list[Placement] = []
     view.placement.placed.connect(placed.append)
-    view.show_photo(photo)
+    view.open(photo)
     form = view.placement
 
     def enter(field: QWidget, text: str) -> None:
@@ -164,10 +165,10 @@ def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
 
 
 def test_nothing_of_the_page_is_cut_off_at_the_panes_least_width(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     view.resize(view.minimumSizeHint().width(), 700)
     QApplication.processEvents()
     assert view.width() == view.minimumSizeHint().width()

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
+from gui.photo.photo_bench import LiveView
 from PySide6.QtGui import QPalette
 from pytestqt.qtbot import QtBot
 
-from occ_gui.photo.photo_view import PhotoView
 from occ_gui.photo.verdict_view import SIGNS, VerdictView
 from occ_gui.widgets.contrast import contrast
 from occ_model.photo.reading.load import Photo
@@ -60,23 +60,23 @@ def test_an_outdated_verdict_is_not_shown_as_the_present_one(verdict: VerdictVie
     assert verdict.word.text() == "◐ doubtful"
 
 
-def test_the_verdict_stands_above_the_figures(view: PhotoView, photo: Photo, match: Match) -> None:
-    view.show_photo(photo)
-    view.show_match(replace(match, reasons=REASONS))
+def test_the_verdict_stands_above_the_figures(view: LiveView, photo: Photo, match: Match) -> None:
+    view.open(photo)
+    view.show_matched(replace(match, reasons=REASONS))
     result = view.result
     assert result.verdict.word.text() == "◐ doubtful"
     assert result.verdict.geometry().bottom() < result.figures.geometry().top()
-    view.show_match(match)
+    view.show_matched(match)
     assert result.verdict.word.text() == "● sure"
     assert result.verdict.reasons.isHidden()
 
 
 def test_a_doubtful_exposure_is_said_beside_what_is_sure(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
+    view.open(photo)
     view.result.show_certain({"switching_frequency": 2e3})
-    view.show_match(replace(match, exposure_reasons=REASONS))
+    view.show_matched(replace(match, exposure_reasons=REASONS))
     result = view.result
     assert result.verdict.word.text() == "● sure"
     assert result.verdict.reasons.text().splitlines() == [
@@ -85,16 +85,16 @@ def test_a_doubtful_exposure_is_said_beside_what_is_sure(
     assert result.values["exposure_time"].text() == "62.50 ± 0.21 µs (doubtful)"
     assert result.values["start_time"].text().endswith(" (doubtful)")
     assert "doubtful" not in result.values["readout_time"].text()
-    view.show_match(replace(match, reasons=REASONS[:1], exposure_reasons=REASONS[1:]))
+    view.show_matched(replace(match, reasons=REASONS[:1], exposure_reasons=REASONS[1:]))
     assert result.verdict.word.text() == "◐ doubtful"
     assert result.verdict.reasons.text() == "\n".join(f"• {reason}" for reason in REASONS)
 
 
 def test_the_figures_that_a_verdict_rests_on_are_shown(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(replace(photo, exposure_time=1 / 16000))
-    view.show_match(match)
+    view.open(replace(photo, exposure_time=1 / 16000))
+    view.show_matched(match)
     texts = {name: label.text() for name, label in view.result.values.items()}
     assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
     assert texts["exposed"] == "0.125"
@@ -104,12 +104,12 @@ def test_the_figures_that_a_verdict_rests_on_are_shown(
 
 
 def test_other_explanations_are_told_with_what_they_rest_on(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     assert not view.result.values["alternative"].isVisible()
-    view.show_match(replace(match, alternatives=(READ, PLAIN)))
+    view.show_matched(replace(match, alternatives=(READ, PLAIN)))
     assert view.result.values["alternative"].text().splitlines() == [
         "• chips that were read: correlation 0.950, log-likelihood lower by 3.2; "
         "if f = 2 kHz: readout time 7.2 µs, exposed for 80 µs",
@@ -118,10 +118,10 @@ def test_other_explanations_are_told_with_what_they_rest_on(
 
 
 def test_an_outdated_match_is_covered_at_once_and_not_used(
-    view: PhotoView, photo: Photo, match: Match
+    view: LiveView, photo: Photo, match: Match
 ) -> None:
-    view.show_photo(photo)
-    view.show_match(match)
+    view.open(photo)
+    view.show_matched(match)
     view.show_match_outdated("of another part of the photo", usable=False)
     result = view.result
     assert result.mark.isVisible()

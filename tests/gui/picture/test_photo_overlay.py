@@ -13,7 +13,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.photo_overlay import PhotoOverlay, rect_of
-from occ_gui.picture.placement import Placement
+from occ_gui.values.placement import Placement
 
 Grey = NDArray[np.uint8]
 SIDE = 200

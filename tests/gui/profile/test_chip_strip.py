@@ -7,7 +7,7 @@ from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.profile.profile_view import ProfileView
-from occ_gui.shell.photo_profile import PhotoProfile
+from occ_gui.values.photo_results import PhotoProfile
 from occ_model.results.decoding import Region
 from occ_model.results.match import ChipReading
 

@@ -14,9 +14,9 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.profile import profile_view
 from occ_gui.profile.profile_view import ProfileView
-from occ_gui.shell.photo_profile import PhotoProfile
 from occ_gui.simulation.controller import simulate
 from occ_gui.simulation.snapshot import Snapshot, Source
+from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets import first_periods
 from occ_model.camera.enhancement import enhance
 from occ_model.photo.reading.load import Photo

@@ -26,7 +26,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.picture.placement import MODES
+from occ_gui.values.placement import MODES
 from occ_gui.window.modes.mode import MODES as WINDOW_MODES
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons

@@ -52,7 +52,7 @@ def listed(
 
     monkeypatch.setattr(match_photos, "matched_rows", rows)
     application.store.change(pattern="10", switching_frequency=2e3, readout_time=12e-6)
-    application.shell.pane("photo").many.show_files(paths)
+    application.shell.pane("photo").many.choose_files(paths)
     application.shell.pane("photo").match_all()
     user.wait_until_idle()
     return paths
@@ -64,7 +64,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     application: Application, user: User, listed: tuple[Path, ...]
 ) -> None:
     matching, started = application.shell.pane("photo").matching, list[object]()
-    matching.runner.ask = started.append
+    matching.work.task.ask = started.append
     row = application.view("photo").many.rows.row_of(listed[1])
     assert row is not None
     assert row.match is not None

@@ -17,8 +17,10 @@ import occ_model as occ
 from occ_gui.photo.many.many_controller import ManyPhotosController
 from occ_gui.photo.many.many_view import ManyPhotosView
 from occ_gui.photo.many.rows_model import ESTIMATE, EXPOSURE, KNOWN, NOTE, PHOTO, VERDICT
-from occ_gui.photo.match_choice import MatchChoice
-from occ_gui.photo.photo_controller import PhotoReading
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.shell.results import Board
+from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.photo_choice import PhotoReading
 from occ_model.photo.many import match_photos
 from occ_model.photo.many.other_programs import stated_lines
 from occ_model.photo.many.row import MatchSettings
@@ -57,6 +59,20 @@ ROWS = (
 
 def table() -> PhotoTable:
     return table_of(MatchSettings(occ.Scene()), ROWS)
+
+
+def controller_of(view: ManyPhotosView) -> ManyPhotosController:
+    """Make a controller on a view, of photos that are read along their lines, in green."""
+    scenes, board = store_of(), Board()
+    photos = PhotoController(scenes.store, board)
+    photos.edit(lambda choice: replace(choice, reading=PhotoReading("lines", "green")))
+    return ManyPhotosController(scenes, photos, view, board, jobs=1)
+
+
+def show(controller: ManyPhotosController, paths: tuple[Path, ...]) -> None:
+    """List photos, as the pane does."""
+    controller.choose_files(paths)
+    controller.show_files(paths)
 
 
 @pytest.fixture
@@ -269,8 +285,8 @@ class Bench:
     def __init__(self, view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> None:
         self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
         monkeypatch.setattr(match_photos, "matched_rows", self._rows)
-        self.controller = ManyPhotosController(store_of(), view, jobs=1)
-        self.controller.show_files(PATHS)
+        self.controller = controller_of(view)
+        show(self.controller, PATHS)
 
     def _rows(
         self,
@@ -294,7 +310,7 @@ class Bench:
             self.closed.set()
 
     def start(self, **choice: object) -> None:
-        self.controller.start(MatchChoice(**choice), PhotoReading("lines", "green"))  # type: ignore[arg-type]
+        self.controller.start(MatchChoice(**choice))  # type: ignore[arg-type]
 
 
 @pytest.fixture
@@ -302,7 +318,7 @@ def bench(view: ManyPhotosView, monkeypatch: pytest.MonkeyPatch) -> Generator[Be
     bench = Bench(view, monkeypatch)
     yield bench
     bench.go_on.set()
-    bench.controller.stop()
+    bench.controller.runner.stop()
 
 
 def test_rows_appear_as_they_are_found_and_then_the_mean(
@@ -312,7 +328,7 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
     qtbot.waitUntil(lambda: column(view, VERDICT)[0] == "● sure")
     assert column(view, VERDICT)[1:] == [""] * 5
     assert not view.start.isEnabled()
-    with qtbot.waitSignal(bench.controller.matched):
+    with qtbot.waitSignal(bench.controller.runner.finished):
         bench.go_on.set()
     (settings,) = bench.settings
     assert (settings.sent, settings.scan_axis, settings.channel) == ("scene", "lines", "green")
@@ -328,11 +344,11 @@ def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
 ) -> None:
     assert enter_known(view, 5, "3 kHz")
     bench.go_on.set()
-    with qtbot.waitSignal(bench.controller.matched):
+    with qtbot.waitSignal(bench.controller.runner.finished):
         bench.start()
     assert bench.settings[0].known == ((5, 3e3),)
     assert column(view, KNOWN) == ["10 kHz"] * 5 + ["3 kHz"]
-    with qtbot.waitSignal(bench.controller.matched) as found:
+    with qtbot.waitSignal(bench.controller.runner.finished) as found:
         assert enter_known(view, 2, "7")
         assert not view.start.isEnabled()
     (made,) = found.args
@@ -342,7 +358,7 @@ def test_a_photo_of_another_lamp_is_matched_again_with_its_own_frequency(
     assert column(view, KNOWN)[2] == "7 kHz"
     assert "if f" not in tip(view, 2, ESTIMATE)
     assert "if f = 10 kHz" in tip(view, 1, ESTIMATE)
-    with qtbot.waitSignal(bench.controller.matched):
+    with qtbot.waitSignal(bench.controller.runner.finished):
         assert enter_known(view, 2, "")
     assert column(view, KNOWN)[2] == "10 kHz"
     assert bench.controller.table is not None
@@ -375,7 +391,7 @@ def test_cancelling_ends_the_work_and_keeps_the_rows(
 
 def test_other_files_cancel_the_work_on_the_first(bench: Bench, view: ManyPhotosView) -> None:
     bench.start()
-    bench.controller.show_files(PATHS[:2])
+    show(bench.controller, PATHS[:2])
     assert bench.controller.runner.is_idle
     assert view.rows.paths == PATHS[:2]
 
@@ -387,26 +403,26 @@ def test_a_failure_is_a_sentence_in_the_table(
         raise occ.MatchError("Nothing works.")
 
     monkeypatch.setattr(match_photos, "matched_rows", fail)
-    controller = ManyPhotosController(store_of(), view, jobs=1)
-    controller.show_files(PATHS)
-    controller.start(MatchChoice(), PhotoReading())
+    controller = controller_of(view)
+    show(controller, PATHS)
+    controller.start(MatchChoice())
     qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")
     assert view.start.isEnabled()
-    controller.stop()
+    controller.runner.stop()
 
 
 def test_real_photos_are_matched_from_the_window(
     view: ManyPhotosView, tmp_path: Path, qtbot: QtBot
 ) -> None:
     missing = tmp_path / "missing.jpg"
-    controller = ManyPhotosController(store_of(), view, jobs=1)
-    controller.show_files((missing, missing))
-    with qtbot.waitSignal(controller.matched) as found:
-        controller.start(MatchChoice(), PhotoReading())
+    controller = controller_of(view)
+    show(controller, (missing, missing))
+    with qtbot.waitSignal(controller.runner.finished) as found:
+        controller.start(MatchChoice())
     (made,) = found.args
     assert [one.verdict for one in made.rows] == ["unreadable", "unreadable"]
     assert replace(made.rows[0], note="") == PhotoRow(missing, "unreadable")
-    controller.stop()
+    controller.runner.stop()
 
 
 def test_the_table_has_room_for_some_rows_in_any_window(view: ManyPhotosView) -> None:

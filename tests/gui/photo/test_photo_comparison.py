@@ -7,16 +7,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.photo.photo_bench import PhotoBench
 from numpy.typing import NDArray
 from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.photo import comparison_controller as comparison_room
-from occ_gui.photo.comparison_controller import ComparisonController
-from occ_gui.picture.placement import Placement, PlacementStore
-from occ_gui.shell.photo_profile import PhotoProfile
+from occ_gui.photo import photo_work
+from occ_gui.photo.photo_comparison import photo_profile
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.photo_choice import Placed
+from occ_gui.values.photo_results import FoundMatch, PhotoProfile
+from occ_gui.values.placement import Placement
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
@@ -39,18 +41,17 @@ def stripes_of(photo: Photo) -> Stripes:
     return Stripes(Region(0, rows, 10, columns), profile, low, high, 20.0, 0.1, 0.0)
 
 
-class Bench:
-    """A controller on a mock pane, and a hand on the search for stripes."""
+class Bench(PhotoBench):
+    """A photo, its comparison, and a hand on the search for stripes."""
 
     def __init__(self, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.shown: list[PhotoProfile | None] = []
+        super().__init__()
         self.searched: list[Photo] = []
         self.go_on = threading.Event()
         self.go_on.set()
         self.stripes: Callable[[Photo], Stripes] = stripes_of
-        monkeypatch.setattr(comparison_room, "find_stripes", self._find)
-        self.placements = PlacementStore()
-        self.controller = ComparisonController(self.placements, self)
+        monkeypatch.setattr(photo_work, "find_stripes", self._find)
+        self.work = photo_work.stripe_search(self.store, self.board)
         self._qtbot = qtbot
 
     def _find(self, photo: Photo, region: object = None) -> Stripes:
@@ -58,22 +59,37 @@ class Bench:
         self.searched.append(photo)
         return self.stripes(photo)
 
-    def show_photo_profile(self, profile: PhotoProfile | None) -> None:
-        self.shown.append(profile)
-
     def residual(self) -> None:
         self.go_on.set()
-        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
+        self._qtbot.waitUntil(lambda: self.work.task.is_idle)
+
+    def move(self, placement: Placement | None) -> None:
+        opened = self.board.results.opened
+        assert opened is not None
+        self.choose(placed=None if placement is None else Placed(opened.source, placement))
+
+    def show_match(self, photo: Photo, stripes: Stripes) -> None:
+        found = FoundMatch(photo, None, match_with(stripes), 1e4)
+        self.board.put(replace(self.board.results, match=found))
+
+    def set_enhanced(self, enhanced: bool) -> None:
+        self.store.put(replace(self.store.workspace, is_enhanced=enhanced))
+
+    @property
+    def shown(self) -> PhotoProfile | None:
+        return photo_profile(self.part)
 
     @property
     def last(self) -> PhotoProfile:
-        assert self.shown[-1] is not None
-        return self.shown[-1]
+        shown = self.shown
+        assert shown is not None
+        return shown
 
     @property
     def comparison(self) -> Comparison:
-        assert self.last.comparison is not None
-        return self.last.comparison
+        comparison = self.last.comparison
+        assert comparison is not None
+        return comparison
 
 
 @pytest.fixture
@@ -81,7 +97,7 @@ def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     bench = Bench(qtbot, monkeypatch)
     yield bench
     bench.go_on.set()
-    bench.controller.stop()
+    bench.work.task.stop()
 
 
 def refuse(_photo: Photo) -> Stripes:
@@ -89,16 +105,16 @@ def refuse(_photo: Photo) -> Stripes:
 
 
 def test_without_a_photo_nothing_is_compared(bench: Bench, snapshot_of: SnapshotOf) -> None:
-    bench.controller.show_reading(snapshot_of())
-    assert bench.shown == [None]
+    bench.show_reading(snapshot_of())
+    assert bench.shown is None
 
 
 def test_the_photo_is_drawn_as_it_is_until_its_stripes_are_found(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_reading(snapshot_of())
+    bench.show_reading(snapshot_of())
     bench.go_on.clear()
-    bench.controller.show_photo(photo)
+    bench.show_photo(photo)
     assert bench.last.comparison is None
     assert bench.last.sentence == ""
     assert bench.last.raw is photo.profile
@@ -110,12 +126,12 @@ def test_the_photo_is_compared_flattened_and_from_its_region_on(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.controller.show_reading(snapshot)
-    bench.controller.show_photo(photo)
+    bench.show_reading(snapshot)
+    bench.show_photo(photo)
     bench.residual()
     flattened = stripes_of(photo).flattened
     for placement in (Placement(300.0, 5.0), Placement(200.25, 0.0, 2.5)):
-        bench.placements.move(placement)
+        bench.move(placement)
         first = placement.column + 10 * placement.scale
         expected = compare(flattened, snapshot.frame.profile, first, placement.scale)
         assert bench.comparison.first_column == expected.first_column
@@ -127,10 +143,10 @@ def test_the_photo_is_compared_flattened_and_from_its_region_on(
 def test_stripes_are_searched_once_for_all_comparisons(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_photo(photo)
+    bench.show_photo(photo)
     for changes in ({}, {"exposure_time": 30e-6}, {"iso": 50.0}):
         snapshot = snapshot_of(**changes)
-        bench.controller.show_reading(snapshot)
+        bench.show_reading(snapshot)
         bench.residual()
         first = bench.comparison.first_column
         length = len(bench.comparison.simulated)
@@ -143,11 +159,11 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.controller.show_photo(photo)
-    bench.controller.show_reading(snapshot)
+    bench.show_photo(photo)
+    bench.show_reading(snapshot)
     bench.residual()
     for enhanced, profile in ((True, snapshot.frame.signal), (False, snapshot.frame.profile)):
-        bench.controller.set_enhanced(enhanced)
+        bench.set_enhanced(enhanced)
         first = bench.comparison.first_column
         length = len(bench.comparison.simulated)
         assert bench.comparison.simulated.tolist() == profile[first : first + length].tolist()
@@ -156,19 +172,16 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
 def test_an_enhanced_photo_is_so_by_its_own_histogram(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_photo(photo)
-    bench.controller.show_reading(snapshot_of())
+    bench.show_photo(photo)
+    bench.show_reading(snapshot_of())
     bench.residual()
     before = bench.comparison
-    bench.controller.set_enhanced(True)
+    bench.set_enhanced(True)
     after = bench.comparison
     assert after.photo.tolist() == enhance(before.photo, "equalization").tolist()
     assert after.correlation == pytest.approx(np.corrcoef(after.photo, after.simulated)[0, 1])
     assert bench.last.raw.tolist() == enhance(photo.profile, "equalization").tolist()
-    exported = bench.controller.comparison()
-    assert exported is not None
-    assert exported.photo.tolist() == after.photo.tolist()
-    bench.controller.set_enhanced(False)
+    bench.set_enhanced(False)
     assert bench.comparison.photo.tolist() == before.photo.tolist()
 
 
@@ -176,8 +189,8 @@ def test_without_stripes_the_photo_is_drawn_with_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.stripes = refuse
-    bench.controller.show_reading(snapshot_of())
-    bench.controller.show_photo(photo)
+    bench.show_reading(snapshot_of())
+    bench.show_photo(photo)
     bench.residual()
     assert bench.last.comparison is None
     assert bench.last.sentence == SENTENCE
@@ -187,37 +200,37 @@ def test_without_stripes_the_photo_is_drawn_with_a_sentence(
 def test_a_photo_moved_beside_the_picture_gives_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_reading(snapshot_of())
-    bench.controller.show_photo(photo)
+    bench.show_reading(snapshot_of())
+    bench.show_photo(photo)
     bench.residual()
-    bench.placements.move(Placement(1e5))
+    bench.move(Placement(1e5))
     assert bench.last.comparison is None
     assert bench.last.sentence.endswith(".")
-    bench.placements.reset()
+    bench.move(None)
     assert bench.comparison.first_column > 0
 
 
 def test_the_stripes_of_a_photo_that_is_gone_are_forgotten(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_reading(snapshot_of())
+    bench.show_reading(snapshot_of())
     bench.go_on.clear()
-    bench.controller.show_photo(photo)
-    bench.controller.show_photo(None)
+    bench.show_photo(photo)
+    bench.show_photo(None)
     bench.residual()
-    assert bench.shown[-1] is None
+    assert bench.shown is None
 
 
 def test_a_matchs_own_levels_take_the_place_of_those_found(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_reading(snapshot_of())
-    bench.controller.show_photo(photo)
+    bench.show_reading(snapshot_of())
+    bench.show_photo(photo)
     bench.residual()
     before = bench.comparison.correlation
     found = stripes_of(photo)
     fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
-    bench.controller.show_match(match_with(photo, fitted))
+    bench.show_match(photo, fitted)
     assert bench.comparison.correlation != before
 
 
@@ -225,10 +238,10 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.stripes = refuse
-    bench.controller.show_reading(snapshot_of())
+    bench.show_reading(snapshot_of())
     bench.go_on.clear()
-    bench.controller.show_photo(photo)
-    bench.controller.show_match(match_with(photo, stripes_of(photo)))
+    bench.show_photo(photo)
+    bench.show_match(photo, stripes_of(photo))
     bench.residual()
     assert bench.last.sentence == ""
     assert bench.comparison is not None
@@ -237,17 +250,17 @@ def test_a_match_is_not_overtaken_by_the_search_for_stripes(
 def test_a_simulation_without_stripes_is_not_compared(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_photo(photo)
+    bench.show_photo(photo)
     bench.residual()
-    bench.controller.show_reading(snapshot_of(exposure_time=5.0))  # white from rim to rim
+    bench.show_reading(snapshot_of(exposure_time=5.0))  # white from rim to rim
     assert bench.last.comparison is None
     assert bench.last.sentence == "The simulation has no stripes there to compare."
-    bench.controller.show_reading(snapshot_of())
+    bench.show_reading(snapshot_of())
     assert bench.comparison is not None
     assert bench.last.sentence == ""
 
 
-def match_with(photo: Photo, stripes: Stripes) -> Match:
+def match_with(stripes: Stripes) -> Match:
     return Match(
         scene=occ.Scene(), stripes=stripes, readout_time=8e-6, switching_frequency=1e4,
         exposure_time=68e-6, start_time=0.0, gamma=2.22, uncertainties={}, pattern="10",
@@ -258,11 +271,11 @@ def match_with(photo: Photo, stripes: Stripes) -> Match:
 def test_a_photo_lies_at_the_panels_corner(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.controller.show_photo(photo)
+    bench.show_photo(photo)
     for distance in (1.2, 2.0):
         snapshot = snapshot_of(distance=distance)
-        bench.controller.show_reading(snapshot)
-        assert bench.placements.placement == Placement(*snapshot.panel_origin)
+        bench.show_reading(snapshot)
+        assert bench.part.placement == Placement(*snapshot.panel_origin)
 
 
 def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
@@ -270,9 +283,9 @@ def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(
 ) -> None:
     snapshot = snapshot_of(columns=300)
     Image.fromarray(snapshot.frame.image).save(tmp_path / "a.png")
-    bench.controller.show_reading(snapshot)
-    bench.controller.show_photo(occ.load_photo(tmp_path / "a.png", "columns"))
-    assert bench.placements.placement == Placement()
+    bench.show_reading(snapshot)
+    bench.show_photo(occ.load_photo(tmp_path / "a.png", "columns"))
+    assert bench.part.placement == Placement()
     bench.residual()
 
 
@@ -280,9 +293,9 @@ def test_another_photo_does_not_lie_where_the_last_one_was_put(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.controller.show_reading(snapshot)
-    bench.controller.show_photo(photo)
-    bench.placements.move(Placement(1.0, 2.0, 3.0))
-    bench.controller.show_photo(photo)
-    assert bench.placements.placement == Placement(*snapshot.panel_origin)
+    bench.show_reading(snapshot)
+    bench.show_photo(photo)
+    bench.move(Placement(1.0, 2.0, 3.0))
+    bench.show_photo(photo)
+    assert bench.part.placement == Placement(*snapshot.panel_origin)
     bench.residual()

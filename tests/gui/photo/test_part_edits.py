@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.photo.photo_bench import PhotoBench
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
@@ -13,9 +14,10 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Session
-from occ_gui.photo.lamp_controller import LampController
 from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.lamp_outlines import LampOutlines
+from occ_gui.photo.part_edits import PartEdits
+from occ_gui.values.photo_choice import PhotoFrame
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -34,10 +36,11 @@ LAMPS = (
 )
 
 
-class Bench:
-    """The controller with its form and its outlines."""
+class Bench(PhotoBench):
+    """The edits with the form and the outlines."""
 
     def __init__(self, qtbot: QtBot, photo: Photo) -> None:
+        super().__init__()
         self.form = LampForm()
         qtbot.addWidget(self.form)
         self.view = pg.GraphicsView()
@@ -45,31 +48,33 @@ class Bench:
         self.box = pg.ViewBox()
         self.view.setCentralItem(self.box)
         self.outlines = LampOutlines(self.box)
-        self.lamps = LampController((self.form, self.outlines))
-        self.regions: list[object] = []
-        self.lamps.region_changed.connect(self.regions.append)
-        self.form.chosen.connect(self.lamps.choose)
-        self.outlines.clicked.connect(self.lamps.choose)
-        self.outlines.drawn.connect(self.lamps.draw)
-        self.lamps.show_photo(photo)
+        self.parts = PartEdits(self.store, self.board)
+        self.store.select(lambda workspace: workspace.photo).changed.connect(self._show)
+        self.form.chosen.connect(self.parts.choose)
+        self.outlines.clicked.connect(self.parts.choose)
+        self.outlines.drawn.connect(self.parts.draw)
+        self.show_photo(photo)
 
-    def find(self, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot) -> None:
-        monkeypatch.setattr("occ_model.find_lamps", lambda *_: LAMPS)
-        with qtbot.waitSignal(self.lamps.runner.finished):
-            self.lamps.find()
+    def _show(self) -> None:
+        lamps, part = self.board.results.lamps, self.parts.part
+        chosen = next((place for place, lamp in enumerate(lamps) if lamp is part), None)
+        for drawn in (self.form, self.outlines):
+            drawn.show_lamps(lamps, chosen)
+
+    def find(self) -> None:
+        self.board.put(replace(self.board.results, lamps=LAMPS))
+        self._show()
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, photo: Photo):  # type: ignore[no-untyped-def]
-    bench = Bench(qtbot, photo)
-    yield bench
-    bench.lamps.stop()
+def bench(qtbot: QtBot, photo: Photo) -> Bench:
+    return Bench(qtbot, photo)
 
 
 def test_every_lamp_has_an_outline_and_a_row(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    bench: Bench,
 ) -> None:
-    bench.find(monkeypatch, qtbot)
+    bench.find()
     assert len(bench.outlines.items) == bench.form.table.rowCount() == len(LAMPS)
     texts = [
         [
@@ -84,18 +89,18 @@ def test_every_lamp_has_an_outline_and_a_row(
 
 
 def test_a_click_within_a_lamp_chooses_it(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    bench: Bench,
 ) -> None:
-    bench.find(monkeypatch, qtbot)
+    bench.find()
     bench.outlines.click(QPointF(70.0, 40.0))
-    assert bench.regions[-1] is LAMPS[1]
+    assert bench.parts.part is LAMPS[1]
     assert next(item.row() for item in bench.form.table.selectedItems()) == 1
     bench.outlines.click(QPointF(95.0, 5.0))
-    assert bench.regions[-1] is LAMPS[1]
+    assert bench.parts.part is LAMPS[1]
     bench.form.table.selectRow(2)
-    assert bench.regions[-1] is LAMPS[2]
-    bench.lamps.match_whole()
-    assert bench.regions[-1] is None
+    assert bench.parts.part is LAMPS[2]
+    bench.parts.match_whole()
+    assert bench.parts.part is None
 
 
 @pytest.mark.parametrize("chosen", [None, 0, 2])
@@ -118,31 +123,30 @@ def test_the_table_of_many_lamps_is_no_higher_than_of_some(bench: Bench) -> None
 
 def test_a_rectangle_is_clipped_to_the_photo(bench: Bench, photo: Photo) -> None:
     _rows, columns = photo.image.shape
-    bench.lamps.draw(Region(-20, 30, 40, columns + 500))
-    assert bench.lamps.region == Region(0, 30, 40, columns)
-    bench.lamps.set_by_hand(False)
-    assert bench.lamps.region is None
+    bench.parts.draw(Region(-20, 30, 40, columns + 500))
+    assert bench.parts.part == Region(0, 30, 40, columns)
+    bench.parts.set_by_hand(False)
+    assert bench.parts.part is None
 
 
-def test_a_chosen_lamp_is_kept_as_its_rectangle(
-    bench: Bench, photo: Photo, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
-) -> None:
-    assert bench.lamps.rectangle is None
-    bench.find(monkeypatch, qtbot)
-    bench.lamps.choose(2)
-    assert bench.lamps.rectangle == LAMPS[2].region
-    bench.lamps.show_photo(replace(photo, channel="red"))
-    assert bench.lamps.by_hand == LAMPS[2].region
-    bench.lamps.match_whole()
-    assert bench.lamps.rectangle is None
+def test_a_chosen_lamp_is_kept_as_its_rectangle(bench: Bench, photo: Photo) -> None:
+    assert bench.choice.rectangle is None
+    bench.find()
+    bench.parts.choose(2)
+    assert bench.parts.part is LAMPS[2]
+    assert bench.choice.rectangle == LAMPS[2].region
+    bench.board.put(replace(bench.board.results, lamps=()))
+    assert bench.parts.part == LAMPS[2].region
+    bench.parts.match_whole()
+    assert bench.choice.rectangle is None
 
 
 def test_the_rectangle_dragged_is_the_one_matched(bench: Bench) -> None:
-    bench.lamps.set_by_hand(True)
-    bench.outlines.show_rectangle(bench.lamps.by_hand)
+    bench.parts.set_by_hand(True)
+    bench.outlines.show_rectangle(bench.parts.part)
     bench.outlines.rectangle.setPos((9.5, 4.5), finish=False)
     bench.outlines.rectangle.setSize((30, 20))
-    assert bench.lamps.by_hand == Region(5, 25, 10, 40)
+    assert bench.parts.part == Region(5, 25, 10, 40)
 
 
 def test_a_drag_with_the_tool_on_draws_the_rectangle(
@@ -167,45 +171,45 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
         bench.view.show()
     bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
     drag(QPointF(10, 5), QPointF(40, 25))
-    assert bench.lamps.by_hand is None  # the tool is off: the picture moves
+    assert bench.parts.part is None  # the tool is off: the picture moves
     bench.box.setRange(xRange=(0, 100), yRange=(0, 60), padding=0.0)
-    bench.lamps.draw(Region(30, 50, 60, 90))
-    bench.outlines.show_rectangle(bench.lamps.by_hand)
+    bench.parts.draw(Region(30, 50, 60, 90))
+    bench.outlines.show_rectangle(bench.parts.part)
     drag(QPointF(10, 5), QPointF(40, 25))
-    found = bench.lamps.by_hand
+    found = bench.parts.part
     assert found is not None
     corners = (found.first_row, found.last_row, found.first_column, found.last_column)
     assert corners == pytest.approx((5, 25, 10, 40), abs=1)
 
 
 def test_a_region_stays_when_the_channel_is_changed(bench: Bench, photo: Photo) -> None:
-    bench.lamps.draw(Region(5, 25, 10, 40))
-    bench.lamps.show_photo(replace(photo, channel="red"))
-    assert bench.lamps.by_hand == Region(5, 25, 10, 40)
-    bench.lamps.show_photo(replace(photo, path=Path("other.png")))
-    assert bench.lamps.by_hand is None
+    bench.parts.draw(Region(5, 25, 10, 40))
+    bench.show_photo(replace(photo, channel="red"))
+    assert bench.parts.part == Region(5, 25, 10, 40)
+    bench.show_photo(replace(photo, path=Path("other.png")))
+    assert bench.parts.part is None
 
 
 def test_a_region_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
     """Going through the rows of the table of photos opens one after the other."""
     drawn, other = Region(5, 25, 10, 40), replace(photo, path=Path("other.png"))
-    bench.lamps.draw(drawn)
+    bench.parts.draw(drawn)
     for shown, region in ((other, None), (photo, drawn), (other, None)):
-        bench.lamps.show_photo(shown)
-        assert bench.lamps.by_hand == region
-    bench.lamps.draw(Region(30, 50, 60, 90))
-    bench.lamps.show_photo(photo)
-    assert bench.lamps.by_hand == drawn
-    bench.lamps.match_whole()
-    bench.lamps.show_photo(other)
-    assert bench.lamps.by_hand == Region(30, 50, 60, 90)
-    bench.lamps.show_photo(photo)
-    assert bench.lamps.by_hand is None, "the whole photo was chosen since"
-    bench.lamps.show_photo(replace(other, turned=True))
-    assert bench.lamps.by_hand is None, "along the other axis it is another rectangle"
-    bench.lamps.show_photo(None)
-    bench.lamps.show_photo(other)
-    assert bench.lamps.by_hand is None
+        bench.show_photo(shown)
+        assert bench.parts.part == region
+    bench.parts.draw(Region(30, 50, 60, 90))
+    bench.show_photo(photo)
+    assert bench.parts.part == drawn
+    bench.parts.match_whole()
+    bench.show_photo(other)
+    assert bench.parts.part == Region(30, 50, 60, 90)
+    bench.show_photo(photo)
+    assert bench.parts.part is None, "the whole photo was chosen since"
+    bench.show_photo(replace(other, turned=True))
+    assert bench.parts.part is None, "along the other axis it is another rectangle"
+    bench.show_photo(None)
+    bench.show_photo(other)
+    assert bench.parts.part is None
 
 
 @pytest.mark.parametrize("region", [None, Region(5, 25, 10, 40)])
@@ -219,9 +223,10 @@ def test_the_session_keeps_the_region(
     assert again.last.region == region
     again.close()
     if region is not None:
-        bench.lamps.keep(photo.path, region)
-        bench.lamps.show_photo(photo)
-        assert bench.lamps.by_hand == region
+        bench.show_photo(None)
+        bench.choose(parts={PhotoFrame(photo.path): region})
+        bench.show_photo(photo)
+        assert bench.parts.part == region
 
 
 @pytest.mark.parametrize("damaged", ['"x"', '{"first_row": 1}', "[1, 2, 3, 4]", "7"])
@@ -248,21 +253,21 @@ def test_a_rectangle_that_is_taken_away_is_hidden_and_draws_nothing(bench: Bench
 
 
 def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
-    bench: Bench, photo: Photo, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    bench: Bench, photo: Photo
 ) -> None:
     """The middle half of the photo, so that all its corners can be taken hold of."""
     rows, columns = photo.image.shape
-    bench.lamps.set_by_hand(True)
-    middle = bench.lamps.by_hand
+    bench.parts.set_by_hand(True)
+    middle = bench.parts.part
     assert middle is not None
     assert (2 * middle.rows, 2 * middle.columns) == (rows, columns)
     assert middle.first_row == rows - middle.last_row
     assert middle.first_column == columns - middle.last_column
-    bench.lamps.match_whole()
-    bench.find(monkeypatch, qtbot)
-    bench.lamps.choose(2)
-    bench.lamps.set_by_hand(True)
-    assert bench.lamps.by_hand == LAMPS[2].region
+    bench.parts.match_whole()
+    bench.find()
+    bench.parts.choose(2)
+    bench.parts.set_by_hand(True)
+    assert bench.parts.part == LAMPS[2].region
 
 
 def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(bench: Bench) -> None:
@@ -277,9 +282,9 @@ def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(benc
 
 
 def test_a_lamps_number_stands_above_it_and_hides_nothing_of_it(
-    bench: Bench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    bench: Bench,
 ) -> None:
-    bench.find(monkeypatch, qtbot)
+    bench.find()
     for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
         assert (number.pos().x(), number.pos().y()) == (
             lamp.region.first_column, lamp.region.first_row,

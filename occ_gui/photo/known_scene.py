@@ -1,0 +1,18 @@
+"""What a match starts from: the scene with what the user knows, and what is sent."""
+
+from occ_gui.values.match_choice import MatchChoice
+from occ_model.scene.scene import Scene
+from occ_model.scene.square_wave import blinking
+
+
+def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
+    """Give the scene with what the user knows, and where the sent pattern is taken from.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
+    if choice.sent != "square":
+        return scene, choice.sent
+    return blinking(scene, choice.square_frequency), "scene"

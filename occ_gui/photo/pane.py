@@ -1,0 +1,221 @@
+"""The pane of the photo: what it shows follows from what is set, what the user does is an edit."""
+
+from dataclasses import replace
+
+from pyqtgraph.GraphicsScene.mouseEvents import MouseClickEvent
+from PySide6.QtCore import Signal
+
+from occ_gui.photo.lamp_outlines import LampOutlines
+from occ_gui.photo.many.many_controller import ManyPhotosController
+from occ_gui.photo.match_controller import MatchController, cure_of_match
+from occ_gui.photo.part_edits import PartEdits
+from occ_gui.photo.photo_comparison import compared, photo_profile
+from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.photo.photo_part import PhotoPart
+from occ_gui.photo.photo_view import PhotoView
+from occ_gui.photo.photo_work import chip_reading, lamp_search, stripe_search
+from occ_gui.picture.image_view import ImageView
+from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import Board
+from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.photo_choice import Placed
+from occ_gui.values.photo_results import FoundMatch
+from occ_gui.values.placement import MODES, Placement
+from occ_model.results.decoding import Region
+
+
+class PhotoPane(Pane[PhotoPart]):
+    """The view of a photo with the work on it.
+
+    Parameters
+    ----------
+    scenes
+        The scene that a photo is matched with.
+    photos
+        Reads the photo.
+    image
+        The pane of the picture, which the photo lies beside or on.
+    board
+        Takes what is read of the photo.
+    """
+
+    match_shown = Signal(object)
+    """The match that is shown from now on, or None."""
+
+    def __init__(
+        self, scenes: SceneStore, photos: PhotoController, image: ImageView, board: Board
+    ) -> None:
+        self.view = view = PhotoView()
+        super().__init__(view)
+        self._image, self._store, self._board, self.photos = image, scenes.store, board, photos
+        self.verdict = view.verdict
+        self.matching = MatchController(scenes, board)
+        self.parts = PartEdits(scenes.store, board)
+        self.many = ManyPhotosController(scenes, photos, view.many, board)
+        self.lamps = lamp_search(scenes.store, board)
+        self.works = (stripe_search(scenes.store, board), chip_reading(scenes.store, board))
+        works = (photos.work, self.matching.work, self.lamps, *self.works)
+        self.tasks = (*(work.task for work in works), self.many.runner)
+        self.outlines = LampOutlines(image.photo.box)
+        self._shown = PhotoPart(scenes.scene, None, photos.choice)
+        self._compared = compared(self._shown)
+        view.show_scene(scenes.scene)
+        view.show_choice(photos.choice)
+        self._connect_work()
+        self._connect_view()
+
+    def _connect_work(self) -> None:
+        view, matching, lamps = self.view, self.matching.work, self.lamps
+        matching.begun.connect(view.show_match_begun)
+        matching.task.reported.connect(view.show_progress)
+        matching.ended.connect(view.show_match_ended)
+        matching.failed.connect(view.show_match_failed)
+        matching.found.connect(self._show_found)
+        lamps.begun.connect(view.lamps.show_searching)
+        lamps.ended.connect(view.lamps.show_searched)
+        lamps.found.connect(self._show_part_of_photo)
+        lamps.failed.connect(view.lamps.show_sentence)
+
+    def _connect_view(self) -> None:
+        view, image, photos, matching = self.view, self._image, self.photos, self.matching
+        for placing in (image.overlay, view.placement):
+            placing.placed.connect(self._place)
+        view.placement.reset_asked.connect(self._lie_by_itself)
+        view.placement.moving_chosen.connect(self._let_move)
+        view.facts.channel_chosen.connect(photos.take_channel)
+        view.facts.scan_axis_chosen.connect(photos.scan_along)
+        view.facts.settings_asked.connect(matching.use_notes)
+        view.form.chosen.connect(self._take_form)
+        view.form.certain_chosen.connect(self._take_certain)
+        view.form.asked.connect(matching.start)
+        view.form.cancelled.connect(matching.cancel)
+        view.many.match_asked.connect(self.match_all)
+        view.many.photo_chosen.connect(photos.open)
+        view.result.apply_asked.connect(matching.apply)
+        view.result.cure_asked.connect(self._cure)
+        form, parts = view.lamps, self.parts
+        form.find_asked.connect(parts.find)
+        form.by_hand_chosen.connect(parts.set_by_hand)
+        form.whole_asked.connect(parts.match_whole)
+        for choosing in (form.chosen, self.outlines.clicked):
+            choosing.connect(parts.choose)
+        self.outlines.drawn.connect(parts.draw)
+        image.photo.graphics.scene().sigMouseClicked.connect(self._click)
+
+    # What is shown.
+
+    @property
+    def placement(self) -> Placement:
+        """Where the photo lies on the picture."""
+        return self._shown.placement
+
+    def show_part(self, part: PhotoPart) -> None:
+        """Show what differs from what is shown."""
+        shown, self._shown = self._shown, part
+        self._show(part, shown)
+        self._follow(part, shown)
+
+    def _show(self, part: PhotoPart, shown: PhotoPart) -> None:
+        view, is_another = self.view, part.photo is not shown.photo
+        if is_another:
+            self._image.show_photo(part.photo)
+            view.show_photo(part.photo)
+        if part.scene is not shown.scene:
+            view.show_scene(part.scene)
+        if part.choice != shown.choice:
+            view.show_choice(part.choice)
+        self._show_match(part, shown)
+        if is_another or (part.lamps, part.part) != (shown.lamps, shown.part):
+            self._show_part_of_photo()
+        placing = (part.placement, part.is_by_hand)
+        if placing != (shown.placement, shown.is_by_hand):
+            self._image.show_placement(part.placement)
+            view.show_placement(*placing)
+
+    def _show_match(self, part: PhotoPart, shown: PhotoPart) -> None:
+        view, is_another = self.view, part.match is not shown.match
+        if is_another:
+            view.show_match(part.found, None if part.match is None else cure_of_match(part.match))
+            is_own = part.found is not None and not part.found.is_listed
+            own = part.photo.path if part.photo is not None and is_own else None
+            view.many.rows.show_earlier(own)
+        if part.match is not None and (is_another or part.age != shown.age):
+            view.show_match_outdated(*part.age)
+        if part.refusal != shown.refusal:
+            view.show_match_refused(part.refusal)
+
+    def _follow(self, part: PhotoPart, shown: PhotoPart) -> None:
+        """Do what follows from a change; another part may come of it, which is shown then."""
+        if part.match is not shown.match:
+            self.match_shown.emit(part.match)
+        if part.choice.listed != shown.choice.listed:
+            self.many.show_files(part.choice.listed)
+        if part.part != shown.part:
+            self.matching.cancel()
+            if part.part is not None:
+                self._lay(MODES[0])  # lamps and regions are drawn on the photo beside the picture
+        last, self._compared = self._compared, compared(self._shown)
+        if self._compared != last:
+            profile = photo_profile(self._shown)
+            self._board.put(replace(self._board.results, photo_profile=profile))
+
+    def _show_found(self, found: FoundMatch) -> None:
+        """Show the end of a match: one that is refused as the last one was, too."""
+        if found.refusal:
+            self.view.show_match_refused(found.refusal)
+        else:
+            self._lie_by_itself()  # a placement by hand belongs to the picture before the match
+
+    def _show_part_of_photo(self) -> None:
+        lamps, part = self._shown.lamps, self._shown.part
+        chosen = next((place for place, lamp in enumerate(lamps) if lamp is part), None)
+        by_hand = part if isinstance(part, Region) else None
+        for drawn in (self.view.lamps, self.outlines):
+            drawn.show_lamps(lamps, chosen)
+        self.view.lamps.show_region(lamps[chosen].region if chosen is not None else by_hand, chosen)
+        self.view.lamps.show_by_hand(by_hand is not None)
+        self.outlines.show_rectangle(by_hand)
+
+    # What the user does.
+
+    def match(self) -> None:
+        """Match the photo with the choices of the pane."""
+        self.matching.start(self.view.form.choice())
+
+    def match_all(self) -> None:
+        """Match the photos of the table with the choices of the pane."""
+        self.many.start(self.view.form.choice())
+
+    def _take_form(self, form: MatchChoice) -> None:
+        self.photos.edit(lambda choice: replace(choice, form=form))
+
+    def _take_certain(self, name: str, value: float | None) -> None:
+        self.photos.edit(lambda choice: choice.with_certain(name, value))
+
+    def _place(self, placement: Placement | None) -> None:
+        opened = self._board.results.opened
+        if opened is not None:
+            placed = None if placement is None else Placed(opened.source, placement)
+            self.photos.edit(lambda choice: replace(choice, placed=placed))
+
+    def _lie_by_itself(self) -> None:
+        self._place(None)
+
+    def _cure(self) -> None:
+        """Show the simulation at a shutter speed without bars, beside the photo."""
+        self.matching.cure()
+        self._lay(MODES[0])
+
+    def _lay(self, mode: str) -> None:
+        """Lay the photo beside the picture or over it."""
+        self._store.put(replace(self._store.workspace, overlay=mode))
+
+    def _let_move(self, by_mouse: bool) -> None:
+        self._image.overlay.set_movable(by_mouse)
+        if by_mouse and self._store.workspace.overlay == MODES[0]:
+            # A photo beside the picture cannot be moved over it.
+            self._lay(MODES[1])
+
+    def _click(self, event: MouseClickEvent) -> None:
+        self.outlines.click(self._image.photo.box.mapSceneToView(event.scenePos()))

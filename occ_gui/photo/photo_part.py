@@ -1,0 +1,157 @@
+"""What the photo's pane shows: it follows from what the user has set and what was computed."""
+
+from dataclasses import dataclass, field, replace
+from typing import TypeAlias
+
+from occ_gui.core.workspace import Workspace
+from occ_gui.shell.results import Results
+from occ_gui.simulation.snapshot import ColumnView, Reading
+from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
+from occ_gui.values.photo_results import FoundMatch, StripeSearch
+from occ_gui.values.placement import Placement
+from occ_model.errors import ParameterError
+from occ_model.photo.reading.load import Photo
+from occ_model.photo.reading.part import region_within
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Match, Stripes
+from occ_model.scene.scene import Scene
+
+Part: TypeAlias = Lamp | Region | None
+"""What of a photo is matched: a lamp, a rectangle drawn by hand, or None for all of it."""
+
+
+def part_of(choice: PhotoChoice, results: Results) -> Part:
+    """Give what of the open photo is matched: of a lamp that is not known any more, its place."""
+    opened = results.opened
+    if opened is None:
+        return None
+    any_frame = choice.parts.get(PhotoFrame(opened.photo.path))
+    part = choice.parts.get(opened.frame, any_frame)
+    if isinstance(part, Lamp):
+        return part if part in results.lamps else part.region
+    return part if part is not None and lies_within(opened.photo, part) else None
+
+
+def lies_within(photo: Photo, region: Region) -> bool:
+    """Return whether a photo has a rectangle."""
+    try:
+        region_within(photo, region)
+    except ParameterError:
+        return False
+    return True
+
+
+def found_in(results: Results) -> FoundMatch | None:
+    """Give the match of the open photo: its own, or that of its row in the table."""
+    opened, found, listed = results.opened, results.match, results.listed
+    if opened is None:
+        return None
+    if found is not None and found.photo is not opened.photo:
+        found = None
+    if listed is not None and (found is None or found.match is None):
+        row = listed.match_of(opened)
+        if row is not None and found is not None:
+            row = replace(row, refusal=found.refusal, refused_part=found.part)
+        return row or found
+    return found
+
+
+def automatic_placement(photo: Photo, reading: ColumnView) -> Placement:
+    """Place a photo of the picture's size at its corner, and any other at the panel's corner."""
+    camera = reading.scene.camera
+    is_same = photo.image.shape == (camera.rows, camera.columns)
+    return Placement() if is_same else Placement(*reading.panel_origin)
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoPart:
+    """What the photo's pane shows.
+
+    Parameters
+    ----------
+    reading
+        What is read of the simulated scene.
+    part
+        What of the photo is matched.
+    is_by_hand
+        Whether the photo lies where the user has put it.
+    is_late
+        Whether another photo is being read than the one that is shown.
+    """
+
+    scene: Scene
+    reading: Reading | None
+    choice: PhotoChoice
+    photo: Photo | None = None
+    lamps: tuple[Lamp, ...] = ()
+    part: Part = None
+    found: FoundMatch | None = None
+    searched: StripeSearch | None = None
+    placement: Placement = field(default_factory=Placement)
+    is_by_hand: bool = False
+    is_late: bool = False
+    is_enhanced: bool = False
+
+    @classmethod
+    def of(cls, workspace: Workspace, results: Results) -> "PhotoPart":
+        """Give what is to be shown."""
+        choice, opened, reading = workspace.photo, results.opened, results.reading
+        there = cls(workspace.scene, reading, choice)
+        if opened is None:
+            return there
+        placed, placement = choice.placed, Placement()
+        is_by_hand = placed is not None and placed.source == opened.source
+        if placed is not None and is_by_hand:
+            placement = placed.placement.within_limits()
+        elif reading is not None:
+            placement = automatic_placement(opened.photo, reading)
+        return replace(
+            there,
+            photo=opened.photo,
+            lamps=results.lamps,
+            part=part_of(choice, results),
+            found=found_in(results),
+            searched=results.stripes,
+            placement=placement,
+            is_by_hand=is_by_hand,
+            is_late=choice.source != opened.source,
+            is_enhanced=workspace.is_enhanced,
+        )
+
+    @property
+    def stripes(self) -> Stripes | None:
+        """The stripes of the match, whose levels are those of the fit, or those found before."""
+        if self.match is not None:
+            return self.match.stripes
+        return None if self.searched is None else self.searched.stripes
+
+    @property
+    def why_no_stripes(self) -> str:
+        """Why no stripes are known; empty also while they are searched."""
+        return "" if self.match is not None or self.searched is None else self.searched.sentence
+
+    @property
+    def match(self) -> Match | None:
+        """The match of the photo; None where there is none."""
+        return None if self.found is None else self.found.match
+
+    @property
+    def refusal(self) -> tuple[str, ...]:
+        """Why there is no match of what is shown; empty where it was not refused."""
+        return () if self.found is None else self.found.refusal_of(self.part)
+
+    @property
+    def elsewhere(self) -> str:
+        """Why the match is not of what is shown, and cannot be used; empty if it is."""
+        if self.is_late:
+            return "of the photo before: one is being read"
+        if self.found is not None and self.found.part != self.part:
+            return "of another part of the photo: match again"
+        return ""
+
+    @property
+    def age(self) -> tuple[str, bool]:
+        """Why the match is not the present one, empty if it is, and whether it can be used."""
+        refused = "of the match before: the last one is refused" * bool(self.refusal)
+        return self.elsewhere or refused, not self.elsewhere

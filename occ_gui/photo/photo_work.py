@@ -1,0 +1,140 @@
+"""What is worked out of the open photo in the background: lamps, stripes, chips and the match."""
+
+from dataclasses import replace
+
+import occ_model as occ
+from occ_gui.background.task import Report, Task
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_gui.photo.known_scene import known_scene
+from occ_gui.photo.photo_controller import KEPT
+from occ_gui.photo.photo_part import Part, part_of
+from occ_gui.shell.results import Board, Results
+from occ_gui.shell.work import Work
+from occ_gui.values.match_choice import KNOWN
+from occ_gui.values.photo_choice import Asked, MatchAsked
+from occ_gui.values.photo_results import FoundMatch, StripeSearch
+from occ_model.errors import MatchError
+from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.find import find_stripes
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import ChipReading
+
+PartOfPhoto = tuple[Photo, Part]
+"""A photo, and the part of it that is matched."""
+
+
+AskedOfPhoto = tuple[Photo, Asked]
+"""A photo, and the search that was asked for."""
+
+
+def lamp_search(store: Store, board: Board) -> Work[AskedOfPhoto, tuple[Lamp, ...]]:
+    """Find the lamps of a photo, when that is asked for."""
+
+    def of(workspace: Workspace, results: Results) -> AskedOfPhoto | None:
+        asked, opened = workspace.photo.lamps_asked, results.opened
+        if asked is None or opened is None or asked.source != opened.source:
+            return None
+        return opened.photo, asked
+
+    def put(results: Results, lamps: tuple[Lamp, ...] | None) -> Results:
+        return replace(results, lamps=lamps or ())
+
+    def find(request: AskedOfPhoto, report: Report) -> tuple[Lamp, ...]:
+        return occ.find_lamps(request[0], report)
+
+    task: Task[AskedOfPhoto, tuple[Lamp, ...]] = Task(find, "search for lamps", impatient=True)
+    return Work(store, board, task, of, put, keep=KEPT)
+
+
+def _part(workspace: Workspace, results: Results) -> PartOfPhoto | None:
+    photo = results.photo
+    return None if photo is None else (photo, part_of(workspace.photo, results))
+
+
+def stripe_search(store: Store, board: Board) -> Work[PartOfPhoto, StripeSearch]:
+    """Find the stripes of a photo, or of a part of it; those of a match replace them."""
+
+    def search(asked: PartOfPhoto, _report: Report) -> StripeSearch:
+        try:
+            return StripeSearch(find_stripes(*asked), "")
+        except MatchError as error:
+            return StripeSearch(None, str(error))
+
+    def put(results: Results, found: StripeSearch | None) -> Results:
+        return replace(results, stripes=found)
+
+    task: Task[PartOfPhoto, StripeSearch] = Task(search, "search for stripes", impatient=True)
+    work = Work(store, board, task, _part, put)
+    work.failed.connect(lambda why: board.put(put(board.results, StripeSearch(None, why))))
+    return work
+
+
+def chip_reading(store: Store, board: Board) -> Work[PartOfPhoto, ChipReading | None]:
+    """Read the chips of a photo, or of a part of it."""
+
+    def read(asked: PartOfPhoto, _report: Report) -> ChipReading | None:
+        try:
+            return occ.read_chips(*asked)
+        except MatchError:
+            return None
+
+    def put(results: Results, chips: ChipReading | None) -> Results:
+        return replace(results, chips=chips)
+
+    task: Task[PartOfPhoto, ChipReading | None] = Task(read, "reading of chips", impatient=True)
+    return Work(store, board, task, _part, put)
+
+
+MatchRequest = tuple[Photo, MatchAsked]
+"""A photo that was read, and the match that was asked for."""
+
+
+def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
+    """Match a photo, when that is asked for."""
+
+    def of(workspace: Workspace, results: Results) -> MatchRequest | None:
+        asked, opened = workspace.photo.match_asked, results.opened
+        if asked is None or opened is None or asked.source != opened.source:
+            return None
+        return opened.photo, asked
+
+    task = Task(match, "match of the photo", impatient=True)
+    return Work(store, board, task, of, _put_match, stays=True, keep=KEPT)
+
+
+def match(request: MatchRequest, report: Report) -> FoundMatch:
+    """Match a photo.
+
+    Raises
+    ------
+    ParameterError
+        The frequency of the square wave is out of range.
+    """
+    report(0.0)
+    photo, asked = request
+    choice = asked.choice
+    scene, sent = known_scene(asked.scene, choice)
+    known = next(name for name in KNOWN if name != choice.estimate)
+    found = FoundMatch(photo, asked.part, None, float(asked.scene.value(known)))
+    try:
+        match = occ.match_photo(  # imported now: the window starts sooner without it
+            photo,
+            scene,
+            estimate=choice.estimate,
+            sent=sent,
+            fit_gamma=choice.fit_gamma,
+            region=asked.part,
+            progress=report,
+        )
+    except MatchError as error:
+        return replace(found, refusal=error.reasons)
+    return replace(found, match=match)
+
+
+def _put_match(results: Results, found: FoundMatch | None) -> Results:
+    """Put a match among the results; where it is refused, the last one of the photo stays."""
+    last = results.match
+    if found is not None and found.refusal and last is not None and last.photo is found.photo:
+        found = replace(last, refusal=found.refusal, refused_part=found.part)
+    return replace(results, match=found)

@@ -1,0 +1,91 @@
+"""Work: keeps one of the results, asking a task for it whenever what it follows from differs."""
+
+from collections import deque
+from collections.abc import Callable
+from typing import Generic
+
+from PySide6.QtCore import QObject, Signal
+
+from occ_gui.background.task import Request, Result, Task
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_gui.shell.results import Board, Results
+
+
+class Work(QObject, Generic[Request, Result]):
+    """Keeps a result that follows from workspace and results on the board.
+
+    Parameters
+    ----------
+    task
+        Does the work, impatiently.
+    of
+        Gives what is asked of the task; None where there is no such result.
+    put
+        Puts a result among the others, or takes it away.
+    stays
+        Whether the last result stays until the next one is there.
+    keep
+        How many results are given again at once when their requests come back.
+    """
+
+    begun = Signal()
+    """The task has begun to work on a request."""
+
+    ended = Signal()
+    """The request was met, has failed, or is not wanted any more."""
+
+    found = Signal(object)
+    """A result that the task has just given; it is on the board."""
+
+    failed = Signal(str)
+    """A sentence that says why there is no result."""
+
+    def __init__(
+        self,
+        store: Store,
+        board: Board,
+        task: Task[Request, Result],
+        of: Callable[[Workspace, Results], Request | None],
+        put: Callable[[Results, Result | None], Results],
+        *,
+        stays: bool = False,
+        keep: int = 0,
+    ) -> None:
+        super().__init__()
+        self._store, self._board, self.task = store, board, task
+        self._of, self._put, self._stays = of, put, stays
+        self._request: Request | None = None
+        self._kept: deque[tuple[Request, Result]] = deque(maxlen=keep)
+        task.finished.connect(self._take)
+        task.failed.connect(self._fail)
+        store.select(lambda workspace: workspace).changed.connect(self.look)
+        board.changed.connect(self.look)
+        self.look()
+
+    def look(self) -> None:
+        """Ask the task, if the request is another one."""
+        request = self._of(self._store.workspace, self._board.results)
+        if request == self._request:
+            return
+        self._request = request
+        if not self.task.is_idle:
+            self.task.cancel()
+            self.ended.emit()
+        kept = next((result for asked, result in self._kept if asked == request), None)
+        if request is not None and kept is None:
+            self.task.ask(request)
+            self.begun.emit()
+        if not self._stays or request is None or kept is not None:
+            self._board.put(self._put(self._board.results, kept))
+
+    def _take(self, result: Result) -> None:
+        if self._request is not None:
+            self._kept.append((self._request, result))
+        self.ended.emit()
+        self._board.put(self._put(self._board.results, result))
+        self.found.emit(result)
+
+    def _fail(self, sentence: str) -> None:
+        self.ended.emit()
+        self.failed.emit(sentence)

@@ -1,0 +1,1 @@
+"""Values that the user has set, of which the workspace consists."""

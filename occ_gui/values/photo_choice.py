@@ -1,0 +1,156 @@
+"""What the user has set about photos: which one is open, how it is read and what is matched."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from itertools import count
+from pathlib import Path
+from typing import Self
+
+from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.placement import Placement
+from occ_model.photo.reading.channels import CHANNELS
+from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.scene.scene import Scene
+
+_openings = count(1)
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoReading:
+    """Options of reading a photo.
+
+    Parameters
+    ----------
+    scan_axis
+        The axis of the file that the shutter scanned, one of SCAN_AXES.
+    channel
+        The channel of a coloured photo that is read, one of CHANNELS.
+    """
+
+    scan_axis: str = SCAN_AXES[0]
+    channel: str = CHANNELS[0]
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoSource:
+    """A file that was opened, and how it is read: opened again, the file is read again."""
+
+    path: Path
+    reading: PhotoReading
+    opening: int
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoFrame:
+    """A photo as it is read: along the other axis, a rectangle of it is another."""
+
+    path: Path
+    shape: tuple[int, ...] = ()
+    """Rows and columns; empty where it was not read yet."""
+    turned: bool = False
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Asked:
+    """What was asked for once of a photo; asked for again, it is another."""
+
+    source: PhotoSource
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class MatchAsked(Asked):
+    """A match that was asked for: the scene and the choices at that time, and what is matched."""
+
+    scene: Scene
+    choice: MatchChoice
+    part: Lamp | Region | None
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """Where the user has put a photo on the picture."""
+
+    source: PhotoSource
+    placement: Placement
+
+
+@dataclass(frozen=True, slots=True)
+class PhotoChoice:
+    """What the user has set about photos; what belongs to another one than is shown is idle.
+
+    Parameters
+    ----------
+    path
+        The photo that is open, or about to be; None for none.
+    opening
+        The number of its opening: opened again, a file is read again.
+    parts
+        The lamp or the rectangle that is matched, of all photos since none was open.
+    form, certain, forgotten
+        The choices of a match, the known values in SI units that are certain of the photo, and
+        those that were certain of photos before.
+    listed
+        The photos of the table.
+    placed, lamps_asked, match_asked
+        Where a photo was put by hand, and the search for lamps and the match that were asked for
+        last; None for none.
+    """
+
+    path: Path | None = None
+    reading: PhotoReading = field(default_factory=PhotoReading)
+    opening: int = 0
+    parts: Mapping[PhotoFrame, Lamp | Region] = field(default_factory=dict)
+    form: MatchChoice = field(default_factory=MatchChoice)
+    certain: Mapping[str, float] = field(default_factory=dict)
+    forgotten: Mapping[str, float] = field(default_factory=dict)
+    listed: tuple[Path, ...] = ()
+    placed: Placed | None = None
+    lamps_asked: Asked | None = None
+    match_asked: MatchAsked | None = None
+
+    @property
+    def source(self) -> PhotoSource | None:
+        """What is to be read; None where no photo is open."""
+        return None if self.path is None else PhotoSource(self.path, self.reading, self.opening)
+
+    @property
+    def rectangle(self) -> Region | None:
+        """The rectangle of what is matched, which a session keeps; None for the whole photo."""
+        parts = [part for frame, part in self.parts.items() if frame.path == self.path]
+        if not parts:
+            return None
+        return parts[-1].region if isinstance(parts[-1], Lamp) else parts[-1]
+
+    def opened(self, path: Path) -> Self:
+        """Open a photo: what is certain of one of the table is so of all of them."""
+        opened = replace(self, path=path, opening=next(_openings))
+        is_listed = path in self.listed and self.path in (None, *self.listed)
+        return opened if is_listed or path == self.path else opened.uncertain()
+
+    def closed(self) -> Self:
+        """Close the photo."""
+        return replace(self, path=None, parts={}).uncertain()
+
+    def shown_by(self, frequency: float) -> Self:
+        """Begin with the form as at first, the switching frequency in Hz being certain."""
+        certain = {"switching_frequency": frequency}
+        return replace(self, form=MatchChoice(), certain=certain, forgotten={})
+
+    def uncertain(self) -> Self:
+        """Take no value as certain any more, and say so of those that were."""
+        return replace(self, certain={}, forgotten={**self.forgotten, **self.certain})
+
+    def with_certain(self, name: str, value: float | None) -> Self:
+        """Take a known value as certain, or as assumed."""
+        others = {known: other for known, other in self.certain.items() if known != name}
+        forgotten = {known: other for known, other in self.forgotten.items() if known != name}
+        certain = others if value is None else {**others, name: value}
+        return replace(self, certain=certain, forgotten=forgotten)
+
+    def with_part(self, frame: PhotoFrame, part: Lamp | Region | None) -> Self:
+        """Match this part of a photo; None for all of it."""
+        former = (frame, PhotoFrame(frame.path))
+        parts = {known: each for known, each in self.parts.items() if known not in former}
+        return replace(self, parts=parts if part is None else {**parts, frame: part})

@@ -1,0 +1,108 @@
+"""What is computed of a photo, each with what it was computed from."""
+
+from dataclasses import dataclass
+
+from occ_gui.values.photo_choice import PhotoFrame, PhotoReading, PhotoSource
+from occ_model.arrays import FloatArray
+from occ_model.photo.reading.load import Photo
+from occ_model.results.decoding import Region
+from occ_model.results.lamp import Lamp
+from occ_model.results.match import Comparison, Match, Stripes
+from occ_model.results.photo_table import PhotoRow
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class OpenPhoto:
+    """A photo that was read, and what of."""
+
+    photo: Photo
+    source: PhotoSource
+
+    @property
+    def frame(self) -> PhotoFrame:
+        """What the parts of it are known by."""
+        return PhotoFrame(self.photo.path, self.photo.image.shape, self.photo.turned)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StripeSearch:
+    """The stripes of a photo or of a part of it, or a sentence why there are none."""
+
+    stripes: Stripes | None
+    sentence: str
+
+
+@dataclass(frozen=True, slots=True)
+class FoundMatch:
+    """What a match has come to.
+
+    Parameters
+    ----------
+    photo, part
+        What was matched; None for all of the photo.
+    match
+        The match; that of before where there is a refusal, None where there was none.
+    given
+        The known value of the scene when it was asked for, in SI units.
+    refusal
+        The reasons why there is no match, each a sentence, and the part that they are about.
+    """
+
+    photo: Photo
+    part: Lamp | Region | None
+    match: Match | None
+    given: float
+    refusal: tuple[str, ...] = ()
+    refused_part: Lamp | Region | None = None
+    is_listed: bool = False
+    """Whether the table of photos has found it."""
+
+    def refusal_of(self, part: Lamp | Region | None) -> tuple[str, ...]:
+        """Give the reasons why there is no match of this part; empty where it was not refused."""
+        return self.refusal if part == self.refused_part else ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ListedRows:
+    """What was found in the photos of the table so far, and how they were read.
+
+    Parameters
+    ----------
+    given
+        The known value of the scene when they were matched, in SI units.
+    """
+
+    rows: tuple[PhotoRow, ...]
+    reading: PhotoReading
+    given: float
+
+    def match_of(self, opened: OpenPhoto) -> FoundMatch | None:
+        """Give the match of a photo that is read as those of the table."""
+        rows = (row for row in self.rows if row.path == opened.photo.path)
+        row = next(rows, None)
+        if row is None or row.match is None or opened.source.reading != self.reading:
+            return None
+        return FoundMatch(opened.photo, None, row.match, self.given, is_listed=True)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PhotoProfile:
+    """A photo's profile in the columns of a simulated one.
+
+    Parameters
+    ----------
+    comparison
+        Both profiles compared, None if ``sentence`` says why that is impossible.
+    raw : ndarray of float64, shape (columns of the photo,)
+        Mean of each column of the whole photo, in grey levels.
+    first_column, scale
+        The simulated column under the photo's first one, and simulated columns per photo column.
+    sentence
+        Why there is no comparison; also empty while the photo is searched for stripes.
+    """
+
+    comparison: Comparison | None
+    raw: FloatArray
+    first_column: float = 0.0
+    scale: float = 1.0
+    sentence: str = ""

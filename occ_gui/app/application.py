@@ -40,6 +40,7 @@ from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story.story_view import StoryView
+from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.photo_results import OpenPhoto
 from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
@@ -127,7 +128,11 @@ class Application(QObject):
         self.pins = PinController(self.store, self.present.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(
-            self.window, self.shell, self.files.ask_for_film, self.files.ask_to_save_film
+            self.window,
+            self.shell,
+            workspace,
+            self.files.ask_for_film,
+            self.files.ask_to_save_film,
         )
         for feature in features(self):
             self.shell.add(feature, self.window)
@@ -255,6 +260,11 @@ class Application(QObject):
         """
         self._match_next, self._front_next = match, front
         self.photos.open(path)
+
+    def resume_photo(self, choice: PhotoChoice) -> None:
+        """Open the photo of the last session with what was set about it, and leave it behind."""
+        self._front_next = choice.path is None
+        self.photos.edit(lambda _first: choice)
 
     def _is_map_awaited(self) -> bool:
         pane = self.shell.made_pane("map")

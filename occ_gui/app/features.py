@@ -64,6 +64,6 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         spectrum(),
         compare(parts.pins),
         lessons(store, parts.board, parts.controls, parts.preferences),
-        video(store),
+        video(store, parts.board),
         bench(store, parts.frame_rate, parts.measuring.for_bench, parts.window.say),
     )

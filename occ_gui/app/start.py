@@ -2,7 +2,7 @@
 
 import os
 from argparse import Namespace
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,15 +68,11 @@ class Start:
         application.desktop.error_reports.install()
         wins = self.scene_asked or self.fresh
         application.desktop.resume(self.session_file, self.session, wins, self.fresh)
-        if not wins and self.session.film is not None:
-            application.video.keep(self.session.film)
+        store, film = application.store.store, self.session.film
+        if not wins and film is not None:
+            store.put(replace(store.workspace, film=film))
         if with_photo and not wins and self.session.photo is not None:
-            photo, region = self.session.photo, self.session.region
-            if region is not None:
-                from occ_gui.values.photo_choice import PhotoFrame
-
-                application.photos.edit(lambda each: each.with_part(PhotoFrame(photo), region))
-            application.open_photo(photo, front=False)
+            application.resume_photo(self.session.photo)
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:

@@ -1,11 +1,13 @@
 """Films in the window: opened when their pane is first shown."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Signal
 
+from occ_gui.core.store import Store
 from occ_gui.shell.shell import Shell
 from occ_gui.window.main_window import MainWindow
 
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class VideoPane(QObject):
-    """What opens, saves and closes films; a film waits for the first look at its pane.
+    """What opens, saves and closes films; a film is opened at the first look at its pane.
 
     ``ask_for_film`` lets the user choose a film, ``ask_to_save`` where to write the simulated one.
     """
@@ -29,14 +31,15 @@ class VideoPane(QObject):
         self,
         window: MainWindow,
         shell: Shell,
+        store: Store,
         ask_for_film: Callable[[], None],
         ask_to_save: Callable[[], None],
     ) -> None:
         super().__init__()
-        self._window, self._shell = window, shell
+        self._window, self._shell, self._store = window, shell, store
         self._ask_for_film, self._ask_to_save = ask_for_film, ask_to_save
-        self._later: Path | None = None
         shell.made.connect(self._connect)
+        store.select(lambda workspace: workspace.film.path).changed.connect(self._on_film)
         window.actions_by_name["open_film"].triggered.connect(ask_for_film)
         window.actions_by_name["close_film"].triggered.connect(self.close)
 
@@ -46,10 +49,6 @@ class VideoPane(QObject):
         pane.open_asked.connect(self._ask_for_film)
         pane.save_asked.connect(self._ask_to_save)
         pane.status_message.connect(self.status_message)
-        pane.film_changed.connect(self._on_film)
-        if self._later is not None:
-            pane.open(self._later)
-            self._later = None
 
     @property
     def wiring(self) -> "VideoWiring":
@@ -65,19 +64,16 @@ class VideoPane(QObject):
     @property
     def path(self) -> Path | None:
         """The film that is open, or will be when the pane is first shown."""
-        return self._later if self._made is None else self._made.path
+        return self._store.workspace.film.path
 
     def open(self, path: Path) -> None:
         """Open a film in front."""
-        self.keep(path)
-        self._window.bring_to_front("video")
-
-    def keep(self, path: Path) -> None:
-        """Open a film, as soon as the pane is shown."""
         if self._made is None:
-            self._later = path
+            workspace = self._store.workspace
+            self._store.put(replace(workspace, film=workspace.film.opened(path)))
         else:
             self._made.open(path)
+        self._window.bring_to_front("video")
 
     def save(self, path: Path) -> None:
         """Write the simulated film to a file."""

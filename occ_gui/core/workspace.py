@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Self
 
+from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
@@ -47,6 +48,7 @@ class Workspace:
     is_enhanced: bool = False
     """Whether profiles are shown after the receiver's enhancement."""
     photo: PhotoChoice = field(default_factory=PhotoChoice)
+    film: FilmChoice = field(default_factory=FilmChoice)
 
     @property
     def step(self) -> Step:

@@ -5,7 +5,7 @@ Parts that cannot be read are left out: a window starts whatever its file contai
 
 import json
 from collections.abc import Collection, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +13,15 @@ from occ_gui.core.step_history import History, StepChange
 from occ_gui.core.workspace import Step
 from occ_gui.files.preferences import text_of
 from occ_gui.simulation.snapshot import Pins, SimulationRequest
+from occ_gui.values.film_choice import FRAMES, FilmChoice
+from occ_gui.values.match_choice import KNOWN, SENT, MatchChoice
+from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
+from occ_model.photo.reading.channels import CHANNELS
+from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results.decoding import Region
 from occ_model.scene.argument_checks import check_seed
+from occ_model.scene.parameters import quantity
+from occ_model.scene.recording import DECLARED
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
     NOISE_SOURCES,
@@ -22,6 +29,7 @@ from occ_model.scene.simulation_settings import (
     TOLERANCE,
     SimulationSettings,
 )
+from occ_model.scene.square_wave import SQUARE_FREQUENCY
 
 _MOST_OF_HISTORY = 1_000_000
 """Characters of the steps in a record; the oldest ones are left out of longer ones."""
@@ -42,9 +50,8 @@ class Session:
     scene: Scene | None = None
     settings: SimulationSettings | None = None
     scene_file: Path | None = None
-    photo: Path | None = None
-    region: Region | None = None
-    film: Path | None = None
+    photo: PhotoChoice | None = None
+    film: FilmChoice | None = None
     preset: str = ""
     pins: Pins = (None, None)
     history: History | None = None
@@ -57,13 +64,30 @@ def record_of(session: Session) -> dict[str, Any]:
         "scene": "" if scene is None else scene.to_toml(),
         "settings": None if settings is None else asdict(settings),
         "scene_file": _text(session.scene_file),
-        "photo": _text(session.photo),
-        "film": _text(session.film),
-        "region": None if session.region is None else asdict(session.region),
+        "photo": None if session.photo is None else _photo_record(session.photo),
+        "film": None if session.film is None else _film_record(session.film),
         "preset": session.preset,
         "pins": [None if pin is None else _pin_record(pin) for pin in session.pins],
         "history": None if session.history is None else _history_record(session.history),
     }
+
+
+def _photo_record(photo: PhotoChoice) -> dict[str, Any]:
+    region = photo.rectangle
+    return {
+        "path": _text(photo.path),
+        "region": None if region is None else asdict(region),
+        "reading": asdict(photo.reading),
+        "form": asdict(photo.form),
+        "certain": dict(photo.certain),
+    }
+
+
+def _film_record(film: FilmChoice) -> dict[str, Any]:
+    recording = {each.name: getattr(film.recording, each.name) for each in DECLARED}
+    return {
+        "path": _text(film.path), "axis": film.axis, "frames": film.frames, "recording": recording,
+    }  # fmt: skip
 
 
 def _pin_record(pin: SimulationRequest) -> dict[str, Any]:
@@ -99,13 +123,47 @@ def session_in(record: Mapping[str, Any] | None, effects: Collection[str]) -> Se
         scene=_scene(record.get("scene")),
         settings=_settings(record.get("settings"), effects),
         scene_file=_file(record.get("scene_file")),
-        photo=_file(record.get("photo")),
-        region=_region(record.get("region")),
-        film=_file(record.get("film")),
+        photo=_photo(record.get("photo"), record.get("region")),
+        film=_film(record.get("film")),
         preset=preset if isinstance(preset, str) else "",
         pins=_pins(record.get("pins"), effects),
         history=_history(record.get("history")),
     )
+
+
+def _photo(values: Any, region: Any) -> PhotoChoice | None:
+    """Return what was set about photos; in the former format there are a path and a region."""
+    if not isinstance(values, dict):
+        values = {"path": values, "region": region}
+    path, part = _file(values.get("path")), _region(values.get("region"))
+    parts = {} if path is None or part is None else {PhotoFrame(path): part}
+    photo = PhotoChoice(path, parts=parts)
+    try:
+        reading, form = PhotoReading(**values["reading"]), MatchChoice(**values["form"])
+        certain = {name: quantity(name).check(value) for name, value in values["certain"].items()}
+        is_known = (
+            reading.scan_axis in SCAN_AXES and reading.channel in CHANNELS
+            and form.sent in SENT and form.estimate in KNOWN and certain.keys() <= {*KNOWN}
+            and isinstance(form.fit_gamma, bool)
+        )  # fmt: skip
+        SQUARE_FREQUENCY.check(form.square_frequency)
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return photo
+    return replace(photo, reading=reading, form=form, certain=certain) if is_known else photo
+
+
+def _film(values: Any) -> FilmChoice | None:
+    """Return what was set about films; in the former format there is a path."""
+    if not isinstance(values, dict):
+        return FilmChoice(_file(values))
+    film = FilmChoice(_file(values.get("path")))
+    try:
+        axis, frames = values["axis"], values["frames"]
+        recording = film.recording.replace(**values["recording"])
+        is_known = axis in SCAN_AXES and type(frames) is int and frames in FRAMES
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return film
+    return replace(film, axis=axis, frames=frames, recording=recording) if is_known else film
 
 
 def _pins(values: Any, effects: Collection[str]) -> Pins:

@@ -176,10 +176,12 @@ class LessonController(QObject):
 
     def users_own(self) -> Workspace | None:
         """Return what the end of the lesson restores; None where none is under way."""
-        present = self._store.workspace.photo
-        if self._user is None or not is_own(present):
-            return self._user
-        return replace(self._user, photo=present)  # opened or matched meanwhile: it stays
+        user, present = self._user, self._store.workspace
+        if user is None:
+            return None
+        # A photo that was opened or matched meanwhile stays, and so does all that no step sets.
+        photo = present.photo if is_own(present.photo) else user.photo
+        return replace(present, scene=user.scene, settings=user.settings, photo=photo)
 
     def _begin(self) -> None:
         if self._user is None:

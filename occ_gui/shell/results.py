@@ -20,6 +20,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading
 from occ_model.results.plan import Decision
+from occ_model.results.video import Video
 
 T = TypeVar("T")
 
@@ -63,6 +64,9 @@ class Results:
 
     photo_profile: PhotoProfile | None = None
     """The profile of the open photo, beside the simulated one."""
+
+    film: Video | None = None
+    """The film of a file that was opened last."""
 
     @property
     def photo(self) -> Photo | None:

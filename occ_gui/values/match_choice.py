@@ -5,6 +5,9 @@ from dataclasses import dataclass
 KNOWN = ("switching_frequency", "readout_time")
 """Stripes determine only the product of these two: one must be known to estimate the other."""
 
+SENT = ("auto", "scene", "square", "read")
+"""What an LED has sent: to be found out, what the scene does, a square wave, or to be read."""
+
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
@@ -13,7 +16,7 @@ class MatchChoice:
     Parameters
     ----------
     sent
-        What was sent: one of ``"auto"``, ``"scene"``, ``"read"`` and ``"square"``.
+        What was sent, one of SENT.
     square_frequency
         Cycles per second of the square wave, in Hz, if one was sent.
     estimate

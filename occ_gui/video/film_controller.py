@@ -1,5 +1,7 @@
 """Controller of the film: opens it, and shows one of its frames beside the simulated one."""
 
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -7,9 +9,11 @@ from PySide6.QtCore import QObject, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.results import Board, Results
+from occ_gui.shell.work import Work
+from occ_gui.values.film_choice import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
 from occ_gui.video.player import FilmPlayer
-from occ_gui.video.recording_form import RecordingForm
 from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.results.video import Video, VideoFrame
 
@@ -17,10 +21,13 @@ _DRAFT_STEP = 8
 """A draft of the simulated frame shows one of so many rows, while a film plays."""
 
 
-def _open(request: tuple[Path, str], report: Report) -> Video:
+def _open(source: FilmSource, report: Report) -> Video:
     report(0.0)
-    path, axis = request
-    return occ.load_video(path, axis)
+    return occ.load_video(source.path, source.axis)
+
+
+def _put(results: Results, film: Video | None) -> Results:
+    return replace(results, film=film)
 
 
 class FilmController(QObject):
@@ -38,9 +45,10 @@ class FilmController(QObject):
     frame_failed = Signal(str)
     """Why a frame cannot be shown; the last one stays."""
 
-    def __init__(self, scenes: SceneStore, form: RecordingForm) -> None:
+    def __init__(self, scenes: SceneStore, board: Board) -> None:
         super().__init__()
-        self._scenes, self._form = scenes, form
+        self._scenes, self._store = scenes, scenes.store
+        self._settled = self.choice
         self.film: Video | None = None
         """The film that is open; None where there is only the simulated one."""
         self.is_live = False
@@ -50,11 +58,12 @@ class FilmController(QObject):
         self._is_seen = False
         self.player = FilmPlayer(self)
         self.player.wanted.connect(self.show)
-        self.opener: Task[tuple[Path, str], Video] = Task(
-            _open, "opening of the film", impatient=True
-        )
-        self.opener.finished.connect(self.put)
-        self.opener.failed.connect(self.failed)
+        self.opener = Work(
+            scenes.store, board, Task(_open, "opening of the film", impatient=True),
+            lambda workspace, _: workspace.film.source, _put, stays=True, keep=1,
+        )  # fmt: skip
+        self.opener.failed.connect(self._fail)
+        board.select(lambda results: results.film).changed.connect(self._settle)
         self.loader: Task[FrameRequest, ShownFrame] = Task(
             lambda request, _: shown_frame(request), "reading of a frame"
         )
@@ -64,24 +73,23 @@ class FilmController(QObject):
         self.player.playing_changed.connect(self._on_playing)
         for store in (scenes, scenes.settings):
             store.changed.connect(self._on_scene)
-        form.changed.connect(self._on_recording)
 
     @property
-    def is_idle(self) -> bool:
-        """Whether the film is open and its frame shown."""
-        return self.opener.is_idle and self.loader.is_idle
+    def choice(self) -> FilmChoice:
+        """What is set about films."""
+        return self._store.workspace.film
 
     @property
     def count(self) -> int:
         """How many frames there are, 0 where it is not known."""
         if self.film is None:
-            return self._form.frames
+            return self.choice.frames
         return self.film.frame_count or 0
 
     @property
     def rate(self) -> float | None:
         """Frames a second."""
-        return self._form.recording.frame_rate if self.film is None else self.film.frame_rate
+        return self.choice.recording.frame_rate if self.film is None else self.film.frame_rate
 
     def simulated(self) -> Video:
         """Return the simulated film of the present scene.
@@ -92,7 +100,7 @@ class FilmController(QObject):
             The scene cannot be recorded so.
         """
         return occ.render_video(
-            self._scenes.scene, self._form.frames, self._form.recording,
+            self._scenes.scene, self.choice.frames, self.choice.recording,
             settings=self._scenes.settings.settings,
         )  # fmt: skip
 
@@ -112,19 +120,45 @@ class FilmController(QObject):
         axis
             What of its pictures the shutter scanned, one of SCAN_AXES.
         """
-        self.opener.ask((path, axis))
+        self.edit(lambda choice: choice.opened(path, axis))
+
+    def edit(self, change: Callable[[FilmChoice], FilmChoice]) -> None:
+        """Change what is set about films."""
+        if self.opener.task.is_idle:
+            self._settled = self.choice
+        workspace = self._store.workspace
+        self._store.put(replace(workspace, film=change(workspace.film)))
+
+    def _settle(self, film: Video | None) -> None:
+        self._settled = self.choice
+        if not self.is_live or film is not None:
+            self.put(film)
+
+    def _fail(self, sentence: str) -> None:
+        shown = self._settled  # what was open stays
+        changes = {"path": shown.path, "axis": shown.axis, "opening": shown.opening}
+        self.edit(lambda choice: replace(choice, **changes))  # type: ignore[arg-type]  # its own
+        self.failed.emit(sentence)
 
     def put(self, film: Video | None, is_live: bool = False) -> None:
         """Show this film from its first frame, or only the simulated one."""
-        self.opener.cancel()
         self.film, self.is_live, self.last_live = film, is_live, None
         self.player.set_film(0 if is_live else self.count, self.rate)
         self.opened.emit(film)
         self.show()
 
+    def put_live(self, film: Video) -> None:
+        """Show the film of a camera in place of a file's."""
+        self.is_live = True
+        self.edit(lambda choice: choice.opened(None))
+        self.put(film, is_live=True)
+
     def close(self) -> None:
         """Close the film: the simulated one stays."""
-        self.put(None)
+        self.is_live = False
+        self.edit(lambda choice: choice.opened(None))
+        if self.film is not None:
+            self.put(None)
 
     def show_live(self, frame: VideoFrame) -> None:
         """Show a frame of a camera."""
@@ -144,8 +178,8 @@ class FilmController(QObject):
                 index=0 if self.is_live else self.player.index,
                 scene=self._scenes.scene,
                 settings=self._scenes.settings.settings,
-                recording=self._form.recording,
-                frames=self._form.frames,
+                recording=self.choice.recording,
+                frames=self.choice.frames,
                 draft_step=_DRAFT_STEP if is_fast else 1,
             )
         )
@@ -157,15 +191,10 @@ class FilmController(QObject):
     def _on_scene(self) -> None:
         self.show()
 
-    def _on_recording(self) -> None:
+    def take_recording(self) -> None:
+        """Simulate the film as it is recorded now."""
         if self.film is None:
             index = self.player.index
             self.player.set_film(self.count, self.rate)
             self.player.index = min(index, self.count - 1)
         self.show()
-
-    def stop(self) -> None:
-        """Stop all work; nothing is shown any more."""
-        self.player.pause()
-        self.opener.stop()
-        self.loader.stop()

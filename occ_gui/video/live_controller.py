@@ -82,7 +82,7 @@ class LiveController(QObject):
         self.stop_filming()
         self.video = LiveVideo(source, axis or source.axis, self._last)
         self._shown = -1
-        self._films.put(self.video, is_live=True)
+        self._films.put_live(self.video)
         self.video.start()
         self.read()
         self._turns.start()
@@ -131,9 +131,8 @@ class LiveController(QObject):
                 else "This camera does not let its exposure go."
             )
 
-    def stop(self) -> None:
-        """Release the camera and stop all work."""
+    def release(self) -> None:
+        """Release the camera, and wait until it is."""
         self.stop_filming()
         if self._last is not None:
             self._last.join()
-        self.finder.stop()

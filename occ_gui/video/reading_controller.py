@@ -77,7 +77,3 @@ class ReadingController(QObject):
     def _on_failure(self, sentence: str) -> None:
         self.failed.emit(sentence)
         self.changed.emit()
-
-    def stop(self) -> None:
-        """Stop reading."""
-        self.runner.stop()

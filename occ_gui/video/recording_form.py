@@ -6,6 +6,8 @@ from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QSi
 from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
+from occ_gui.values.film_choice import FIRST_FRAMES
+from occ_gui.values.film_choice import FRAMES as COUNTS
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
@@ -17,7 +19,7 @@ from occ_model.scene.units import SECOND
 
 FRAMES = Count(
     "frames", "Frames", "", "How many frames the simulated film has.",
-    low=2, high=100_000, default=60,
+    low=COUNTS[0], high=COUNTS[-1], default=FIRST_FRAMES,
 )  # fmt: skip
 
 

@@ -1,5 +1,6 @@
 """Connections of the film: its pane with what opens it, shows it, reads it, and films."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,6 +9,8 @@ from PySide6.QtCore import Signal
 from occ_gui.background.file_writer import FileWriter
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import Board
+from occ_gui.values.film_choice import FilmChoice
 from occ_gui.video.film_controller import FilmController
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
@@ -23,7 +26,7 @@ _USUAL_RATE = 30.0
 """Frames a second where a film does not say how many."""
 
 
-class VideoWiring(Pane[None]):
+class VideoWiring(Pane[FilmChoice]):
     """The pane of the films with its controllers."""
 
     status_message = Signal(str)
@@ -35,16 +38,13 @@ class VideoWiring(Pane[None]):
     save_asked = Signal()
     """The user writes the simulated film to a file."""
 
-    film_changed = Signal(object)
-    """The path of the film that is open now, None where none is."""
-
-    def __init__(self, scenes: SceneStore) -> None:
+    def __init__(self, scenes: SceneStore, board: Board) -> None:
         view = VideoView()
         super().__init__(view)
         self._scenes = scenes
         self._is_frame_missing = False
         self.view = view
-        self.films = FilmController(scenes, self.view.form)
+        self.films = FilmController(scenes, board)
         self.readings = ReadingController()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
         self.saving: FileWriter[FilmToSave] = FileWriter(
@@ -53,6 +53,9 @@ class VideoWiring(Pane[None]):
         )  # fmt: skip
         self.saving.status_message.connect(self.status_message)
         self.view.form.save_asked.connect(self.save_asked)
+        films = self.films
+        self.tasks = (self.saving.runner, self.live.finder, self.readings.runner,
+                      films.opener.task, films.loader)  # fmt: skip
         self._connect_film()
         self._connect_reading()
         self._connect_live()
@@ -60,7 +63,15 @@ class VideoWiring(Pane[None]):
         self.view.form.changed.connect(self._on_recording)
         self.view.form.refused.connect(self.status_message)
         self.view.form.show_scene(scenes.scene)
-        self.films.close()
+        self.films.put(board.results.film)
+
+    def show_part(self, part: FilmChoice) -> None:
+        """Show how the simulated film is recorded now."""
+        form = self.view.form
+        if (form.recording, form.frames) != (part.recording, part.frames):
+            form.show_recording(part.recording)
+            form.show_frames(part.frames)
+            self._show_recording()
 
     def _connect_film(self) -> None:
         view, films, player = self.view, self.films, self.films.player
@@ -101,8 +112,8 @@ class VideoWiring(Pane[None]):
     @property
     def is_idle(self) -> bool:
         """Whether the frame is shown and the film read; a camera never comes to an end."""
-        is_shown = self.films.is_idle and self.saving.is_idle
-        return is_shown and (self.live.is_filming or not self.readings.is_running)
+        endless = self.readings.runner if self.live.is_filming else None
+        return all(task.is_idle for task in self.tasks if task is not endless)
 
     def set_seen(self, seen: bool) -> None:
         """Show frames while the pane is visible; a camera is released with it."""
@@ -145,10 +156,9 @@ class VideoWiring(Pane[None]):
 
     def stop(self) -> None:
         """Stop all work in the background, and release the camera."""
-        self.saving.stop()
-        self.live.stop()
-        self.readings.stop()
-        self.films.stop()
+        self.films.player.pause()
+        self.live.release()
+        super().stop()
 
     # What happens.
 
@@ -160,7 +170,6 @@ class VideoWiring(Pane[None]):
         self._show_bar()
         self.view.pictures.show_film(None, self._instead_of_film())
         self._show_reading()
-        self.film_changed.emit(self.path)
         if film is not None and not self.films.is_live:
             self.readings.start(film, self._scenes.scene)
 
@@ -174,6 +183,7 @@ class VideoWiring(Pane[None]):
                 form.show_recording(form.recording.replace(frame_rate=film.frame_rate))
             except OccError:  # a film that is out of range
                 return
+            self._keep_recording()
         form.show_scene(self._scenes.scene)
 
     def _on_scene(self, scene: Scene) -> None:
@@ -182,7 +192,16 @@ class VideoWiring(Pane[None]):
             self.live.read()
         self._mark_outdated()
 
+    def _keep_recording(self) -> None:
+        form = self.view.form
+        self.films.edit(lambda film: replace(film, recording=form.recording, frames=form.frames))
+
     def _on_recording(self) -> None:
+        self._keep_recording()
+        self._show_recording()
+
+    def _show_recording(self) -> None:
+        self.films.take_recording()
         self.view.form.show_scene(self._scenes.scene)
         if self.films.film is None:
             self.readings.forget()

@@ -19,6 +19,7 @@ import occ_model as occ
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.results import Board
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.wiring import VideoWiring
 
@@ -42,7 +43,7 @@ def main() -> None:
     scene = occ.load_preset("phone-136us").replace(
         rows=1080, columns=1920, readout_time=15e-6, distance=0.6
     )
-    camera, wiring = source(scene), VideoWiring(SceneStore(Store(Workspace(scene))))
+    camera, wiring = source(scene), VideoWiring(SceneStore(Store(Workspace(scene))), Board())
     shown: list[None] = []
     wiring.view.resize(940, 700)
     wiring.view.show()

@@ -31,6 +31,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
 from occ_gui.core.workspace import FIRST_SETTINGS
+from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.placement import MODES as OVERLAYS
@@ -232,7 +233,8 @@ class SharedWindow:
         kept.pins.clear()
         kept.preferences.clear()
         first = replace(kept.store.store.workspace, scene=scene, settings=FIRST_SETTINGS)
-        kept.store.store.put(replace(first, photo=PhotoChoice()), "first scene")
+        first = replace(first, photo=PhotoChoice(), film=FilmChoice())
+        kept.store.store.put(first, "first scene")
         kept.store.undo_stack.clear()
         kept.desktop.document.path = None
         kept.desktop.document.show_photo(None)  # writes the title

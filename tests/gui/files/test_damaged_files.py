@@ -253,7 +253,7 @@ def test_unreadable_lessons_are_reported(
     view = LessonView()
     qtbot.addWidget(view)
     answers = LessonAnswers()
-    LessonController(application.store, application.photos, view, answers).set_seen(True)
+    LessonController(application.store.store, application.board, view, answers).set_seen(True)
     answers.runner.stop()
     told = [label.text() for label in view.findChildren(QLabel)]
     assert any(type(error).__name__ in text for text in told)

@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.files.writing import PICTURE_ENDINGS
 from occ_model.scene.scene import Scene
@@ -23,7 +24,7 @@ class Bench:
 
     def __init__(self, scene: Scene) -> None:
         self.store = store_of(scene)
-        self.photos = PhotoController()
+        self.photos = PhotoController(store_of().store, Board())
         self.preferences = Preferences()
         self.shown: Snapshot | None = None
         self.waiting: list[Callable[[Snapshot], None]] = []
@@ -48,7 +49,7 @@ class Bench:
 def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
     bench = Bench(small_scene)
     yield bench
-    bench.photos.stop()
+    bench.photos.work.task.stop()
 
 
 def test_a_saved_scene_is_opened_exactly_as_it_was(bench: Bench, tmp_path: Path) -> None:
@@ -234,7 +235,7 @@ def test_a_cancelled_dialog_does_nothing(
     ):
         ask_user()
     assert bench.status_message == []
-    assert bench.photos.runner.is_idle
+    assert bench.photos.work.task.is_idle
     assert bench.store.scene == small_scene
 
 

@@ -49,7 +49,7 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
         wins = asked is not None or fresh
         application.desktop.resume(file, session, wins, fresh)
         if session.photo is not None:
-            application.open_photo(session.photo, front=False)
+            application.resume_photo(session.photo)
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)
         try:

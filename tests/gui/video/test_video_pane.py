@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Session
+from occ_gui.values.film_choice import FilmChoice
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.marks import MarkState
 from occ_gui.video.wiring import VideoWiring
@@ -132,14 +134,17 @@ def test_the_session_keeps_the_film(
     record = json.loads((tmp_path / "state" / "session-1.json").read_text())
     assert record["film"] == str(film_file)
     application.desktop.autosave.end()
-    assert SessionFile(tmp_path / "state", ()).last.film == film_file
+    kept = SessionFile(tmp_path / "state", ()).last.film
+    assert kept is not None
+    assert kept.path == film_file
 
 
 @pytest.mark.own_window
 def test_a_kept_film_is_opened_when_the_mode_is_first_shown(
     application: Application, user: User, film_file: Path
 ) -> None:
-    application.video.keep(film_file)
+    store = application.store.store
+    store.put(replace(store.workspace, film=FilmChoice(film_file)))
     assert application.video.path == film_file
     assert application.shell.made_pane("video") is None
     application.window.modes.switch("video")

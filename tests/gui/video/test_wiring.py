@@ -13,6 +13,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.results import Board
 from occ_gui.video.marks import MarkState
 from occ_gui.video.wiring import VideoWiring
 from occ_model.results.video import Video
@@ -30,7 +31,7 @@ def scenes(film_scene: Scene) -> SceneStore:
 @pytest.fixture
 def pane(qtbot: QtBot, scenes: SceneStore) -> Iterator[VideoWiring]:
     """Show the pane with a simulated film of six frames."""
-    wiring = VideoWiring(scenes)
+    wiring = VideoWiring(scenes, Board())
     wiring.view.form.count.setValue(6)
     qtbot.addWidget(wiring.view)
     wiring.view.resize(640, 600)
@@ -174,7 +175,7 @@ def test_the_simulated_film_is_saved_and_given_up(
     pane.view.form.saving.cancelled.emit()
     wait()
     assert said[-1] == "The film was given up."
-    pane.saving.stop()
+    pane.saving.runner.stop()
     assert not (tmp_path / "other.gif").exists()
 
 

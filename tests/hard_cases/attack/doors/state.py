@@ -34,17 +34,28 @@ def session_text() -> str:
     from occ_gui.files.session import SessionFile
     from occ_gui.files.session_record import Session
     from occ_gui.simulation.snapshot import SimulationRequest
+    from occ_gui.values.film_choice import FilmChoice
+    from occ_gui.values.match_choice import MatchChoice
+    from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
+    from occ_model.scene.recording import Recording
 
     settings = SimulationSettings(tolerance=0.5, force={"vignetting": False}, seed=3)
     with TemporaryDirectory() as folder:
         file = SessionFile(Path(folder), NAMES)
-        paths = dict.fromkeys(("scene_file", "photo", "film"), Path(__file__))
+        path, form = Path(__file__), MatchChoice("square", 500.0, "switching_frequency")
         steps = (StepChange("change", {"iso": 200.0}, {}), StepChange("switch", {}, {"jpeg": True}))
         session = Session(
             Scene(),
             settings,
-            **paths,
-            region=Region(0, 9, 0, 9),
+            scene_file=path,
+            photo=PhotoChoice(
+                path,
+                PhotoReading("lines", "red"),
+                parts={PhotoFrame(path): Region(0, 9, 0, 9)},
+                form=form,
+                certain={"readout_time": 8e-6},
+            ),
+            film=FilmChoice(path, "lines", recording=Recording(frame_rate=24.0), frames=9),
             preset="phone-68us",
             pins=(SimulationRequest(Scene(), settings, more=("sequence",)), None),
             history=History(Step(Scene(), {}), steps, done=1),

@@ -1,0 +1,55 @@
+"""What the user has set about films: which one is open, and how the simulated one is recorded."""
+
+from dataclasses import dataclass, field, replace
+from itertools import count
+from pathlib import Path
+from typing import Self
+
+from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.scene.recording import Recording
+
+FIRST_FRAMES, FRAMES = 60, range(2, 100_001)
+"""How many frames the simulated film has at first, and can have."""
+
+_openings = count(1)
+
+
+@dataclass(frozen=True, slots=True)
+class FilmSource:
+    """A file that was opened, and what of its pictures the shutter scanned."""
+
+    path: Path
+    axis: str
+    opening: int
+
+
+@dataclass(frozen=True, slots=True)
+class FilmChoice:
+    """What the user has set about films.
+
+    Parameters
+    ----------
+    path
+        The film that is open, or about to be; None where there is only the simulated one.
+    axis
+        What of its pictures the shutter scanned, one of SCAN_AXES.
+    opening
+        The number of its opening: opened again, a file is read again.
+    recording, frames
+        How the simulated film is recorded, and how many frames it has.
+    """
+
+    path: Path | None = None
+    axis: str = SCAN_AXES[0]
+    opening: int = 0
+    recording: Recording = field(default_factory=Recording)
+    frames: int = FIRST_FRAMES
+
+    @property
+    def source(self) -> FilmSource | None:
+        """What is to be opened; None where no film is."""
+        return None if self.path is None else FilmSource(self.path, self.axis, self.opening)
+
+    def opened(self, path: Path | None, axis: str = SCAN_AXES[0]) -> Self:
+        """Open a film, or close it."""
+        return replace(self, path=path, axis=axis, opening=next(_openings))

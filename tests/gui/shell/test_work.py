@@ -1,0 +1,127 @@
+"""Work: a result is asked for when what it follows from differs, and comes back with it."""
+
+import threading
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+from gui.stores import store_of
+from pytestqt.qtbot import QtBot
+
+from occ_gui.background.task import Report, Task
+from occ_gui.shell.results import Board, Results
+from occ_gui.shell.work import Work
+
+PATIENCE_S = 10.0
+
+
+class Bench:
+    """Work on the name of the decoder, and a hand on it."""
+
+    def __init__(self, qtbot: QtBot, **options: Any) -> None:
+        self.store, self.board = store_of().store, Board()
+        self.asked: list[str] = []
+        self.told: list[object] = []
+        self.go_on = threading.Event()
+        self.go_on.set()
+        self.work = Work(
+            self.store, self.board, Task(self._do, "work", impatient=True),
+            lambda workspace, _: workspace.decoder or None, self._put, **options,
+        )  # fmt: skip
+        results = self.board.select(lambda results: results.chips)
+        results.changed.connect(self.told.append)
+        self._qtbot = qtbot
+
+    def _do(self, name: str, report: Report) -> str:
+        self.asked.append(name)
+        assert self.go_on.wait(PATIENCE_S)
+        report(0.5)
+        if name == "bad":
+            raise ValueError("no result")
+        return name.upper()
+
+    def _put(self, results: Results, found: Any) -> Results:
+        return replace(results, chips=found)
+
+    @property
+    def result(self) -> object:
+        return self.board.results.chips
+
+    def choose(self, name: str) -> None:
+        self.store.put(replace(self.store.workspace, decoder=name))
+
+    def wait(self) -> None:
+        self.go_on.set()
+        self._qtbot.waitUntil(lambda: self.work.task.is_idle)
+
+
+@pytest.fixture(params=[{}, {"stays": True}, {"keep": 2}], ids=["goes", "stays", "kept"])
+def bench(qtbot: QtBot, request: pytest.FixtureRequest) -> Iterator[Bench]:
+    bench = Bench(qtbot, **request.param)
+    bench.wait()
+    yield bench
+    bench.go_on.set()
+    bench.work.task.stop()
+
+
+def test_a_result_follows_its_request_and_goes_with_it(bench: Bench) -> None:
+    assert bench.result == "THRESHOLD"
+    bench.choose("other")
+    bench.wait()
+    assert (bench.result, bench.told[-1]) == ("OTHER", "OTHER")
+    bench.store.put(replace(bench.store.workspace, whose="receiver"))
+    bench.board.put(replace(bench.board.results))
+    assert bench.asked == ["threshold", "other"]
+    bench.choose("")
+    assert bench.result is None
+
+
+def test_work_that_is_not_wanted_any_more_gives_nothing(bench: Bench, qtbot: QtBot) -> None:
+    ended: list[bool] = []
+    bench.work.ended.connect(lambda: ended.append(True))
+    bench.go_on.clear()
+    bench.choose("other")
+    bench.choose("")
+    assert ended == [True]
+    assert bench.work.task.is_idle
+    bench.go_on.set()
+    qtbot.wait(20)
+    assert bench.result is None
+
+
+def test_a_failure_is_told_in_a_sentence(bench: Bench) -> None:
+    failures: list[str] = []
+    bench.work.failed.connect(failures.append)
+    bench.choose("bad")
+    bench.wait()
+    assert failures == ["The work failed: ValueError: no result."]
+
+
+@pytest.mark.parametrize("stays", [True, False])
+def test_the_last_result_stays_until_the_next_one_where_it_is_to(qtbot: QtBot, stays: bool) -> None:
+    bench = Bench(qtbot, stays=stays)
+    bench.wait()
+    bench.go_on.clear()
+    bench.choose("other")
+    assert bench.result == ("THRESHOLD" if stays else None)
+    bench.wait()
+    assert bench.result == "OTHER"
+    bench.work.task.stop()
+
+
+def test_the_last_results_come_back_at_once(qtbot: QtBot) -> None:
+    bench = Bench(qtbot, keep=2)
+    found: list[str] = []
+    bench.work.found.connect(found.append)
+    for name in ("threshold", "b", "c"):
+        bench.choose(name)
+        bench.wait()
+    bench.choose("b")
+    assert (bench.result, bench.work.task.is_idle) == ("B", True)
+    assert found == ["THRESHOLD", "B", "C"]
+    bench.choose("threshold")
+    assert bench.result is None, "only two are kept"
+    bench.wait()
+    assert bench.asked == ["threshold", "b", "c", "threshold"]
+    bench.work.task.stop()

@@ -68,10 +68,10 @@ class Start:
         application.desktop.error_reports.install()
         wins = self.scene_asked or self.fresh
         application.desktop.resume(self.session_file, self.session, wins, self.fresh)
-        store, film = application.store.store, self.session.film
-        if not wins and film is not None:
-            store.put(replace(store.workspace, film=film))
-        if with_photo and not wins and self.session.photo is not None:
+        store = application.store.store
+        if not wins:
+            store.put(replace(store.workspace, film=self.session.film))
+        if with_photo and not wins:
             application.resume_photo(self.session.photo)
 
 

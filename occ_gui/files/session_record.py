@@ -5,7 +5,7 @@ Parts that cannot be read are left out: a window starts whatever its file contai
 
 import json
 from collections.abc import Collection, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -50,8 +50,8 @@ class Session:
     scene: Scene | None = None
     settings: SimulationSettings | None = None
     scene_file: Path | None = None
-    photo: PhotoChoice | None = None
-    film: FilmChoice | None = None
+    photo: PhotoChoice = field(default_factory=PhotoChoice)
+    film: FilmChoice = field(default_factory=FilmChoice)
     preset: str = ""
     pins: Pins = (None, None)
     history: History | None = None
@@ -64,8 +64,8 @@ def record_of(session: Session) -> dict[str, Any]:
         "scene": "" if scene is None else scene.to_toml(),
         "settings": None if settings is None else asdict(settings),
         "scene_file": _text(session.scene_file),
-        "photo": None if session.photo is None else _photo_record(session.photo),
-        "film": None if session.film is None else _film_record(session.film),
+        "photo": _photo_record(session.photo),
+        "film": _film_record(session.film),
         "preset": session.preset,
         "pins": [None if pin is None else _pin_record(pin) for pin in session.pins],
         "history": None if session.history is None else _history_record(session.history),
@@ -131,7 +131,7 @@ def session_in(record: Mapping[str, Any] | None, effects: Collection[str]) -> Se
     )
 
 
-def _photo(values: Any, region: Any) -> PhotoChoice | None:
+def _photo(values: Any, region: Any) -> PhotoChoice:
     """Return what was set about photos; in the former format there are a path and a region."""
     if not isinstance(values, dict):
         values = {"path": values, "region": region}
@@ -152,7 +152,7 @@ def _photo(values: Any, region: Any) -> PhotoChoice | None:
     return replace(photo, reading=reading, form=form, certain=certain) if is_known else photo
 
 
-def _film(values: Any) -> FilmChoice | None:
+def _film(values: Any) -> FilmChoice:
     """Return what was set about films; in the former format there is a path."""
     if not isinstance(values, dict):
         return FilmChoice(_file(values))

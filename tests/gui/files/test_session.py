@@ -21,8 +21,13 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.files import autosave
 from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session
+from occ_gui.files.session_record import Session, record_of, session_in
+from occ_gui.values.film_choice import FilmChoice
+from occ_gui.values.match_choice import MatchChoice
+from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
 from occ_model.effects.registry import NAMES
+from occ_model.results.decoding import Region
+from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -48,8 +53,7 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
         application = Application(scene, session.settings or SimulationSettings(), kept)
         wins = asked is not None or fresh
         application.desktop.resume(file, session, wins, fresh)
-        if session.photo is not None:
-            application.resume_photo(session.photo)
+        application.resume_photo(session.photo)
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)
         try:
@@ -61,6 +65,44 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
             QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
     return begin
+
+
+def test_what_is_set_about_photo_and_film_is_there_again(tmp_path: Path) -> None:
+    here = Path(__file__)
+    photo = PhotoChoice(
+        here, PhotoReading("lines", "green"), parts={PhotoFrame(here): Region(1, 20, 3, 40)},
+        form=MatchChoice("square", 750.0, "switching_frequency", fit_gamma=True),
+        certain={"readout_time": 8e-6},
+    )  # fmt: skip
+    recording = Recording(
+        frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
+    )
+    film = FilmChoice(here, "lines", recording=recording, frames=7)
+    file = SessionFile(tmp_path, ())
+    file.write(Session(photo=photo, film=film), in_use=False)
+    file.close()
+    again = SessionFile(tmp_path, ())
+    assert (again.last.photo, again.last.film) == (photo, film)
+    again.close()
+
+
+@pytest.mark.parametrize(
+    ("part", "name", "value"),
+    [
+        ("reading", "channel", "infrared"),
+        ("form", "sent", "?"),
+        ("form", "square_frequency", -1.0),
+        ("form", "fit_gamma", 2),
+        ("certain", "iso", 100.0),
+        ("certain", "readout_time", "8"),
+    ],
+)
+def test_what_cannot_be_set_about_a_photo_is_as_at_first(
+    part: str, name: str, value: object
+) -> None:
+    record = record_of(Session(photo=PhotoChoice(Path(__file__), certain={"readout_time": 8e-6})))
+    record["photo"][part][name] = value
+    assert session_in(record, ()).photo == PhotoChoice(Path(__file__))
 
 
 def test_scene_settings_photo_and_options_are_there_again(

@@ -222,7 +222,6 @@ def test_the_session_keeps_the_region(
     file.close()
     again = SessionFile(tmp_path, ())
     kept = again.last.photo
-    assert kept is not None
     assert kept.rectangle == region
     again.close()
     bench.choose(parts=kept.parts)
@@ -237,7 +236,6 @@ def test_a_damaged_region_is_left_out(damaged: object, form: str, photo: Photo) 
     if form == "present":
         record = {"photo": {"path": path, "region": damaged}}
     found = session_in(record, ()).photo
-    assert found is not None
     assert found.path == photo.path
     assert found.rectangle is None
 
@@ -245,7 +243,6 @@ def test_a_damaged_region_is_left_out(damaged: object, form: str, photo: Photo) 
 def test_a_region_of_the_former_format_is_read(photo: Photo) -> None:
     record = {"photo": str(photo.path), "region": asdict(Region(1, 2, 3, 4))}
     found = session_in(record, ()).photo
-    assert found is not None
     assert found.rectangle == Region(1, 2, 3, 4)
 
 

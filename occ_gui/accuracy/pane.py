@@ -6,6 +6,7 @@ from occ_gui.accuracy.accuracy_view import AccuracyView
 from occ_gui.accuracy.controller import AccuracyController
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.plan import Decision
@@ -22,7 +23,7 @@ class AccuracyPane(Pane[AccuracyPart]):
         self.view = view = AccuracyView()
         super().__init__(view)
         settings = scenes.settings
-        self.of_results = view.of_scene
+        self.made_of = dict.fromkeys(view.of_scene, of_snapshot)
         self.study = AccuracyController(scenes, settings, simulation, view)
         self._snapshot: Snapshot | None = None
         view.tolerance_edited.connect(settings.set_tolerance)

@@ -12,7 +12,6 @@ from occ_gui.app.about import show_about
 from occ_gui.app.desktop import Desktop
 from occ_gui.app.features import features
 from occ_gui.app.lessons_in_window import LessonsInWindow
-from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.app.status_messages import StatusMessages
 from occ_gui.app.story_wiring import connect_story
 from occ_gui.app.video_pane import VideoPane
@@ -34,6 +33,7 @@ from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.outdated_marks import OutdatedMarks
 from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
@@ -107,7 +107,7 @@ class Application(QObject):
         self.simulation.defer_while(self._is_map_awaited)
         self._declare_panes(workspace)
         self._show_results()
-        self.outdated = OutdatedPanes(self.simulation, self.window)
+        self.outdated = OutdatedMarks(self.board, self.simulation, self.window)
         connect_story(self)
         self.shell.made.connect(self._on_made)
         # Before the session is written.
@@ -143,7 +143,7 @@ class Application(QObject):
         self.news.changed.connect(self._tell_switched)
         # What the pictures are compared with comes before them.
         views = (self.before, self.pins, self.news, self.board)
-        self.simulation.show_in(views, (self.board, self.story))
+        self.simulation.show_in(views, (self.story, self.board))
 
     def _tell_switched(self, switched: tuple[Decision, ...]) -> None:
         self.window.show_plan_change(switch_sentence(switched) if switched else "")
@@ -295,7 +295,7 @@ class Application(QObject):
         store.put(replace(store.workspace, decoder=name))
 
     def _on_made(self, name: str, pane: Any) -> None:
-        self.outdated.mark(pane)
+        self.outdated.mark_pane(pane)
         if name == "accuracy":
             self.messages.follow(pane.view)
         elif name == "decode":

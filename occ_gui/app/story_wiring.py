@@ -7,11 +7,11 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtWidgets import QMenu
 
 from occ_gui.app.lessons_in_window import LessonsInWindow
-from occ_gui.app.outdated_panes import OutdatedPanes
 from occ_gui.core.store import Store
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.results import Board
+from occ_gui.shell.outdated_marks import OutdatedMarks
+from occ_gui.shell.results import Board, of_picture, of_reading
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.column_axis import Crosshair
@@ -29,7 +29,7 @@ class Parts(Protocol):
 
     window: MainWindow
     simulation: SimulationController
-    outdated: OutdatedPanes
+    outdated: OutdatedMarks
     story: StoryView
     store: SceneStore
     board: Board
@@ -52,8 +52,8 @@ def connect_story(parts: Parts) -> None:
     simulation.failed.connect(story.verdict.show_failure)
     simulation.submitted.connect(story.verdict.end_failure)
     parts.outdated.mark_verdict(story.verdict)
-    parts.outdated.mark_readings(story.rows)
-    parts.outdated.mark_picture(story.rows.stripes)  # it comes later than the reading
+    parts.outdated.mark(story.rows, of_reading)
+    parts.outdated.mark(story.rows.stripes, of_picture)  # it comes later than the reading
     store.select(lambda workspace: workspace.decoder).changed.connect(story.choose_decoder)
     story.decoder_chosen.connect(parts.choose_decoder)
     store.select(lambda workspace: workspace.whose).changed.connect(story.choose_picture)

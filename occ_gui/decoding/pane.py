@@ -7,6 +7,7 @@ from PySide6.QtCore import QSize
 from occ_gui.core.store import Store
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import of_reading
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.receiver.decoders import decoders
@@ -20,7 +21,7 @@ class DecodePane(Pane[tuple[Reading | None, str]]):
     def __init__(self, store: Store) -> None:
         self.view = view = DecodeView(decoders())
         super().__init__(ScrollPane(view, _LEAST))
-        self.of_readings = (view,)
+        self.made_of = {view: of_reading}
         self._reading: Reading | None = None
         view.decoder_chosen.connect(lambda name: store.put(replace(store.workspace, decoder=name)))
 

@@ -10,6 +10,7 @@ from occ_gui.explanation.exposure_controller import ExposureController
 from occ_gui.explanation.exposure_plot import ExposurePlot
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.plot import Plot
 
@@ -38,7 +39,9 @@ class ExplanationPane(Pane[Snapshot]):
         pane = ExplanationView()
         super().__init__(pane)
         self.pane = pane
-        self.of_results = (pane.exposure,)  # it tells a level; the equations need no picture
+        self.made_of = {
+            pane.exposure: of_snapshot
+        }  # it tells a level; the equations need no picture
         self.picker = ColumnPicker(plot)
         self._equations = EquationController(scenes, self.pane.equations)
         exposure = self.exposure = ExposureController(self.pane.exposure, self.picker)

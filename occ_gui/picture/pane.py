@@ -6,6 +6,7 @@ from typing import TypeAlias
 from occ_gui.core.store import Store
 from occ_gui.picture.image_view import ImageView
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import of_picture
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.placement import MODES
@@ -24,7 +25,7 @@ class PicturesPane(Pane[PicturePart]):
     def __init__(self, store: Store) -> None:
         self.view = view = ImageView()
         super().__init__(view)
-        self.of_pictures = (view.simulation,)
+        self.made_of = {view.simulation: of_picture}
         self._shown: PicturePart = (None, None, None, None, PICTURES[0], MODES[0])
         view.picture_chosen.connect(lambda whose: store.put(replace(store.workspace, whose=whose)))
         view.mode_chosen.connect(lambda mode: store.put(replace(store.workspace, overlay=mode)))

@@ -6,6 +6,7 @@ from typing import TypeAlias
 from occ_gui.core.store import Store
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import of_reading
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
 from occ_model.results.match import ChipReading
@@ -22,7 +23,7 @@ class ProfilePane(Pane[ProfilePart]):
     def __init__(self, store: Store) -> None:
         self.view = view = ProfileView()
         super().__init__(view)
-        self.of_readings = (view,)
+        self.made_of = {view: of_reading}
         self._shown: ProfilePart = (None, None, None, None, False)
         view.enhanced_chosen.connect(lambda on: store.put(replace(store.workspace, is_enhanced=on)))
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from types import MappingProxyType
 from typing import Any, Generic, TypeVar
 
 from PySide6.QtCore import QObject
@@ -10,7 +11,7 @@ from PySide6.QtWidgets import QWidget
 from occ_gui.background.task import Task
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.figures import Figure
-from occ_gui.shell.results import Results
+from occ_gui.shell.results import MadeOf, Results
 
 Part = TypeVar("Part")
 
@@ -21,14 +22,8 @@ class Pane(QObject, Generic[Part]):
     A pane that computes nothing in the background only has to show its part.
     """
 
-    of_results: tuple[QWidget, ...] = ()
-    """What is marked while the exact picture is of an earlier scene."""
-
-    of_readings: tuple[QWidget, ...] = ()
-    """What is marked while the reading is of an earlier scene."""
-
-    of_pictures: tuple[QWidget, ...] = ()
-    """What is marked while the picture, before it is decoded, is of an earlier scene."""
+    made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
+    """What is marked while that of which it is made is of an earlier scene."""
 
     tasks: tuple[Task[Any, Any], ...] = ()
     """The work that the pane waits for, and that ends with it."""

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any, TypeAlias, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Selection
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
 from occ_gui.values.photo_results import (
     FoundMatch,
     ListedRows,
@@ -72,6 +72,25 @@ class Results:
     def photo(self) -> Photo | None:
         """The photo that is shown."""
         return None if self.opened is None else self.opened.photo
+
+
+MadeOf: TypeAlias = Callable[[Results], SimulationRequest | None]
+"""Gives what a part of the results was computed from; None where there is no such part."""
+
+
+def of_snapshot(results: Results) -> SimulationRequest | None:
+    """Give what the exact picture was computed from."""
+    return None if results.snapshot is None else results.snapshot.request
+
+
+def of_reading(results: Results) -> SimulationRequest | None:
+    """Give what the reading was computed from, which comes before the exact picture."""
+    return None if results.reading is None else results.reading.request
+
+
+def of_picture(results: Results) -> SimulationRequest | None:
+    """Give what the picture was computed from, before it is decoded."""
+    return None if results.picture is None else results.picture.request
 
 
 class Board(QObject):

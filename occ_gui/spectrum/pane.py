@@ -3,6 +3,7 @@
 import numpy as np
 
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.spectrum.spectrum_view import SpectrumView
 from occ_model.errors import ParameterError
@@ -16,7 +17,7 @@ class SpectrumPane(Pane[Snapshot]):
     def __init__(self, view: SpectrumView) -> None:
         super().__init__(view)
         self.view = view
-        self.of_results = (view,)
+        self.made_of = {view: of_snapshot}
 
     def show_part(self, part: Snapshot) -> None:
         """Measure these results."""

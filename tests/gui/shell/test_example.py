@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Feature
-from occ_gui.shell.results import Board
+from occ_gui.shell.results import Board, of_snapshot
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.snapshot import Snapshot
 
@@ -56,4 +56,4 @@ def test_the_pane_of_the_manual_shows_the_stripes_of_each_picture(
     for curve, histogram in zip(pane.curves, found.decoded.histograms, strict=True):
         assert np.array_equal(curve.getData()[1], histogram.counts)
     board.show_snapshot(snapshot_of(switching_frequency=500.0, exposure_time=1e-3))
-    assert pane.of_results == (pane.plot,)
+    assert pane.made_of == {pane.plot: of_snapshot}

@@ -13,9 +13,10 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.outdated_panes import VERDICT_DELAY, OutdatedPanes
 from occ_gui.background.result_age import PAUSE, ResultAges
 from occ_gui.shell.feature import Pane
+from occ_gui.shell.outdated_marks import VERDICT_DELAY, OutdatedMarks
+from occ_gui.shell.results import Board, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
@@ -41,8 +42,7 @@ def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
 
 
 def marks(application: Application) -> list[QWidget]:
-    outdated = application.outdated
-    return [*outdated.of_picture, *outdated.of_readings, *outdated.of_results]
+    return [*application.outdated.marks()]
 
 
 def tabs(application: Application) -> list[str]:
@@ -107,7 +107,7 @@ def test_each_pane_is_marked_while_its_result_is_outdated(
     assert all(mark.isHidden() for mark in marks(application))
     application.store.change(iso=60.0, jpeg_quality=jpeg)
     outdated = application.outdated
-    late = [*outdated.of_picture, *outdated.of_results, *(outdated.of_readings if jpeg else ())]
+    late = outdated.marks(of_picture, of_snapshot, *((of_reading,) if jpeg else ()))
     # A reading that is late on a busy machine is marked until it is there.
     qtbot.waitUntil(lambda: all(mark.isHidden() != (mark in late) for mark in marks(application)))
     assert {mark.accessibleName() for mark in late} == {"computing…"}
@@ -139,14 +139,11 @@ class Simulation(QObject):
     """A simulation whose results are delivered by hand, at times set by hand."""
 
     submitted = Signal()
-    reading_shown = Signal(object)
-    picture_ready = Signal(object)
-    snapshot_shown = Signal(object)
     failed = Signal(str)
 
     def __init__(self, first: Snapshot) -> None:
         super().__init__()
-        self.now = 0.0
+        self.now, self.board = 0.0, Board()
         self.ages = ResultAges(first.request, lambda: self.now)
 
     def change(self, snapshot: Snapshot) -> None:
@@ -154,9 +151,9 @@ class Simulation(QObject):
         self.submitted.emit()
 
     def deliver(self, snapshot: Snapshot) -> None:
-        self.picture_ready.emit(Picture.of(snapshot.frame, "camera", snapshot.request))
-        self.reading_shown.emit(snapshot)
-        self.snapshot_shown.emit(snapshot)
+        self.board.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+        self.board.show_snapshot(snapshot)
+        self.board.show_reading(snapshot)
 
 
 class Verdict:
@@ -187,12 +184,13 @@ class Drag:
         ]
         self.latest = self.snapshots[0]
         self.simulation, self.verdict = Simulation(self.latest), Verdict()
-        self.outdated = OutdatedPanes(self.simulation, pane)  # type: ignore[arg-type]
+        board = self.simulation.board
+        self.outdated = OutdatedMarks(board, self.simulation, pane)  # type: ignore[arg-type]
         self.outdated.mark_verdict(self.verdict)
         shown: Pane[None] = Pane(pane)
-        shown.of_results = (pane,)
-        self.outdated.mark(shown)
-        self.outdated.mark_picture(pane)
+        shown.made_of = {pane: of_snapshot}
+        self.outdated.mark_pane(shown)
+        self.outdated.mark(pane, of_picture)
         self.simulation.deliver(self.snapshots[0])
 
     def move(
@@ -215,7 +213,7 @@ class Drag:
                 at_work = None
             if at_work is None and waiting is not None:
                 at_work, waiting = (waiting, tick + takes), None
-            marked.append(not (of or self.outdated.of_results[0]).isHidden())
+            marked.append(not (of or self.outdated.marks(of_snapshot)[0]).isHidden())
         return marked
 
 
@@ -254,7 +252,7 @@ def test_a_slow_verdict_is_the_present_ones_after_the_drag(drag: Drag, qtbot: Qt
 
 
 def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Drag) -> None:
-    picture = drag.outdated.of_picture[0]
+    (picture,) = drag.outdated.marks(of_picture)
     drag.outdated.follow_run("iso")
     marked = drag.move(takes=round(3e3 * DELAY), of=picture)
     assert not any(marked)
@@ -262,7 +260,7 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Dra
     assert set(drag.verdict.outdated) == {False}
     first = marked.index(True)
     assert all(marked[first:])  # results that no verdict tells of are marked, without flicker
-    read = drag.outdated._read
+    read = of_reading(drag.simulation.board.results)
     assert read is not None
     assert drag.verdict.runs[-1] == (f"ISO speed {read.scene.camera.iso:.4g}", "")
     drag.outdated.follow_run("")
@@ -276,6 +274,6 @@ def test_a_picture_behind_the_reading_of_a_run_has_its_own_value(drag: Drag) -> 
     drag.outdated.follow_run("iso")
     later = drag.snapshots[9]
     drag.simulation.change(later)
-    drag.simulation.reading_shown.emit(later)
+    drag.simulation.board.show_reading(later)
     before, after = (s.request.scene.camera.iso for s in (drag.snapshots[0], later))
     assert drag.verdict.runs[-1] == (f"ISO speed {after:.4g}", f"{before:.4g}")

@@ -443,7 +443,7 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     assert record["in_use"]
     assert Scene.from_toml(record["scene"]) == before.scene
     assert record["settings"] == asdict(before.settings)
-    assert record["photo"] == str(photo_file)
+    assert record["photo"]["path"] == str(photo_file)
     guide.step.all.click()
     user.wait_until_idle()
     application.store.change(distance=2.0)

@@ -132,7 +132,7 @@ def test_the_session_keeps_the_film(
     user.wait_until_idle()
     application.desktop.autosave.write()
     record = json.loads((tmp_path / "state" / "session-1.json").read_text())
-    assert record["film"] == str(film_file)
+    assert record["film"]["path"] == str(film_file)
     application.desktop.autosave.end()
     assert SessionFile(tmp_path / "state", ()).last.film.path == film_file
 

@@ -6,7 +6,6 @@ from datetime import date
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.photo.assumption import is_certain
-from occ_gui.photo.match_values import known_of
 from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_work import match_work
 from occ_gui.scene.scene_store import SceneStore
@@ -15,6 +14,7 @@ from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.photo_choice import MatchAsked
 from occ_gui.values.photo_results import FoundMatch
 from occ_model.errors import OccError
+from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match

@@ -6,7 +6,6 @@ from pathlib import Path
 from gui.stores import store_of
 
 from occ_gui.photo.match_controller import cure_of_match
-from occ_gui.photo.match_values import known_of
 from occ_gui.photo.photo_part import PhotoPart
 from occ_gui.photo.photo_view import PhotoView
 from occ_gui.shell.results import Board
@@ -14,6 +13,7 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice, PhotoSource
 from occ_gui.values.photo_results import FoundMatch, OpenPhoto
+from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
 from occ_model.results.match import Match

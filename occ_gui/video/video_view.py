@@ -64,7 +64,6 @@ class VideoView(QWidget):
         layout.addWidget(self.timeline)
         self.rows.picture_asked.connect(self.show_large)
         self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
-        self._old_pictures = OutdatedMark(self.pictures)
 
     def show_message(self, sentence: str) -> None:
         """Show what is wrong with the film or the camera; empty for nothing."""
@@ -89,10 +88,6 @@ class VideoView(QWidget):
         """Show whether the reading is of an earlier scene."""
         for mark in self._outdated:
             mark.show_age(1.0 if outdated else 0.0, "read for an earlier scene")
-
-    def show_frame_outdated(self, age: float) -> None:
-        """Show for how many seconds the frame that is shown has not been the one wanted."""
-        self._old_pictures.show_age(age, "computing…")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         """Step, seek and play by the keys of the timeline, wherever they are not used."""

@@ -17,9 +17,6 @@ _REACH = 4.0
 _WIDEST = 1e12
 """Largest point spread in pixels: any larger one leaves nothing of any panel either."""
 
-_SLACK = 1.1
-"""Factor on the rim's integrals, which are computed as sums, to keep the bound above them."""
-
 
 class Defocus(OpticsEffect):
     """A Gaussian point spread: the lens's own spot, and the circle of confusion out of focus.

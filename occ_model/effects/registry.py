@@ -5,7 +5,7 @@ from typing import TypeVar
 
 from occ_model.effects.defocus import Defocus
 from occ_model.effects.distortion import Distortion
-from occ_model.effects.effect import Effect, FileEffect, LightEffect, NoiseEffect, OpticsEffect
+from occ_model.effects.effect import Effect, FileEffect, NoiseEffect
 from occ_model.effects.emission import Emission
 from occ_model.effects.flicker import Flicker
 from occ_model.effects.jpeg import Jpeg
@@ -13,7 +13,6 @@ from occ_model.effects.led_edges import LedEdges
 from occ_model.effects.sensor_effects import FixedPattern, FullWell, SensorNoise
 from occ_model.effects.vignetting import Vignetting
 from occ_model.results.plan import Plan
-from occ_model.scene.scene import Scene
 
 EFFECTS: tuple[Effect, ...] = (
     LedEdges(),
@@ -30,17 +29,10 @@ EFFECTS: tuple[Effect, ...] = (
 
 NOISES = tuple(effect for effect in EFFECTS if isinstance(effect, NoiseEffect))
 FILES = tuple(effect for effect in EFFECTS if isinstance(effect, FileEffect))
-_MOVING = tuple(effect for effect in EFFECTS if isinstance(effect, LightEffect | OpticsEffect))
-OTHERS = tuple(effect for effect in EFFECTS if effect not in NOISES)
 
 NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
 
 _Kind = TypeVar("_Kind", bound=Effect)
-
-
-def moves_light(scene: Scene) -> bool:
-    """Return whether any effect of the scene can change the light of the paper's model."""
-    return any(effect.is_present(scene) for effect in _MOVING)
 
 
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:

@@ -5,7 +5,6 @@ s_tau(x) = (1/tau) (C(x) - C(x - tau)), with C their running integral. The light
 and piecewise linear, its own running integral piecewise quadratic.
 """
 
-import math
 from collections.abc import Callable
 from fractions import Fraction
 
@@ -103,20 +102,3 @@ class EdgedWaveform:
         apart += windows.end * (self._integral[last] + self._half_slope[last] * windows.end)
         within = duration.fraction * (integral + slope * (2.0 * fraction + duration.fraction))
         return np.where(first == last, within, apart)
-
-
-def most_changes(chips: ByteArray, span: float) -> int:
-    """Return the most changes of state within any ``span`` chips of a sequence sent repeatedly.
-
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
-    span
-        Length of time in chips.
-    """
-    changes = (chips != np.roll(chips, 1)).astype(np.int64)
-    periods, remainder = divmod(math.ceil(span) + 1, len(chips))
-    before = np.concatenate([[0], np.cumsum(np.concatenate([changes, changes]))])
-    part = before[remainder : remainder + len(chips)] - before[: len(chips)]
-    return periods * int(changes.sum()) + int(part.max())

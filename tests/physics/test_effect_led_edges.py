@@ -13,7 +13,6 @@ from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import ColumnLight
 from occ_model.effects.led_edges import LedEdges, edged_lit_fraction
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.edges import most_changes
 
 FREQUENCY = 8192.0
 """Chips and packets of it last binary fractions of a second, so that edges of them are exact."""
@@ -173,17 +172,3 @@ def test_an_edge_and_an_exposure_are_the_same_average(
     np.testing.assert_allclose(
         edged_lit_fraction(scene), edged_lit_fraction(other), rtol=0, atol=largest
     )
-
-
-@given(
-    pattern=st.text(alphabet="01", min_size=1, max_size=12),
-    span=st.floats(0.01, 100.0),
-    start=st.floats(0.0, 12.0),
-)
-def test_no_window_holds_more_changes_than_are_counted(
-    pattern: str, span: float, start: float
-) -> None:
-    chips = np.array([int(chip) for chip in pattern], dtype=np.uint8)
-    edges = range(math.ceil(start), math.floor(start + span) + 1)
-    changes = sum(chips[edge % len(chips)] != chips[(edge - 1) % len(chips)] for edge in edges)
-    assert changes <= most_changes(chips, span)

@@ -5,7 +5,6 @@ word more. Where the words of a chip sequence start is not known: any word may f
 ends in its state. Each state of the trellis is a place within a word and the chips before it.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -170,8 +169,3 @@ def _steps_out(before: IndexArray) -> IndexArray:
     after = np.full((int(rank.max()) + 1, before.shape[1]), NO_STATE)
     after[rank, origins] = used
     return after
-
-
-def words_from(groups: Sequence[tuple[int, Sequence[int], int]]) -> tuple[Word, ...]:
-    """Return words given as encoder's state, chips, encoder's state after them."""
-    return tuple(Word(before, tuple(map(int, chips)), after) for before, chips, after in groups)

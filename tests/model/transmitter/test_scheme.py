@@ -1,18 +1,21 @@
 """Line code, framing and error correction together, in every combination."""
 
 import itertools
+from typing import Any
 
 import numpy as np
 import pytest
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, IndexArray
+from occ_model.scene.parameters import open_choice
 from occ_model.transmitter.error_correction import PARITY_BYTES, protected_bits
 from occ_model.transmitter.framings import registry as framings
 from occ_model.transmitter.framings.c_ook import FRAMING as C_OOK
 from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.line_codes import registry as line_codes
 from occ_model.transmitter.packet import sends_paper_code
+from occ_model.transmitter.registry import Registry
 from occ_model.transmitter.scheme import Scheme, scheme_named
 
 LINE_CODES = line_codes.LINE_CODES.built_in()
@@ -172,3 +175,9 @@ def test_c_ook_refuses_a_line_code_without_a_longest_run() -> None:
     with pytest.raises(occ.ParameterError, match="'nrz', which limits no run") as caught:
         occ.packet(occ.Scene().replace(line_code="nrz", framing="c-ook"))
     assert caught.value.parameters == ("line_code", "framing")
+
+
+@pytest.mark.parametrize("registry", [line_codes.LINE_CODES, framings.FRAMINGS])
+def test_a_scheme_s_names_are_those_that_the_scene_declares(registry: Registry[Any]) -> None:
+    assert tuple(registry.files) == open_choice(registry.parameter).choices
+    assert [each.name for each in registry.built_in().values()] == list(registry.files)

@@ -85,7 +85,7 @@ def _refuse_wrong(
 
 
 def _parts(hint: Any) -> tuple[Any, ...]:
-    """Give the kinds of which an argument may be one."""
+    """Return the kinds of which an argument may be one."""
     return get_args(hint) if get_origin(hint) in {Union, types.UnionType} else (hint,)
 
 

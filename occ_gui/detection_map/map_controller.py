@@ -82,7 +82,7 @@ class MapRequest:
     def stages(
         self, images: Any, with_theory: bool, found_slow: Callable[[], object] = lambda: None
     ) -> Iterator[Stage]:
-        """Give the stages of the work that is left; say if even the first points take long."""
+        """Return the stages of the work that is left; say if even the first points take long."""
         requests = tuple(
             map_request(
                 self.scene, self.x, self.y, self.settings, QUICK_DECODERS,

@@ -79,7 +79,7 @@ def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:
 
 
 def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
-    """Give for each point, by its index, whether it is on a coarser lattice."""
+    """Return for each point, by its index, whether it is on a coarser lattice."""
     along = [np.arange(n) % stride == 0 for n in shape]
     return np.asarray(np.logical_and.outer(*along).ravel())
 

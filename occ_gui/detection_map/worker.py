@@ -48,7 +48,7 @@ class Along:
 def rate_settings(
     settings: SimulationSettings, images: int, decoders: tuple[str, ...], with_image_effects: bool
 ) -> RateSettings:
-    """Give the settings with which rates are measured for the window.
+    """Return the settings with which rates are measured for the window.
 
     Parameters
     ----------

@@ -195,7 +195,7 @@ def _in_words(decoded: DecodeResult) -> str:
 
 
 def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
-    """Give the scene the size of the picture, where that is one that a scene can have."""
+    """Return the scene the size of the picture, where that is one that a scene can have."""
     rows, columns = image.shape
     rows = scene.camera.rows if step > 1 else rows
     if (rows, columns) == (scene.camera.rows, scene.camera.columns):
@@ -204,7 +204,7 @@ def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
 
 
 def _in_whole_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResult:
-    """Give the region of a draft in the rows of the whole picture."""
+    """Return the region of a draft in the rows of the whole picture."""
     region = decoded.region
     if region is None or step == 1:
         return decoded

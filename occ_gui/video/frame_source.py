@@ -72,7 +72,7 @@ class FilmSource:
         self._left, self._began = iter(self._frames), monotonic()
 
     def read(self) -> LivePicture | None:
-        """Give the next frame at its time; None after the last."""
+        """Return the next frame at its time; None after the last."""
         frame = None if self._left is None else next(self._left, None)
         if frame is None:
             return None

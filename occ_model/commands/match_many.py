@@ -74,7 +74,7 @@ def run_many(options: argparse.Namespace, scene: Scene) -> int:
 
 
 def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
-    """Give the known values of single photos, by their places."""
+    """Return the known values of single photos, by their places."""
     known: dict[int, float] = {}
     of_cycles = options.led_frequency is not None and options.estimate == "readout_time"
     declared = SQUARE_FREQUENCY if of_cycles else quantity(known_beside(options.estimate))
@@ -87,7 +87,7 @@ def _known(paths: list[Path], options: argparse.Namespace) -> dict[int, float]:
 
 
 def _places(name: str, paths: list[Path]) -> list[int]:
-    """Give where a photo stands among those given: by its path, or by its file's name alone."""
+    """Return where a photo stands among those given: by its path, or by its file's name alone."""
     for names in ([str(path) for path in paths], [path.name for path in paths]):
         places = [place for place, each in enumerate(names) if each == name]
         if len({paths[place] for place in places}) == 1:

@@ -228,7 +228,7 @@ def _noise_sources(
 
 
 def timed(work: Callable[[], Result]) -> tuple[float, Result]:
-    """Give the least time of a few runs, fewer of slow work, and the work's result."""
+    """Return the least time of a few runs, fewer of slow work, and the work's result."""
     best, spent = np.inf, 0.0
     for _ in range(_REPEATS):
         forget_exposures()  # as of a new scene

@@ -117,7 +117,7 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) 
 
 
 def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
-    """Give the 95 % interval of a bit error rate whose bits fail together in pictures.
+    """Return the 95 % interval of a bit error rate whose bits fail together in pictures.
 
     Wilson's interval of as many independent bits as would scatter as much: bits / D, with the
     design effect D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates
@@ -135,7 +135,7 @@ def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
 
 
 def _interval(rate: float, bits: int) -> tuple[float, float]:
-    """Give Wilson's interval of a rate among a number of bits, whole errors on either side."""
+    """Return Wilson's interval of a rate among a number of bits, whole errors on either side."""
     low, _ = wilson_interval(math.floor(rate * bits), bits)
     _, high = wilson_interval(math.ceil(rate * bits), bits)
     return low, high

@@ -14,7 +14,7 @@ _MOST_TRIALS = 2**53
 
 
 def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[float, float]:
-    """Give Wilson's confidence interval of a success rate.
+    """Return Wilson's confidence interval of a success rate.
 
     It holds every rate p whose expected count lies within z standard deviations of the count s of
     n trials, |s - n p| <= z sqrt(n p (1 - p)). Its ends solve the equation:
@@ -52,7 +52,7 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
 
 
 def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, float]:
-    """Give the 95 % interval of the share of right bits, in percent; not a number of no bits.
+    """Return the 95 % interval of the share of right bits, in percent; not a number of no bits.
 
     The bits of a picture are read together or not at all, so that the pictures are the trials: it
     is Wilson's interval of as many successes as the pictures' share of right bits adds up to.

@@ -25,7 +25,7 @@ DEVICES = {
 
 
 def point_scene(preset: str, switching_frequency: float, distance: float) -> Scene:
-    """Give the scene of a point."""
+    """Return the scene of a point."""
     return load_preset(preset).replace(switching_frequency=switching_frequency, distance=distance)
 
 

@@ -12,7 +12,7 @@ _SAMPLES_AT_ONCE = 1_000_000
 
 
 def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
-    """Give t_on / t of every column from ``samples`` samples of the light in its exposure.
+    """Return t_on / t of every column from ``samples`` samples of the light in its exposure.
 
     The samples lie in the middle of equal parts of the exposure, as in other simulators.
 
@@ -34,7 +34,7 @@ def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
 
 
 def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
-    """Give t_on / t of some columns in rational arithmetic, rounded once at the end.
+    """Return t_on / t of some columns in rational arithmetic, rounded once at the end.
 
     Parameters
     ----------

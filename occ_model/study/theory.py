@@ -20,7 +20,7 @@ _BOUND_BINS = 2**14
 
 
 def band_model_frequency(scene: Scene) -> float:
-    """Give the switching frequency from which the band model is undefined: t_LED = t, f = 1/t.
+    """Return the switching frequency from which the band model is undefined: t_LED = t, f = 1/t.
 
     Beyond it every column's exposure holds a change of state, and no column shows one state alone:
     h_c = (t_LED - t) / t_r is negative (the paper's section II.B).
@@ -34,7 +34,7 @@ def band_model_frequency(scene: Scene) -> float:
 
 
 def null_frequency(scene: Scene) -> float:
-    """Give the switching frequency at which an alternating pattern has no stripes: f = 2/t.
+    """Return the switching frequency at which an alternating pattern has no stripes: f = 2/t.
 
     Chips that alternate have the period 2 t_LED. An exposure as long as that, t = 2/f, collects the
     same light wherever it starts: the first null of sinc(t f / 2), the exposure's response to the
@@ -62,7 +62,7 @@ def panel_readout_time(scene: Scene) -> float:
 
 
 def two_packets_frequency(scene: Scene) -> float | None:
-    """Give the switching frequency below which no two packets fit the panel's image.
+    """Return the switching frequency below which no two packets fit the panel's image.
 
     The columns that show the panel are read out within t_r times their number; two packets of L
     chips take 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers, and so a
@@ -78,7 +78,7 @@ def two_packets_frequency(scene: Scene) -> float | None:
 
 
 def row_rate_frequency(scene: Scene) -> float:
-    """Give the highest frequency that the columns can show: f = 1/(2 t_r), half the row rate.
+    """Return the highest frequency that the columns can show: f = 1/(2 t_r), half the row rate.
 
     The columns sample the light each t_r; of anything faster they show another frequency. Chips
     that alternate at a switching frequency f have the frequency f/2, so that 1/t_r is its limit.
@@ -132,7 +132,7 @@ def gaussian_rate_bound(
 
 
 def saturation_exposure(scene: Scene) -> float:
-    """Give the exposure time at which the lit panel reaches the largest pixel value.
+    """Return the exposure time at which the lit panel reaches the largest pixel value.
 
     The paper's equations (1) and (2) with PV_max = 255, solved for t:
     t = (255 / 118)^gamma K N^2 / (S (L_v + E_v R / pi)).

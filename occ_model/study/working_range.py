@@ -178,7 +178,7 @@ class _Search:
         return max(low, -high, 0.0)
 
     def _coarse_values(self) -> list[float]:
-        """Give values in even ratios from the scene's own to both ends."""
+        """Return values in even ratios from the scene's own to both ends."""
         down = self._towards(self._low)
         return [*reversed(down), self._own, *self._towards(self._high)]
 

@@ -75,7 +75,7 @@ def edges_of(flattened: FloatArray) -> Edges:
 
 
 def _crossing(part: FloatArray, first: int) -> float:
-    """Give the mean of the places at which a part of a profile crosses one half."""
+    """Return the mean of the places at which a part of a profile crosses one half."""
     before = np.flatnonzero((part[1:] > 0.5) != (part[:-1] > 0.5))
     low, high = part[before], part[before + 1]
     return first + float(np.mean(before + (0.5 - low) / (high - low)))

@@ -54,7 +54,7 @@ class Lattice:
 
 
 def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:
-    """Give the coherence of edges with pairs of lattices, shape as ``frequencies``.
+    """Return the coherence of edges with pairs of lattices, shape as ``frequencies``.
 
     Parameters
     ----------
@@ -96,7 +96,7 @@ def coarsest(edges: Edges) -> Lattice | None:
 
 
 def lattice_at(edges: Edges, frequency: float) -> Lattice:
-    """Give the pair of lattices of a spacing that lie best on the edges."""
+    """Return the pair of lattices of a spacing that lie best on the edges."""
     one = np.array([frequency])
     turns = [
         float(np.angle(_phase_factors(kind, one)[0])) / (2.0 * np.pi)
@@ -107,7 +107,7 @@ def lattice_at(edges: Edges, frequency: float) -> Lattice:
 
 
 def chip_numbers(edges: Edges, lattice: Lattice) -> tuple[FloatArray, FloatArray]:
-    """Give the edges' positions in chips on their lattices: numbers of chips but for their noise.
+    """Return the edges' positions in chips on their lattices: numbers of chips but for their noise.
 
     Returns
     -------
@@ -134,7 +134,7 @@ def without_rims(edges: Edges, lattice: Lattice) -> Edges:
 
 
 def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | None:
-    """Give the chips from the first edge to the last, and the number of the first of them.
+    """Return the chips from the first edge to the last, and the number of the first of them.
 
     Returns
     -------
@@ -153,7 +153,7 @@ def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | Non
 
 
 def certainty(edges: Edges, lattice: Lattice) -> float:
-    """Give the probability that all edges are those of the chips they are nearest to.
+    """Return the probability that all edges are those of the chips they are nearest to.
 
     Two parts: that the coherence is no chance (Rayleigh's test: n edges of random phase have a mean
     phase factor longer than R with the probability exp(-n R^2), for each lattice tried), and that

@@ -71,7 +71,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
 
 
 def _unexplained(flattened: FloatArray, edges: Edges, frequency: float) -> float:
-    """Give the share of a profile's variance that chips leave unexplained at the best exposure.
+    """Return the share of a profile's variance that chips leave unexplained at the best exposure.
 
     Between the first edge and the last; longer bright runs than the chips' are allowed for by the
     edges themselves: each chip is seen where its own edges are.

@@ -58,7 +58,7 @@ def nearest_other(
 
 
 def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
-    """Give the sequences to compare, shape (sequences, chips), without the turned given one."""
+    """Return the sequences to compare, shape (sequences, chips), without the turned given one."""
     count = len(chips)
     turn = (np.arange(count)[:, None] + np.arange(count)) % count
     is_packet = sends_paper_code(transmitter) and count == packet_length(transmitter.bits)
@@ -75,7 +75,7 @@ def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
 
 
 def _responses(timing: Timing, chips: int, columns: int) -> FloatArray:
-    """Give the lit fraction of each column that each chip alone makes, shape (columns, chips).
+    """Return the lit fraction of each column that each chip alone makes, shape (columns, chips).
 
     A chip's running integral over time rises by one while it lasts, once a period.
     """

@@ -99,7 +99,7 @@ def strongest_line(
 
 
 def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, float]]:
-    """Give the bin of each harmonic of the pattern, and the power that it may have by itself."""
+    """Return the bin of each harmonic of the pattern, and the power that it may have by itself."""
     places = [round(number * first) for number in range(1, int((len(power) - 1) / first) + 1)]
     strongest = [
         float(power[max(0, place - _LINE_BINS) : place + _LINE_BINS + 1].max()) for place in places

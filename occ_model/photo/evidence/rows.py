@@ -13,7 +13,7 @@ _BANDS = 8
 
 
 def rows_alike(photo: Photo, region: Region) -> float:
-    """Give the correlation of a band of rows with the other ones, in the median of the bands.
+    """Return the correlation of a band of rows with the other ones, in the median of the bands.
 
     Slow changes along the columns are removed: the shape of the lamp differs between the rows. A
     rolling shutter's stripes are those of the time, hence alike in all rows but for noise; those of

@@ -74,7 +74,7 @@ def _ascended(
 
 
 def _alike(chips: ByteArray, towards: FloatArray, products: FloatArray) -> FloatArray:
-    """Give the likeness of each row of chips; that of chips without a change is -1."""
+    """Return the likeness of each row of chips; that of chips without a change is -1."""
     energy = np.einsum("ij,ij->i", chips @ products, chips)
     varies = chips.min(axis=1) < chips.max(axis=1)
     return np.where(varies, chips @ towards / np.sqrt(np.maximum(energy, 1e-300)), -1.0)

@@ -59,7 +59,7 @@ Harmonics = NDArray[np.complex128]
 
 
 def harmonics_of(even: FloatArray, period: float) -> Harmonics:
-    """Give the strength of each harmonic of 1/period, from the first.
+    """Return the strength of each harmonic of 1/period, from the first.
 
     They are fitted together with a trend: the removal of one has changed the slow harmonics.
     """
@@ -95,7 +95,7 @@ def best_chips(lines: Harmonics, count: int) -> ReadPattern | None:
 def boxes_of(
     harmonics: int, count: int, exposures: FloatArray, phases: FloatArray
 ) -> NDArray[np.complex128]:
-    """Give what multiplies the harmonics of chips: the boxes of a chip and of an exposure.
+    """Return what multiplies the harmonics of chips: the boxes of a chip and of an exposure.
 
     Parameters
     ----------

@@ -110,7 +110,7 @@ class Search:
     def _scores(
         self, seen: NDArray[np.complex64], exposure: float, phases_a_chip: int
     ) -> tuple[FloatArray, FloatArray]:
-        """Give the best correlation over all phases, and the phase of the middle that has it."""
+        """Return the best correlation over all phases, and the phase of the middle that has it."""
         # Imported only when a photo is matched: it is slow.
         from scipy.fft import irfft
 

@@ -170,12 +170,12 @@ def _fewest(
 
 
 def _enough(left: Sequence[float]) -> float:
-    """Give the share of the power that the fewest chips may leave unexplained."""
+    """Return the share of the power that the fewest chips may leave unexplained."""
     return min(_UNEXPLAINED, max(_WELL_EXPLAINED, _AS_GOOD * min(left, default=1.0)))
 
 
 def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
-    """Give the numbers of chips in a period on whose lattices all edges lie, the fewest first."""
+    """Return the numbers of chips in a period on whose lattices all edges lie, the fewest first."""
     count = np.arange(2, most + 1)
     if edges.count < _LEAST_CROSSINGS or count.size == 0:
         return []

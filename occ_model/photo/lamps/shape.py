@@ -84,7 +84,7 @@ def _rectangles(
 
 
 def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float] | None:
-    """Give the first and the last column of a lamp in one strip; None if it is not seen there."""
+    """Return the first and the last column of a lamp in one strip; None if it is not seen there."""
     swing = edges.high - edges.low
     least = _FAINT * float(np.median(timing.edges.high - timing.edges.low))
     shared = np.flatnonzero(
@@ -136,7 +136,7 @@ def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:
 
 
 def around(spans: IndexArray) -> Region:
-    """Give the smallest rectangle around a shape."""
+    """Return the smallest rectangle around a shape."""
     return Region(
         int(spans[:, 0].min()), int(spans[:, 1].max()),
         int(spans[:, 2].min()), int(spans[:, 3].max()),

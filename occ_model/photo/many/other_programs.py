@@ -33,7 +33,7 @@ _PRECISE = 0.01
 
 
 def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
-    """Give the readout time of the whole frame and its standard deviation in seconds.
+    """Return the readout time of the whole frame and its standard deviation in seconds.
 
     Parameters
     ----------
@@ -95,7 +95,7 @@ def lines_of_match(match: Match, *, turned: bool) -> dict[str, str]:
 
 
 def frame_of_match(match: Match) -> tuple[float, float] | None:
-    """Give the readout time of one photo's whole frame and its standard deviation in seconds."""
+    """Return the readout time of one photo's whole frame and its standard deviation in seconds."""
     deviation = match.uncertainties.get("readout_time")
     if deviation is None:
         return None

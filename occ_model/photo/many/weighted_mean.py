@@ -66,14 +66,14 @@ def combine(
 
 
 def _weighted_mean(x: FloatArray, sigma: FloatArray) -> tuple[float, float]:
-    """Give the mean weighted by the inverse variances, and its standard deviation."""
+    """Return the mean weighted by the inverse variances, and its standard deviation."""
     weights = (sigma.min() / sigma) ** 2
     total = float(weights.sum())
     return float(weights @ x) / total, float(sigma.min()) / math.sqrt(total)
 
 
 def _scale(chi_square: float, degrees: int) -> float:
-    """Give the factor by which the mean is less certain than one of independent estimates."""
+    """Return the factor by which the mean is less certain than one of independent estimates."""
     if not degrees:
         return 1.0
     square = chi_square / degrees
@@ -81,7 +81,7 @@ def _scale(chi_square: float, degrees: int) -> float:
 
 
 def _probability(chi_square: float, degrees: int) -> float:
-    """Give the probability of a chi-square that is as large or larger."""
+    """Return the probability of a chi-square that is as large or larger."""
     if not degrees:
         return 1.0
     from scipy.special import gammaincc  # slow to import

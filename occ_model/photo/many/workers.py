@@ -105,7 +105,7 @@ class _Progress:
             yield Job(row_of, (place, path, self._settings))
 
     def newly_matched(self) -> list[tuple[int, PhotoRow]]:
-        """Give the rows since the last call."""
+        """Return the rows since the last call."""
         matched, self._matched = self._matched, []
         return matched
 

@@ -58,7 +58,7 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
 
 
 def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
-    """Give the camera's notes of EXIF tags, by their numbers."""
+    """Return the camera's notes of EXIF tags, by their numbers."""
     return CameraNotes(
         exposure_time=_within("exposure_time", _number(tags.get(EXPOSURE_TIME)))
         or _within("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
@@ -70,7 +70,7 @@ def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
 
 
 def orientation_of(picture: "PillowImage") -> int:
-    """Give the EXIF orientation, 1 to 8, that a decoded picture still has."""
+    """Return the EXIF orientation, 1 to 8, that a decoded picture still has."""
     orientation: object = 1
     with suppress(Exception):
         orientation = picture.getexif().get(_ORIENTATION)
@@ -78,7 +78,7 @@ def orientation_of(picture: "PillowImage") -> int:
 
 
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
-    """Give the steps that undo an EXIF orientation.
+    """Return the steps that undo an EXIF orientation.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def _iso(tags: Mapping[int, Any]) -> float | None:
 
 
 def _within(name: str, number: float | None) -> float | None:
-    """Give a number within the range of a scene's parameter, None for any other."""
+    """Return a number within the range of a scene's parameter, None for any other."""
     if number is None:
         return None
     try:

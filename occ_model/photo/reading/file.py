@@ -71,7 +71,7 @@ def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[Watched
 
 
 def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
-    """Give the function that opens a file's first picture, not yet decoded, at each call.
+    """Return the function that opens a file's first picture, not yet decoded, at each call.
 
     Its arguments are the shares of the work between which the picture will be decoded. It raises
     PhotoError where the file is no image, damaged or too large.

@@ -54,7 +54,7 @@ def _is_heic(start: bytes) -> bool:
 
 
 def _heic_factory(path: Path) -> "Factory":
-    """Give the function that opens a HEIC photo, without a change of Pillow's global list."""
+    """Return the function that opens a HEIC photo, without a change of Pillow's global list."""
     try:
         from pillow_heif import HeifImageFile
     except ImportError:

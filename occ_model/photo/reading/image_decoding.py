@@ -113,7 +113,7 @@ class DecodedPicture:
 
 
 def _palette_of(picture: "PillowImage") -> Samples:
-    """Give the colours of a picture's palette, shape (256, 3)."""
+    """Return the colours of a picture's palette, shape (256, 3)."""
     swatch = picture.crop((0, 0, 256, 1))
     swatch.frombytes(bytes(range(256)))
     colours: Samples = _colours(swatch)[0]

@@ -131,14 +131,14 @@ def is_deep_in_colours(raw_modes: set[str]) -> bool:
 
 
 def raw_modes_of(picture: "ImageFile") -> set[str]:
-    """Give the raw modes of a picture: Pillow's names of the layout of samples in a file."""
+    """Return the raw modes of a picture: Pillow's names of the layout of samples in a file."""
     arguments = [tile[3] for tile in picture.tile]
     firsts = [given[0] if isinstance(given, tuple) and given else given for given in arguments]
     return {first for first in firsts if isinstance(first, str)}
 
 
 def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
-    """Give the largest number of bytes for a pixel from decoding to its one channel."""
+    """Return the largest number of bytes for a pixel from decoding to its one channel."""
     deep_colours = is_deep_in_colours(raw_modes_of(picture))
     decoded = _bytes_decoded(picture.mode)
     if deep_colours:
@@ -150,14 +150,14 @@ def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
 
 
 def _bytes_decoded(mode: str) -> int:
-    """Give the bytes in which Pillow holds a pixel."""
+    """Return the bytes in which Pillow holds a pixel."""
     if mode in ("1", "L", "P"):
         return 1
     return 2 if mode.startswith("I;16") else 4
 
 
 def _bytes_beside(picture: "ImageFile", scan_header: int) -> float:
-    """Give the bytes that a format's decoder allocates besides for each pixel."""
+    """Return the bytes that a format's decoder allocates besides for each pixel."""
     bands = len(picture.getbands())
     kind = picture.format
     if kind == "JPEG":
@@ -184,14 +184,14 @@ def _is_in_one_scan(picture: "ImageFile", scan_header: int) -> bool:
 
 
 def _samples_a_pixel(layers: list[tuple[object, int, int, object]]) -> float:
-    """Give the samples of a JPEG per pixel: colours may be subsampled."""
+    """Return the samples of a JPEG per pixel: colours may be subsampled."""
     widest = max((across for _, across, _, _ in layers), default=1)
     highest = max((down for _, _, down, _ in layers), default=1)
     return sum(across * down for _, across, down, _ in layers) / (widest * highest)
 
 
 def _bytes_of_a_strip(picture: "ImageFile") -> float:
-    """Give the bytes of the strips or tiles in which a TIFF is decoded: one may be the whole."""
+    """Return the bytes of the strips or tiles in which a TIFF is decoded: one may be the whole."""
     tags = getattr(picture, "tag_v2", None)
     if tags is None or picture.format != "TIFF":
         return 0.0

@@ -47,12 +47,12 @@ class Mosaic:
         return "grey" if self.is_green.all() else "green"
 
     def one_plane(self) -> Samples:
-        """Give one green photosite of each square of four, shape (lines / 2, columns / 2)."""
+        """Return one green photosite of each square of four, shape (lines / 2, columns / 2)."""
         row, column = np.argwhere(self.is_green)[0].tolist()
         return np.ascontiguousarray(self.photosites[row::2, column::2])
 
     def samples(self, along_lines: bool) -> Samples:
-        """Give the light as a picture of the sensor's size, in proportion, 65535 being white.
+        """Return the light as a picture of the sensor's size, in proportion, 65535 being white.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class Mosaic:
 
 
 def _light_of(black: float, white: float) -> NDArray[np.uint16]:
-    """Give the sample of every value that a photosite can have, shape (65536,)."""
+    """Return the sample of every value that a photosite can have, shape (65536,)."""
     share = np.clip((np.arange(65536) - black) / (white - black), 0.0, 1.0)
     light: NDArray[np.uint16] = np.rint(share * WHITE_SAMPLE).astype(np.uint16)
     return light

@@ -171,7 +171,7 @@ def _mosaic(shown: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
 
 
 def _levels(shown: str, raw: "RawPy", colour: int) -> tuple[float, float]:
-    """Give the black and the white level of a colour."""
+    """Return the black and the white level of a colour."""
     black = float(raw.black_level_per_channel[colour])
     white = float(raw.white_level)
     noted = raw.camera_white_level_per_channel
@@ -200,7 +200,7 @@ def _tags_of(file: IO[bytes]) -> dict[int, Any]:
 
 
 def _words(error: Exception) -> str:
-    """Give LibRaw's message, which rawpy passes on as bytes."""
+    """Return LibRaw's message, which rawpy passes on as bytes."""
     text = error.args[0] if error.args else type(error).__name__
     if isinstance(text, bytes):
         text = text.decode("utf-8", errors="replace")

@@ -13,7 +13,7 @@ _LEAST_POWER = 0.05
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
-    """Give the low and the high level around each column.
+    """Return the low and the high level around each column.
 
     A grey-scale opening removes bright stripes, a closing dark ones; both are smoothed.
 
@@ -41,7 +41,7 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 
 
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
-    """Give Chebyshev polynomials, of which slowly varying levels are linear combinations.
+    """Return Chebyshev polynomials, of which slowly varying levels are linear combinations.
 
     Returns
     -------

@@ -118,7 +118,7 @@ class Cells:
         )
 
     def profiles(self, width: int) -> list[EvenProfile]:
-        """Give the profiles of pixels that are lit alike.
+        """Return the profiles of pixels that are lit alike.
 
         Parameters
         ----------

@@ -164,7 +164,7 @@ def _striped_rows(photo: Photo) -> tuple[int, int]:
 
 
 def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the most common slopes of the bands, of norm one, and their strength in each band."""
+    """Return the most common slopes of the bands, of norm one, and their strength in each band."""
     # The leading pair of singular vectors, from the small matrix of the bands' products.
     _, vectors = np.linalg.eigh(slopes @ slopes.T)
     common = vectors[:, -1] @ slopes

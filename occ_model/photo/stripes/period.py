@@ -64,7 +64,7 @@ def _rough_period(flattened: FloatArray) -> float | None:
 
 
 def autocorrelation(values: FloatArray) -> FloatArray:
-    """Give the autocorrelation at every lag, normalized over the columns that both parts have.
+    """Return the autocorrelation at every lag, normalized over the columns that both parts have.
 
     Returns
     -------
@@ -105,7 +105,7 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
 
 
 def unrepeated_share(flattened: FloatArray, period: float) -> float:
-    """Give the share of a profile's variance that no repeated wave of a period explains.
+    """Return the share of a profile's variance that no repeated wave of a period explains.
 
     Parameters
     ----------
@@ -120,17 +120,17 @@ def unrepeated_share(flattened: FloatArray, period: float) -> float:
 
 
 def without_repetition(flattened: FloatArray, period: float) -> FloatArray:
-    """Give what no repeated wave of a period explains, shape as ``flattened``."""
+    """Return what no repeated wave of a period explains, shape as ``flattened``."""
     return _residual(flattened, period, harmonics_within(len(flattened), period))
 
 
 def harmonics_within(columns: int, period: float) -> int:
-    """Give the number of harmonics of a repeated wave that columns tell apart."""
+    """Return the number of harmonics of a repeated wave that columns tell apart."""
     return int(np.clip(period / 2.5, 1, min(_HARMONICS, columns / 6)))
 
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
-    """Give the residual of a fit of a period's harmonics."""
+    """Return the residual of a fit of a period's harmonics."""
     count = len(flattened)
     turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
     waves = np.hstack([np.cos(turn), np.sin(turn)])
@@ -143,7 +143,7 @@ def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArra
 
 
 def correlated_columns(residual: FloatArray) -> float:
-    """Give the number of columns of a fit's residual that count as one independent value.
+    """Return the number of columns of a fit's residual that count as one independent value.
 
     1 + 2 times the sum of the autocorrelations up to the first that is not positive. Neighbouring
     columns are not independent where an effect outside the model, such as a lens's blur, is alike

@@ -87,7 +87,7 @@ def _sample(row: dict[str, str | None], folder: Path, where: str) -> Sample:
 
 
 def _path(text: str | None, folder: Path, where: str) -> Path:
-    """Give the file of a picture, which is in the folder of the data set."""
+    """Return the file of a picture, which is in the folder of the data set."""
     if not text:
         raise PhotoError(f"{where}: {COLUMNS[0]} is missing.")
     try:

@@ -8,7 +8,7 @@ from occ_model.study.confidence import interval_of_pictures
 
 
 def rate_intervals(point: SweepPoint, images: int) -> list[tuple[float, float]]:
-    """Give the 95 % interval of each decoder's rate in percent, not a number without a rate."""
+    """Return the 95 % interval of each decoder's rate in percent, not a number without a rate."""
     return [interval_of_pictures(right, point.sent, images) for right in point.right]
 
 

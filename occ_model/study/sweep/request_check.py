@@ -54,13 +54,13 @@ def check_points(axes: Mapping[str, Sequence[ParameterValue]]) -> None:
 
 
 def processes_for(jobs: int, points: int) -> int:
-    """Give the number of processes to start."""
+    """Return the number of processes to start."""
     check_count("jobs", jobs, 1, MOST_JOBS)
     return max(1, min(jobs, points, JOBS_A_CORE * (os.cpu_count() or 1)))
 
 
 def decoders_of(decoder: object) -> tuple[str, ...]:
-    """Give the names of the decoders, from one name or several."""
+    """Return the names of the decoders, from one name or several."""
     known = ", ".join(DECODERS)
     if isinstance(decoder, str):
         return (decoder,)

@@ -1,5 +1,6 @@
 """Returns the values of a parameter at which the picture changes in kind, to mark on its slider."""
 
+from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.least_depth import DepthOver
@@ -22,13 +23,12 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     if exposure <= 0.0:
         return ()
     is_raw = bool(transmitter.pattern)
-    # A pattern can hold shorter ones; a packet's header comes once.
-    period = DepthOver.of(scene).period if is_raw else len(sent_chips(transmitter))
+    period = _period(scene)
     ends = {
         "switching_frequency": (
             band_model_frequency(scene), null_frequency(scene), period / exposure
         ),
-        "exposure_time": tuple(k * transmitter.switching_period for k in (1.0, 2.0, float(period))),
+        "exposure_time": tuple(k * transmitter.switching_period for k in (1.0, 2.0, period)),
     }.get(parameter)  # fmt: skip
     if ends is None:
         return ()
@@ -36,8 +36,20 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     ends_there = "Exposure and switching period are equal: the band model ends."
     what = "pattern" if is_raw else "packet"
     why = f"The exposure is a whole {what}: no bars, here and at its whole multiples."
-    marks = [MarkedValue(equal, "t = t_LED", ends_there), MarkedValue(barless, "no bars", why)]
+    marks = [MarkedValue(equal, "t = t_LED", ends_there)]
     if not is_raw:
         nulls = "The exposure is two chips long: the first null of 0101."
-        marks.insert(1, MarkedValue(null, "null", nulls))
+        marks.append(MarkedValue(null, "null", nulls))
+    if period:
+        marks.append(MarkedValue(barless, "no bars", why))
     return tuple(marks)
+
+
+def _period(scene: Scene) -> float:
+    """Return the chips after which what is sent repeats; 0 where no packet can be made."""
+    if scene.transmitter.pattern:  # which can hold shorter ones; a packet's header comes once
+        return float(DepthOver.of(scene).period)
+    try:
+        return float(len(sent_chips(scene.transmitter)))
+    except OccError:  # such as of a plug-in, which the picture's failure names
+        return 0.0

@@ -38,3 +38,10 @@ def test_only_a_code_has_a_mark_at_two_chips() -> None:
     ):
         marks = marked_values(scene.replace(pattern=pattern), "exposure_time")
         assert [mark.label for mark in marks] == labels
+
+
+def test_a_scene_whose_packet_cannot_be_made_has_the_marks_of_its_timing() -> None:
+    scene = occ.load_preset("phone-136us").replace(line_code="nrz", framing="c-ook")
+    with pytest.raises(occ.ParameterError, match="limits no run"):
+        occ.packet(scene)
+    assert [mark.label for mark in marked_values(scene, "exposure_time")] == ["t = t_LED", "null"]

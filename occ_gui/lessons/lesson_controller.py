@@ -35,12 +35,6 @@ class LessonController(QObject):
     ----------
     store
         What the user has set, which a lesson replaces while it is under way.
-    board
-        The match of the photo.
-    pane
-        Shows the lessons.
-    answers
-        Checks and keeps the answers.
     """
 
     status_message = Signal(str)

@@ -6,13 +6,7 @@ from occ_model.scene.square_wave import blinking
 
 
 def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
-    """Give the scene with what the user knows, and where the sent pattern is taken from.
-
-    Raises
-    ------
-    ParameterError
-        The frequency of the square wave is out of range.
-    """
+    """Give the scene with what the user knows, and where the sent pattern is taken from."""
     if choice.sent != "square":
         return scene, choice.sent
     return blinking(scene, choice.square_frequency), "scene"

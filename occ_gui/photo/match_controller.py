@@ -35,12 +35,6 @@ def sources_of(
     ----------
     found, photo_name
         The match, and the name of its photo.
-    known
-        The parameter that was taken as known.
-    day
-        The day of the match.
-    assumed
-        Whether that parameter's value was only assumed.
     """
     given = quantity(known)
     value = given.format(float(found.scene.value(known)))

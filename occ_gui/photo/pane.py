@@ -32,12 +32,8 @@ class PhotoPane(Pane[PhotoPart]):
     ----------
     scenes
         The scene that a photo is matched with.
-    photos
-        Reads the photo.
     image
         The pane of the picture, which the photo lies beside or on.
-    board
-        Takes what is read of the photo.
     """
 
     match_shown = Signal(object)

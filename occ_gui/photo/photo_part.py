@@ -72,8 +72,6 @@ class PhotoPart:
     ----------
     reading
         What is read of the simulated scene.
-    part
-        What of the photo is matched.
     is_by_hand
         Whether the photo lies where the user has put it.
     is_late

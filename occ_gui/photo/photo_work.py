@@ -104,13 +104,7 @@ def match_work(store: Store, board: Board) -> Work[MatchRequest, FoundMatch]:
 
 
 def match(request: MatchRequest, report: Report) -> FoundMatch:
-    """Match a photo.
-
-    Raises
-    ------
-    ParameterError
-        The frequency of the square wave is out of range.
-    """
+    """Match a photo."""
     report(0.0)
     photo, asked = request
     choice = asked.choice

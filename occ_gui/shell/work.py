@@ -17,8 +17,6 @@ class Work(QObject, Generic[Request, Result]):
 
     Parameters
     ----------
-    task
-        Does the work, impatiently.
     of
         Gives what is asked of the task; None where there is no such result.
     put

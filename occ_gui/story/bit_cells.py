@@ -19,25 +19,13 @@ _PADDING = 4
 
 
 def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
-    """Return whether the mark of a bit fits into each cell: in one row all have it or none.
-
-    Parameters
-    ----------
-    metrics
-        Those of the text.
-    """
+    """Return whether the mark of a bit fits into each cell: in one row all have it or none."""
     needed = max(metrics.horizontalAdvance(bit + mark) for bit in "01" for mark in _MARKS.values())
     return all(needed <= width - _PADDING for width in widths)
 
 
 def have_room_for_bits(metrics: QFontMetrics, widths: Iterable[float]) -> bool:
-    """Return whether a digit fits into each cell, if only just: one row has all of them or none.
-
-    Parameters
-    ----------
-    metrics
-        Those of the text.
-    """
+    """Return whether a digit fits into each cell, if only just: one row has all of them or none."""
     needed = max(map(metrics.horizontalAdvance, "01"))
     return all(needed <= width for width in widths)
 

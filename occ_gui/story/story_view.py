@@ -51,17 +51,7 @@ class _Held(QWidget):
 
 
 class StoryView(QWidget):
-    """The verdict on the code, above the story in four rows, or the whole picture instead.
-
-    Parameters
-    ----------
-    picture
-        The pane of the whole picture.
-    decoders
-        Names of the decoders.
-    parent
-        The parent widget.
-    """
+    """The verdict on the code, above the story in four rows, or the whole picture instead."""
 
     picture_chosen = Signal(str)
     """Whose picture and profile the user chose, the ``"camera"``'s or the ``"receiver"``'s."""

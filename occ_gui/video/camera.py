@@ -79,13 +79,7 @@ def _probed() -> Iterator[CameraDevice]:
 
 
 class CameraSource:
-    """The pictures of a camera.
-
-    Parameters
-    ----------
-    device
-        The camera.
-    """
+    """The pictures of a camera."""
 
     def __init__(self, device: CameraDevice) -> None:
         self.title, self.axis = device.name, "lines"

@@ -42,8 +42,6 @@ class ReadingRequest:
 
     Parameters
     ----------
-    film
-        The film.
     is_live
         Whether it has no end, so that only its last frames are remembered.
     """

@@ -30,14 +30,8 @@ def seconds_of(
 
     Parameters
     ----------
-    effects
-        Effects of a scene.
     sets : ndarray of float64, shape (sets, effects)
         1 where a set simulates an effect.
-    pixels
-        The picture's.
-    noise
-        Its source.
     """
     millions = pixels * 1e-6
     each = np.array([effect.cost.picture + effect.cost.pixels * millions for effect in effects])

@@ -117,13 +117,7 @@ class FileEffect(Effect):
 
     @abstractmethod
     def check_size(self, scene: Scene, shape: tuple[int, ...]) -> None:
-        """Refuse a picture that the file cannot hold.
-
-        Raises
-        ------
-        ParameterError
-            Naming its size, and what is allowed.
-        """
+        """Refuse a picture that the file cannot hold."""
 
     @abstractmethod
     def steps(self, scene: Scene) -> FloatArray:

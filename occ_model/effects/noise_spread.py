@@ -21,15 +21,7 @@ _TOLERANCE = 0.01
 
 
 class NoiseSpread:
-    """The standard deviation of all noise of some effects together, in grey levels.
-
-    Parameters
-    ----------
-    effects
-        The noise.
-    scene
-        The scene.
-    """
+    """The standard deviation of all noise of some effects together, in grey levels."""
 
     def __init__(self, effects: Sequence[NoiseEffect], scene: Scene) -> None:
         self._effects = effects
@@ -87,10 +79,6 @@ def pixel_spread(effects: Sequence[NoiseEffect], scene: Scene, values: Pixels) -
 
     Parameters
     ----------
-    effects
-        The noise.
-    scene
-        The scene.
     values : ndarray of float32, shape (rows, columns)
         Mean pixel values before saturation.
     """

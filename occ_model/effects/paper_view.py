@@ -30,12 +30,8 @@ class PaperView:
 
     Parameters
     ----------
-    scene
-        The scene.
     corners : ndarray of float64, shape (4, 2)
         Of the panel in the image.
-    light
-        What reaches each column.
     values : ndarray of float64, shape (columns,)
         Pixel value of each column on the panel before saturation.
     sides
@@ -66,15 +62,8 @@ def paper_view_of(
 
     Parameters
     ----------
-    scene
-        The scene.
     stage_ended
         Called with the name of each stage that has just ended.
-
-    Raises
-    ------
-    ProjectionError
-        Part of the panel is behind the camera.
     """
     corners = panel_corners(scene)
     outline = _outline_of(corners.tobytes(), scene.camera.rows, scene.camera.columns)
@@ -130,8 +119,6 @@ def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
     ----------
     corners : ndarray of float64, shape (corners, 2)
         (column, row) of each corner of the outline.
-    rows, columns
-        Size of the image.
     """
     across, down = corners.T.tolist()
     left, right = (_first_from(end(across), columns) for end in (min, max))

@@ -79,11 +79,6 @@ def described(
     Of fits that are as good with another exposure the one is taken that is nearest to the exposure
     time in the photo's EXIF data, or the shortest. ``check`` is called every few hundredths of a
     second; what it raises ends the work.
-
-    Raises
-    ------
-    MatchError
-        A value found is outside its parameter's range, or it is hardly known.
     """
     region = stripes.region
     better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
@@ -122,13 +117,7 @@ def described(
 
 
 def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
-    """Compare a readout time's or frequency's error with what such an error is worth.
-
-    Raises
-    ------
-    MatchError
-        It is hardly known.
-    """
+    """Compare a readout time's or frequency's error with what such an error is worth."""
     share = deviation / value
     if share <= _MOST_UNSURE:
         return []
@@ -246,8 +235,6 @@ def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
 
     Returns
     -------
-    scene
-        The scene.
     turned
         Number of chips by which its period starts later than the given chips.
     """

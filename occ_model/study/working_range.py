@@ -54,8 +54,6 @@ def working_range(
 
     Parameters
     ----------
-    name
-        The parameter, a quantity.
     settings
         Checked, with one decoder; the images are those of each value that is reported.
     """

@@ -67,14 +67,8 @@ class ManyPhotosController(QObject):
 
     Parameters
     ----------
-    scenes
-        The scene with the known values.
     photos
         Which photos are listed, and how they are read.
-    view
-        The table.
-    board
-        Takes what is found in them.
     jobs
         Number of processes; by default one for each core.
     """

@@ -52,14 +52,6 @@ class Candidates:
 
     Parameters
     ----------
-    stripes
-        The stripes to be explained.
-    scene
-        What is known of them.
-    cameras
-        The camera responses that are tried.
-    fit_gamma
-        Whether gamma is fitted too.
     chosen
         Function that chooses the reported fit of an explanation.
     check

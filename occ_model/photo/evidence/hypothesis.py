@@ -19,12 +19,6 @@ class Hypothesis:
 
     Parameters
     ----------
-    sent
-        What is sent, in words.
-    explanation
-        Its chips and fits.
-    fit
-        The fit that is reported.
     bits
         Bits that had to be chosen to state it: 0 where it was given beforehand.
     was_read
@@ -130,8 +124,6 @@ def log_likelihood(power: float, columns: int, independent: float, freedom: floa
         Number of residuals.
     independent
         Number of those that count as independent.
-    freedom
-        Number of fitted parameters.
     """
     variance = max(power / columns, 1e-12)
     return -0.5 * independent * math.log(variance) - 0.5 * freedom * math.log(max(independent, 2.0))

@@ -36,8 +36,6 @@ class Surroundings:
     ----------
     smooth, wave
         The explanations without a code: a smooth curve, and any wave that repeats.
-    likelihood
-        The hypothesis' likelihood, comparable with theirs.
     rows_alike
         Correlation of the rows' stripes with each other.
     """
@@ -55,11 +53,6 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
     ----------
     blinks
         Whether it is given that a lamp blinks.
-
-    Returns
-    -------
-    list of str
-        Empty where the hypothesis holds.
     """
     least = _LEAST_GIVEN
     if found.was_read:

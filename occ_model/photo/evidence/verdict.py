@@ -29,8 +29,6 @@ class Verdict:
 
     Parameters
     ----------
-    found
-        The hypothesis.
     reasons
         Why it is doubtful, in sentences; none where it is sure.
     exposure_reasons
@@ -50,8 +48,6 @@ class Judge:
 
     Parameters
     ----------
-    stripes
-        The stripes.
     rows_alike
         Correlation of the rows' stripes with each other.
     blinks
@@ -64,13 +60,7 @@ class Judge:
         self._error = len(stripes.profile) * (_MODEL_ERROR * swing) ** 2
 
     def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
-        """Choose the likeliest hypothesis.
-
-        Raises
-        ------
-        MatchError
-            It is refused.
-        """
+        """Choose the likeliest hypothesis."""
         likelihoods = self._likelihoods(hypotheses)
         order = sorted(range(len(likelihoods)), key=lambda i: -likelihoods[i])
         reasons = [self._refusals(hypotheses[i], likelihoods[i], hypotheses) for i in order]
@@ -91,8 +81,6 @@ class Judge:
 
         Parameters
         ----------
-        found, others
-            The hypotheses.
         is_given
             Whether it is given what was sent: as many other chips then change no timing.
         """

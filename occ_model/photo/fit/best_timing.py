@@ -63,8 +63,6 @@ class Explanation:
         One period.
     fits
         The best fit, and those that are as good with another exposure, in order of the exposure.
-    camera
-        The camera's response.
     starts
         The timings of all possible fits, the best first.
     """
@@ -108,16 +106,8 @@ def explain(
 
     Parameters
     ----------
-    stripes
-        The stripes.
     chips : ndarray of uint8, shape (chips,)
         One period of the sent chips.
-    cameras
-        The camera responses to try.
-    gamma
-        The camera's gamma.
-    with_gamma
-        Whether gamma is fitted too.
     steps
         Chips per column to try, in groups; None stands for all that are possible. A group is tried
         where none before it surely fits.
@@ -179,8 +169,6 @@ def polished(stripes: Stripes, explanation: Explanation) -> Explanation:
 
     Parameters
     ----------
-    stripes
-        The stripes.
     explanation
         Its fits hold an estimate of gamma, or none of them does.
     """

@@ -40,8 +40,6 @@ class BlurredLight:
     ----------
     chips : ndarray of uint8, shape (chips,)
         One period, neither all on nor all off.
-    columns
-        Number of columns.
     """
 
     def __init__(self, chips: ByteArray, columns: int) -> None:
@@ -68,8 +66,6 @@ class BlurredLight:
 
         Parameters
         ----------
-        timing
-            The exposures.
         blur
             Standard deviation of the blur in columns.
         longer

@@ -34,8 +34,6 @@ class CameraTone:
     ----------
     averaging, enhancement
         As the scene's parameters.
-    tone
-        The response.
     rank_resolution
         Smallest change of the timing, in columns, that changes the response: ranks are discrete.
     """

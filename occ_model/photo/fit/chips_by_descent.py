@@ -30,8 +30,6 @@ def chips_by_descent(
     ----------
     lines : ndarray of complex128, shape (harmonics,)
         The harmonics given.
-    count
-        Number of chips.
     check
         Called every few milliseconds; what it raises ends the search.
     """

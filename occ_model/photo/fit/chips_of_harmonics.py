@@ -169,8 +169,6 @@ def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> Fl
         The harmonics given.
     weights : ndarray of complex128, shape (trials, harmonics)
         What multiplies the chips' own harmonics, for each exposure and phase.
-    count
-        Number of chips.
 
     Returns
     -------

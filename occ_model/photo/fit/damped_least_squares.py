@@ -33,8 +33,6 @@ def minimized(
         standard deviations of the noise.
     first : ndarray of float64, shape (parameters,)
         The first guess.
-    rounds
-        Largest number of steps.
     share
         Where the noise is not known: share of the sum of squares whose decrease does not matter.
     slopes

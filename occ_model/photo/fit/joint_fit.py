@@ -207,8 +207,6 @@ class JointModel:
             The guess, as the values of a fit.
         fixed
             Indices of parameters that are held fixed.
-        rounds
-            Largest number of steps.
         shape
             The blur's distribution; None: a normal one with tails that are not known.
         """

@@ -63,8 +63,6 @@ class StripeFit:
 
     Parameters
     ----------
-    timing
-        The timing.
     covariance : ndarray of float64, shape (4, 4)
         The covariance of the timing's fields in their order; 0 for gamma where it was given.
     low, swing : ndarray of float64, shape (columns,)
@@ -99,10 +97,6 @@ class StripeModel:
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
-    waveform
-        The sent chips.
-    tone
-        The camera's response.
     step
         Chips per column, roughly: the number of chips limits the degrees of freedom of the levels.
     rank_resolution
@@ -176,14 +170,8 @@ class StripeModel:
 
         Parameters
         ----------
-        start
-            The guess.
-        with_gamma
-            Whether gamma is fitted too.
         spread
             Above 0: the exposure is held fixed, uniformly likely within as many chips either way.
-        rounds
-            Largest number of steps.
         """
         columns = len(self._profile)
         gamma = PARAMETERS["gamma"]

@@ -70,8 +70,6 @@ class _Fitted:
 
     Parameters
     ----------
-    kept
-        The kept columns.
     error, slope : ndarray of float64, shape (kept,)
         The light of their data less that of the levels, and the data's slope over light, whose
         square is its weight.
@@ -99,8 +97,6 @@ class LitProfile:
 
     Parameters
     ----------
-    profile
-        The profile.
     freedom
         Number of Chebyshev polynomials of which either level is a combination.
     slow

@@ -89,8 +89,6 @@ def alike_among(
 
     Parameters
     ----------
-    tried
-        All fits.
     kept
         Those that are taken, or known to look like one of these.
     most

@@ -27,10 +27,6 @@ class SeenStripes:
     ----------
     chips : ndarray of uint8, shape (chips,)
         One period.
-    columns
-        Number of columns.
-    gamma
-        The usual gamma.
     values_blurred
         Whether pixel values are blurred, or light.
     """

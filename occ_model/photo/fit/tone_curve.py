@@ -28,8 +28,6 @@ class ToneCurve:
 
     Parameters
     ----------
-    gamma
-        The exponent.
     offset, shoulder, contrast
         The coefficients o, s and k.
     """
@@ -151,15 +149,11 @@ class ToneSlopes:
 
     Parameters
     ----------
-    table
-        The curve.
     light : ndarray of float64, shape (parameters, grey levels)
         The slopes of the light of each tabulated pixel value.
 
     Attributes
     ----------
-    parameters
-        The number of parameters.
     of_steepness : ndarray of float64, shape (parameters,)
         The slopes of the grey levels' slope at white.
     """

@@ -14,15 +14,7 @@ _SAME_EXPOSURE = 1.02
 
 
 def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:
-    """Make the table of photos that were matched.
-
-    Parameters
-    ----------
-    settings
-        How they were matched.
-    rows
-        One for each photo.
-    """
+    """Make the table of photos that were matched."""
     sure = [place for place, row in enumerate(rows) if row.verdict == SURE]
     estimated = _combined(rows, sure, settings.estimate)
     outliers = () if estimated is None else estimated.outliers

@@ -38,11 +38,6 @@ def combine(
     ----------
     deviations
         Their standard deviations, above 0.
-
-    Returns
-    -------
-    CombinedEstimate or None
-        None where there are no estimates.
     """
     if not len(values):
         return None

@@ -106,12 +106,8 @@ class Desktop(QObject):
         self.text_size = TextSize()
         window.dress()
         self.layout = DockLayout(window, window.modes, preferences)
-        self.autosave = Autosave(parts.store, parts.settings, self.document, self.session)
-        for changed in (
-            parts.video.film_changed,
-            parts.pins.changed,
-        ):
-            changed.connect(self.autosave.note_change)
+        self.autosave = Autosave(parts.store, self.document, self.session)
+        parts.pins.changed.connect(self.autosave.note_change)
         self.error_reports = ErrorReports()
         parts.shell.made.connect(self._on_made)
         self.transmitter: TransmitterController | None = None
@@ -123,8 +119,6 @@ class Desktop(QObject):
         for taker in (parts.simulation, parts.files):
             whose.changed.connect(taker.choose_picture)
         parts.photos.opened.connect(self._on_photo)
-        photo = parts.store.store.select(lambda workspace: workspace.photo)
-        photo.changed.connect(self.autosave.note_change)
         for source in (
             self.export,
             self.animation.writer,

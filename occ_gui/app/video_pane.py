@@ -24,9 +24,6 @@ class VideoPane(QObject):
     status_message = Signal(str)
     """The outcome of an action."""
 
-    film_changed = Signal(object)
-    """The path of the film that is open now, None where none is."""
-
     def __init__(
         self,
         window: MainWindow,
@@ -86,4 +83,3 @@ class VideoPane(QObject):
 
     def _on_film(self, path: Path | None) -> None:
         self._window.actions_by_name["close_film"].setEnabled(path is not None)
-        self.film_changed.emit(path)

@@ -27,14 +27,7 @@ class Selection(QObject, Generic[T]):
 
     def __init__(self, of: Callable[[Any], T], whole: object) -> None:
         super().__init__()
-        self._of, self.value = of, of(whole)
-
-    def look(self, whole: object) -> None:
-        """Look at the part anew."""
-        value = self._of(whole)
-        if value != self.value:
-            self.value = value
-            self.changed.emit(value)
+        self.of, self.value = of, of(whole)
 
 
 class Store(QObject):
@@ -77,7 +70,10 @@ class Store(QObject):
             while self._told is not self.workspace:
                 self._told = self.workspace
                 for selection in self._selections:
-                    selection.look(self.workspace)  # the present one, not that of the change
+                    value = selection.of(self.workspace)  # the present one, not that of the change
+                    if value != selection.value:
+                        selection.value = value
+                        selection.changed.emit(value)
         finally:
             self._is_telling = False
 

@@ -11,7 +11,6 @@ from occ_gui.files.kept_file import is_readable
 from occ_gui.files.session import SessionFile
 from occ_gui.files.session_record import Session
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.scene import Scene
@@ -32,12 +31,11 @@ class Autosave(QObject):
     def __init__(
         self,
         store: SceneStore,
-        settings: SettingsStore,
         document: Document,
         present: Callable[[], Session],
     ) -> None:
         super().__init__()
-        self._store, self._settings = store, settings
+        self._store = store
         self._document, self._present = document, present
         self._file: SessionFile | None = None
         self._has_failed = False
@@ -60,13 +58,13 @@ class Autosave(QObject):
             self._document.resume(session.scene_file, _saved_in(session.scene_file))
         if file.crashed is not None:
             self._restore(file.crashed, asked, scene_wins)
-        for store in (self._store, self._settings):
-            store.changed.connect(self.note_change)
+        whole = self._store.store.select(lambda workspace: workspace)
+        whole.changed.connect(self.note_change)
         self.note_change()
 
     def _restore(self, left: Session, asked: Scene, scene_wins: bool) -> None:
         """Restore the scene of a crash with the steps that led to it, or as a step if it is old."""
-        crashed, force = left.scene, self._settings.settings.force
+        crashed, force = left.scene, self._store.settings.settings.force
         if crashed is None:
             return
         left_force = force if left.settings is None else left.settings.force

@@ -115,7 +115,10 @@ class Board(QObject):
         self.results = results
         self.changed.emit()
         for selection in self._selections:
-            selection.look(self.results)
+            value = selection.of(self.results)
+            if value is not selection.value:
+                selection.value = value
+                selection.changed.emit(value)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Put an exact picture in place of the last one."""

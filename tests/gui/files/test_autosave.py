@@ -29,7 +29,6 @@ def begin(application: Application) -> Begin:
     def resume(folder: Path) -> Autosave:
         autosave = Autosave(
             application.store,
-            application.settings,
             application.desktop.document,
             application.desktop.session,
         )

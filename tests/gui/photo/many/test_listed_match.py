@@ -80,6 +80,39 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
     assert not started
 
 
+def shown_of(application: Application) -> set[str]:
+    """Give the names of the photos that row, title, image, facts and match are of."""
+    rows, view = application.view("photo").many.rows, application.view("photo")
+    marked = [
+        path.name
+        for place, path in enumerate(rows.paths)
+        if rows.data(rows.index(place, 0), Qt.ItemDataRole.BackgroundRole) is not None
+    ]
+    match = application.shell.pane("photo").matching.match
+    of = [path.name for path in rows.paths if (r := rows.row_of(path)) and r.match is match]
+    title = application.window.windowTitle().split(" – ")[0]  # noqa: RUF001 - a dash
+    image = application.view("picture").shown_photo
+    return {*marked, *of, title, image.path.name, view.facts.name.text()}
+
+
+@pytest.mark.whole
+def test_row_title_image_and_numbers_are_of_one_photo(
+    application: Application, user: User, listed: tuple[Path, ...]
+) -> None:
+    application.open_photo(listed[0])
+    user.wait_until_idle()
+    assert shown_of(application) == {"one.jpg"}
+    application.open_photo(listed[1])
+    assert application.photos.choice.path == listed[1]
+    assert shown_of(application) == {"one.jpg"}, "it is being read"
+    user.wait_until_idle()
+    assert shown_of(application) == {"two.jpg"}
+    application.open_photo(listed[0].with_name("none.jpg"))
+    user.wait_until_idle()
+    assert shown_of(application) == {"two.jpg"}
+    assert application.photos.choice.path == listed[1]
+
+
 @pytest.mark.whole
 def test_a_photo_that_is_read_in_another_way_is_not_what_the_table_matched(
     application: Application, user: User, listed: tuple[Path, ...]

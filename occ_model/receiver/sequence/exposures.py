@@ -6,6 +6,7 @@ rectangular filter, sampled at the line rate.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -91,8 +92,40 @@ class ChipStatistics:
 
 def features_of(words: FloatArray) -> FloatArray:
     """Return what each feature counts in the distance of some chips, shape (..., features)."""
-    upper, lower = np.triu_indices(words.shape[-1], 1)
+    upper, lower = _pairs(words.shape[-1])
     return np.concatenate([-2.0 * words, words, words[..., upper] * words[..., lower]], axis=-1)
+
+
+@lru_cache(maxsize=32)
+def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
+    return np.triu_indices(count, 1)
+
+
+@lru_cache(maxsize=32)
+def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
+    """Return how the chips of an exposure share their sums over rows.
+
+    Between its first chips and its last ones all have the same share.
+
+    Returns
+    -------
+    chosen : ndarray of int64, shape (kinds,)
+        A chip of each kind.
+    one, other : ndarray of int64, shape (products,)
+        The kinds whose shares are multiplied.
+    sums : ndarray of int64, shape (features,)
+        The sum that is each feature: first those of a kind and the light, then those products.
+    """
+    kind = np.clip(np.arange(reach), None, 1)
+    kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
+    chosen = np.unique(kind, return_index=True)[1]
+    kinds = len(chosen)
+    one, other = np.triu_indices(kinds)
+    product = np.zeros((kinds, kinds), dtype=np.int64)
+    product[one, other] = product[other, one] = kinds + np.arange(len(one))
+    upper, lower = _pairs(reach)
+    sums = np.concatenate([kind, product[kind, kind], product[kind[upper], kind[lower]]])
+    return chosen, one, other, sums
 
 
 def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
@@ -106,25 +139,18 @@ def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
         The timing.
     """
     last, shares = taps(timing, timing.starts(len(light)))
-    first, count = int(last[0]), int(last[-1] - last[0]) + 1
-    # Between the first chips and the last ones of an exposure all have the same share.
-    reach = shares.shape[1]
-    kind = np.clip(np.arange(reach), None, 1)
-    kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
-    of_kinds = np.ascontiguousarray(shares[:, np.unique(kind, return_index=True)[1]].T)
-    kinds = len(of_kinds)
-    one, other = np.triu_indices(kinds)
-    terms = np.concatenate(
-        [of_kinds * light, of_kinds[one] * of_kinds[other], (light * light)[None]]
-    )
+    first, reach = int(last[0]), shares.shape[1]
+    chosen, one, other, sums = _kinds(reach)
+    of_kinds = np.ascontiguousarray(shares[:, chosen].T)
     # Differences of running sums: exact enough, as no sum exceeds the number of rows.
-    running = np.pad(np.cumsum(terms, axis=1), ((0, 0), (1, 0)))
-    edges = np.searchsorted(last, np.arange(first, first + count + 1))
-    sums = np.diff(running[:, edges], axis=1)
-    upper, lower = np.triu_indices(reach, 1)
-    product = np.zeros((kinds, kinds), dtype=np.int64)
-    product[one, other] = product[other, one] = kinds + np.arange(len(one))
-    features = np.concatenate(
-        [sums[kind], sums[product[kind, kind]], 2.0 * sums[product[kind[upper], kind[lower]]]]
-    )
-    return ChipStatistics(first, features.T, sums[-1])
+    running = np.zeros((len(chosen) + len(one) + 1, len(light) + 1))
+    terms = running[:, 1:]
+    np.multiply(of_kinds, light, out=terms[: len(chosen)])
+    np.multiply(of_kinds[one], of_kinds[other], out=terms[len(chosen) : -1])
+    np.multiply(light, light, out=terms[-1])
+    np.cumsum(terms, axis=1, out=terms)
+    edges = np.searchsorted(last, np.arange(first, int(last[-1]) + 2))
+    of_chips = np.diff(running[:, edges], axis=1)
+    features = of_chips[sums]
+    features[2 * reach :] *= 2.0
+    return ChipStatistics(first, features.T, of_chips[-1])

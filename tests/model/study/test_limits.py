@@ -22,7 +22,7 @@ from occ_model.study import working_range as module
 from occ_model.study.advice import advice_of
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.observation import panel_span
-from occ_model.study.sure_ends import images_to_be_sure
+from occ_model.study.sure_ends import OUTSIDE, _until_refuted, images_to_be_sure
 from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
 
 SCENE = Scene()
@@ -383,8 +383,26 @@ def test_the_stated_interval_of_an_end_holds_it(monkeypatch: pytest.MonkeyPatch)
     assert len(intervals) == len(found)
     held = sum(low <= 10e3 <= high for low, high in intervals)
     assert 0.92 * len(found) <= held
+    # 20 images show 90 % not to be enough, 200 show 96 %: 1.5 % beyond the end, and not 4.5 %.
+    assert np.median([high / low for low, high in intervals]) < 1.03
     # The last values that twenty images call read are no such ends: they lie beyond the true one.
     assert sum(end is not None and end.value > 10e3 for end in found) > 0.3 * len(found)
+
+
+def test_a_rate_that_is_reached_is_refuted_in_one_of_forty_studies_at_most() -> None:
+    random = np.random.default_rng(4711)
+
+    def refuted(rate: float, studies: int) -> list[int]:
+        """Return how many images each study took that refutes 99 %."""
+        read = (np.where(random.random(OUTSIDE) < rate, 10, 0).tolist() for _ in range(studies))
+        found = [_until_refuted(counts, 10, 0.99) for counts in read]
+        return [len(one) for one in found if one is not None]
+
+    studies = 2000
+    most = studies * 0.025
+    assert 0.1 * most < len(refuted(0.99, studies)) < most + 3.0 * math.sqrt(most)
+    assert len(refuted(0.95, 200)) > 140
+    assert np.median(refuted(0.5, 200)) <= 4  # they lack half of the bits
 
 
 def test_what_the_heartbeat_raises_ends_the_search() -> None:

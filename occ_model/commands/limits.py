@@ -127,16 +127,17 @@ def row(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
     """Write the limits of a decoder as a line of the table."""
     cells = [found.decoder]
     for each in (found.frequency, found.exposure):
-        if each.lowest is None or each.highest is None:
-            cells += ["none", "none", ""]
-            continue
-        first, *others = gaps(each) or ["no"]
-        more = f", {len(others)} more" if others else ""
-        cells += [
-            _end_text(each, each.lowest), _end_text(each, each.highest),
-            first + more,
-        ]  # fmt: skip
+        cells += range_cells(each)
     return _in_columns([*cells, f"{found.bits_a_second(frames_a_second):.4g}"])
+
+
+def range_cells(found: WorkingRange) -> tuple[str, str, str]:
+    """Write the lowest and the highest value of a range, and its first gap."""
+    if found.lowest is None or found.highest is None:
+        return "none", "none", ""
+    first, *others = gaps(found) or ["no"]
+    more = f", {len(others)} more" if others else ""
+    return _end_text(found, found.lowest), _end_text(found, found.highest), first + more
 
 
 def _end_text(found: WorkingRange, end: RangeEnd) -> str:

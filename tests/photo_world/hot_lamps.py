@@ -193,8 +193,19 @@ def _surface(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) 
     direct = np.clip((1.0 - rim) * edge + 0.5, 0.0, 1.0)
     direct *= 10.0 ** (-random.uniform(0.0, 1.5) * np.minimum(far, 1.2) ** 2)
     halo, size = random.uniform(0.0, 0.15), random.uniform(0.1, 0.5) * thing.height
-    scattered = cv2.GaussianBlur(direct, (0, 0), size)
+    scattered = _scattered(direct, size)
     return np.asarray((1.0 - halo) * direct + halo * scattered)
+
+
+def _scattered(light: np.ndarray, size: float) -> np.ndarray:
+    """Blur by a standard deviation in pixels; a wide blur needs no fine pixels."""
+    coarse = max(1, int(size / 6.0))
+    rows, columns = light.shape
+    small = cv2.resize(
+        light, (-(-columns // coarse), -(-rows // coarse)), interpolation=cv2.INTER_AREA
+    )
+    small = cv2.GaussianBlur(small, (0, 0), size / coarse)
+    return cv2.resize(small, (columns, rows), interpolation=cv2.INTER_LINEAR)
 
 
 def _photographed(random: np.random.Generator, light: np.ndarray) -> np.ndarray:

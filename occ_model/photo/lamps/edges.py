@@ -16,6 +16,10 @@ _LEAST_STEP_FRACTION = 0.15
 """Share of a neighbouring step below which a step is ringing, scatter or texture beside it."""
 
 
+_CHAIN, _ALIKE = 5, 0.2
+"""Steps that follow each other, and ratio of neighbouring ones, from which even small ones are the
+stripes of a lamp: an exposure longer than a chip leaves them faint, beside a steep rim."""
+
 _LEAST_SWING_RATIO = 0.5
 """Ratio to the swing around it from which an edge is one of the same lamp."""
 
@@ -66,9 +70,9 @@ def edges_of(profile: FloatArray) -> Edges:
     first, last = turns[:-1], turns[1:]
     levels = profile[turns]
     low, high = np.minimum(levels[:-1], levels[1:]), np.maximum(levels[:-1], levels[1:])
-    middle = _middle(low, high).tolist()
-    ends = zip(first.tolist(), last.tolist(), middle, strict=True)
-    place = np.array([_crossing(profile, a, b, level) for a, b, level in ends])
+    begin, end = _middles(turns, levels)
+    ends = zip(first.tolist(), last.tolist(), begin.tolist(), end.tolist(), strict=True)
+    place = np.array([_crossing(profile, *one) for one in ends])
     return Edges(place.reshape(-1), levels[1:] > levels[:-1], low, high)
 
 
@@ -102,7 +106,7 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
         left, right = np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0)
-        small = steps < _LEAST_STEP_FRACTION * np.maximum(left, right)
+        small = (steps < _LEAST_STEP_FRACTION * np.maximum(left, right)) & ~_in_chain(steps)
         outer = np.zeros(len(kept), dtype=bool)
         outer[[0, -1]] = small[[0, -1]]
         # Both ends of a small step go; of small steps side by side the smallest goes first.
@@ -115,33 +119,55 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     return kept
 
 
-def _middle(low: FloatArray, high: FloatArray) -> FloatArray:
-    """Give the level at which each edge is placed: the middle between the levels around it.
+def _in_chain(steps: FloatArray) -> np.ndarray:
+    """Whether each step is one of several that follow each other and are about as large."""
+    ratio = np.minimum(steps[1:], steps[:-1]) / np.maximum(steps[1:], steps[:-1])
+    chains = np.append(0, np.cumsum(ratio < _ALIKE))
+    return np.asarray(np.bincount(chains)[chains] >= _CHAIN)
 
-    A chip shorter than the exposure does not reach the levels of its neighbours, yet it is as long
-    as them at the middle of theirs.
+
+def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Give the level at which each edge is placed, at either of its ends.
+
+    It is the middle between the levels around the edge, which may rise or fall along a lamp. A chip
+    shorter than the exposure does not reach the levels of its neighbours, yet it is as long as them
+    at the middle of theirs.
     """
-    if low.size == 0:
-        return low
-    lows = np.pad(low, 1, mode="edge")
-    highs = np.pad(high, 1, mode="edge")
-    lowest = np.minimum(np.minimum(lows[:-2], lows[2:]), low)
-    highest = np.maximum(np.maximum(highs[:-2], highs[2:]), high)
-    middle = 0.5 * (lowest + highest)
-    alike = high - low > _LEAST_SWING_RATIO * (highest - lowest)
-    inside = (middle > low) & (middle < high)
-    return np.where(alike & inside, middle, 0.5 * (low + high))
+    if len(turns) < 2:  # noqa: PLR2004 - a step has two ends
+        return np.zeros(0), np.zeros(0)
+    steps = np.diff(levels)
+    is_high = np.append(steps < 0.0, steps[-1] > 0.0)
+    highest = _envelope(turns, levels, is_high)
+    lowest = -_envelope(turns, -levels, ~is_high)
+    middle, own = 0.5 * (lowest + highest), 0.5 * (levels[:-1] + levels[1:])
+    span = np.maximum.reduce([levels[:-1], levels[1:], highest[:-1], highest[1:]])
+    span = span - np.minimum.reduce([levels[:-1], levels[1:], lowest[:-1], lowest[1:]])
+    low, high = np.minimum(levels[:-1], levels[1:]), np.maximum(levels[:-1], levels[1:])
+    alike = np.abs(steps) > _LEAST_SWING_RATIO * span
+    for end in (middle[:-1], middle[1:]):
+        alike &= (end > low) & (end < high)
+    return np.where(alike, middle[:-1], own), np.where(alike, middle[1:], own)
 
 
-def _crossing(profile: FloatArray, first: int, last: int, level: float) -> float:
-    """Find where a profile passes a level between two columns, in the middle if several times."""
-    above = profile[first : last + 1] >= level
-    changes = np.flatnonzero(above[1:] != above[:-1])
+def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> FloatArray:
+    """Give the level that the high turning points follow, at each turning point."""
+    place, high = turns[is_high].astype(np.float64), levels[is_high].copy()
+    if len(high) > 2:  # noqa: PLR2004 - a line through its neighbours passes above a short chip
+        share = (place[1:-1] - place[:-2]) / (place[2:] - place[:-2])
+        high[1:-1] = np.maximum(high[1:-1], levels[is_high][:-2] * (1.0 - share)
+                                + levels[is_high][2:] * share)  # fmt: skip
+    return np.asarray(np.interp(turns, place, high))
+
+
+def _crossing(profile: FloatArray, first: int, last: int, begin: float, end: float) -> float:
+    """Find where a profile passes a level that changes evenly, in the middle if several times."""
+    above = profile[first : last + 1] - np.linspace(begin, end, last + 1 - first)
+    changes = np.flatnonzero((above[1:] >= 0.0) != (above[:-1] >= 0.0))
     if changes.size == 0:
         return 0.5 * (first + last)
-    at = first + int(changes[len(changes) // 2])
-    step = float(profile[at + 1] - profile[at])
-    return at + (level - float(profile[at])) / step if step else at + 0.5
+    at = int(changes[len(changes) // 2])
+    step = float(above[at + 1] - above[at])
+    return first + at + (-float(above[at]) / step if step else 0.5)
 
 
 def matches(edges: Edges, others: Edges, off: float) -> np.ndarray:

@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.arrays import IndexArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.lamps.edges import Edges, edges_of, matches
+from occ_model.photo.lamps.extent import without_halo
 from occ_model.photo.lamps.grouping import common_edges, groups_of
 from occ_model.photo.lamps.segments import Segment, segments_of
 from occ_model.photo.lamps.shape import around, spans_of
@@ -100,7 +101,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
         report(0.7 + 0.1 * (number + 1) / len(strips))
     blinking = []
     for group in groups_of(segments):
-        blinking += _blinking(group, segments, strips, bounds, means.shape[1])
+        blinking += _blinking(group, segments, strips, bounds, means)
         report(0.85)
     blinking = _without_parts(_without_glow(blinking))
     lamps = _without_reflections(blinking)
@@ -115,23 +116,29 @@ def _blinking(
     segments: Sequence[Segment],
     strips: Sequence[Edges],
     bounds: IndexArray,
-    columns: int,
+    means: FloatArray,
 ) -> list[_Blinking]:
     """Describe the lamps of a group of segments, among the segments of all groups."""
     edges, weights = common_edges(group)
     found = []
-    for timing in timings_of(edges, weights):
+    pulses = sum(len(one.edges) for one in group if one.period is not None)
+    codes = 2 * pulses < sum(len(one.edges) for one in group)
+    for timing in timings_of(edges, weights, codes):
         if not _is_lamp(timing):
             continue
         near = _near(timing)
         inner = [one.strip for one in group if matches(one.edges, timing.edges, near).sum() > 2]
         if not inner:
             continue
-        spans = spans_of(strips, inner, timing, bounds, columns)
+        spans = spans_of(strips, inner, timing, bounds, means.shape[1])
+        if len(spans) < _LEAST_STRIPS:
+            continue
+        spans = without_halo(spans, timing, means, bounds)
         if _columns(spans) < _least_columns(timing):
             continue
         if len(spans) >= _LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
-            found.append(_described(timing, spans))
+            shown = np.searchsorted(bounds, spans[:, 0]).tolist()
+            found.append(_described(timing, spans, [strips[strip] for strip in shown]))
     return found
 
 
@@ -176,9 +183,11 @@ def _least_columns(timing: LampTiming) -> float:
     return _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _REPEATED * timing.spacing)
 
 
-def _described(timing: LampTiming, spans: IndexArray) -> _Blinking:
+def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> _Blinking:
     region = around(spans)
-    low, high = float(np.median(timing.edges.low)), float(np.median(timing.edges.high))
+    own = [one.where(matches(one, timing.edges, _near(timing))) for one in strips]
+    low = float(np.median(np.concatenate([one.low for one in own])))
+    high = float(np.median(np.concatenate([one.high for one in own])))
     chip, spacing = timing.chip, timing.spacing
     lamp = Lamp(
         region=region,

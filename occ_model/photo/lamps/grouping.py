@@ -66,6 +66,11 @@ def _agree(one: Segment, other: Segment) -> bool:
     """Whether the edges of two segments lie at the same columns."""
     off = 1.0 + _EDGE_TOLERANCE * min(one.chip, other.chip)
     counts = len(one.edges), len(other.edges)
+    here, there = one.edges.place, other.edges.place
+    if min(counts) < _LEAST_EQUAL_FRACTION * max(counts) or not (
+        here[0] <= there[-1] + off and there[0] <= here[-1] + off
+    ):
+        return False
     near = np.count_nonzero(matches(one.edges, other.edges, off))
     return bool(near >= max(_LEAST_EQUAL_EDGES, _LEAST_EQUAL_FRACTION * max(counts)))
 

@@ -40,8 +40,9 @@ _CODE_EDGES = 7
 _MOST_EDGES = 400
 """Most edges of a strip in which codes are searched; more are those of textures."""
 
-_ON_LATTICE = 0.9
-"""Coherence of edges with a lattice of chips from which they are those of one code."""
+_ON_LATTICE, _BLURRED = 0.9, 0.5
+"""Coherence of edges with a lattice of long chips from which they are those of one code, and what
+is taken off it, in columns a chip: pixels and blur move the edges of short ones."""
 
 _SHORTEST, _LONGEST, _STEPS = 0.72, 1.4, 200
 """Lengths of a chip that are tried: ratios to the distances of near edges, and their number."""
@@ -107,7 +108,9 @@ def segments_of(
             and not _are_pulses(progressions, *coded[:2])
         ):
             begin, end, chip = coded
-            found.append(Segment(strip, edges.part(begin, end), None, chip))
+            part = edges.part(begin, end)
+            period = _repeated(part, chip)
+            found.append(Segment(strip, part, period, 0.5 * period if period else chip))
         elif period:
             found.append(Segment(strip, edges.part(begin, end), period, 0.5 * period))
         else:
@@ -118,6 +121,13 @@ def segments_of(
     if len(found) > _MOST_LAMPS:
         found.sort(key=lambda one: -float((one.edges.high - one.edges.low).sum()))
     return found[:_MOST_LAMPS]
+
+
+def _repeated(edges: Edges, chip: float) -> float | None:
+    """Give the period where all edges of a kind are as many chips apart: a pulse that repeats."""
+    apart = [np.diff(edges.place[edges.rises == kind]) / chip for kind in (True, False)]
+    turns = np.rint(np.concatenate(apart))
+    return float(turns[0]) * chip if (turns == turns[0]).all() and turns[0] > 0 else None
 
 
 def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: int) -> bool:
@@ -209,7 +219,8 @@ def chip_of(edges: Edges) -> float | None:
     chips = np.geomspace(_SHORTEST * near, _LONGEST * usual, _STEPS)
     coherence = coherence_of(edges.part(1, len(edges) - 1), chips)
     best = int(np.argmax(coherence))
-    return float(chips[best]) if coherence[best] >= _ON_LATTICE else None
+    chip = float(chips[best])
+    return chip if coherence[best] >= _ON_LATTICE - _BLURRED / chip else None
 
 
 def coherence_of(edges: Edges, chips: FloatArray) -> FloatArray:

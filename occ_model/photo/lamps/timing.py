@@ -12,8 +12,10 @@ _LATTICE_TOLERANCE = 0.12
 """Share of the spacing by which an edge may lie off a lattice and still count."""
 
 
-_CODE_OFF = 0.045
-"""Share of a chip by which the edges of a code lie off its lattices at most, on average."""
+_CODE_OFF, _CODE_COLUMN = 0.045, 0.12
+_PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
+"""Shares of a chip, and of a column besides, by which the edges of a code, and those of a pulse that
+repeats, lie off their lattices at most, on average."""
 
 _TIGHTER = 0.5
 """Share of the tolerance of a single strip's edges with which those of many rows are judged."""
@@ -69,6 +71,13 @@ class LampTiming:
         return self.spacing if self.is_code else 0.5 * self.spacing
 
     @property
+    def most_off(self) -> float:
+        """Largest ``off`` of edges that are those of one lamp."""
+        if self.is_code:
+            return _CODE_OFF + _CODE_COLUMN / self.chip
+        return _PULSE_OFF + _PULSE_COLUMN / self.chip
+
+    @property
     def longest_stripe(self) -> float:
         """Columns of the widest bright stripe that has both its edges."""
         rises, place = self.edges.rises, self.edges.place
@@ -91,7 +100,7 @@ class LampTiming:
         return bool(np.median(np.concatenate(offs)) < _LATTICE_TOLERANCE)
 
 
-def timings_of(edges: Edges, weights: FloatArray) -> list[LampTiming]:
+def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[LampTiming]:
     """Find the period or the chip of edges that some rows share.
 
     There are several where lamps beside each other are as high as each other.
@@ -102,14 +111,16 @@ def timings_of(edges: Edges, weights: FloatArray) -> list[LampTiming]:
         The edges.
     weights : ndarray of float64, shape (edges,)
         How many rows show each.
+    codes
+        Whether some may be those of a code: strips of it show no pulse that repeats.
     """
     found: list[LampTiming] = []
     waiting = [(edges, weights)]
     while waiting:
         part, shown = waiting.pop()
-        for segment in segments_of(part, 0, _TIGHTER):
+        for segment in segments_of(part, 0, _TIGHTER if codes else 1.0, codes=codes):
             timing = _refined(segment, part, shown)
-            if timing is not None and (not timing.is_code or timing.off < _CODE_OFF):
+            if timing is not None and timing.off < timing.most_off:
                 found.append(timing)
                 continue
             # Edges of two lamps side by side lie near some lattice too, but not on it.

@@ -40,6 +40,9 @@ class Lamp:
         Number of periods in view; None where none is known.
     is_faint
         Whether it is so faint beside the brightest lamp with stripes that it may be a reflection.
+    is_blurred
+        Whether its stripes are faint beside its light, as an exposure longer than a chip makes
+        them: some edges may not be seen, and its frequency be another.
     reflections
         Fainter places that blink in time with the lamp.
     """
@@ -54,12 +57,13 @@ class Lamp:
     product_uncertainty: float | None = None
     periods: float | None = None
     is_faint: bool = False
+    is_blurred: bool = False
     reflections: tuple[Region, ...] = ()
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether it may be no lamp: its stripes repeat too seldom in view, or it is faint."""
-        return self.is_faint or self.repeats_seldom
+        """Whether it may be none or blink otherwise: too faint, or stripes too few or too faint."""
+        return self.is_faint or self.is_blurred or self.repeats_seldom
 
     @property
     def repeats_seldom(self) -> bool:

@@ -133,7 +133,7 @@ def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatAr
     shorter than the exposure does not reach the levels of its neighbours, yet it is as long as them
     at the middle of theirs.
     """
-    if len(turns) < 2:  # noqa: PLR2004 - a step has two ends
+    if len(turns) < 2:
         return np.zeros(0), np.zeros(0)
     steps = np.diff(levels)
     is_high = np.append(steps < 0.0, steps[-1] > 0.0)
@@ -152,7 +152,8 @@ def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatAr
 def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> FloatArray:
     """Give the level that the high turning points follow, at each turning point."""
     place, high = turns[is_high].astype(np.float64), levels[is_high].copy()
-    if len(high) > 2:  # noqa: PLR2004 - a line through its neighbours passes above a short chip
+    if len(high) > 2:
+        # A line through its neighbours passes above a short chip.
         share = (place[1:-1] - place[:-2]) / (place[2:] - place[:-2])
         high[1:-1] = np.maximum(high[1:-1], levels[is_high][:-2] * (1.0 - share)
                                 + levels[is_high][2:] * share)  # fmt: skip

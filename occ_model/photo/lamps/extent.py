@@ -48,8 +48,8 @@ def without_halo(
     left, right = max(0, int(spans[:, 2].min()) - margin), int(spans[:, 3].max()) + margin
     part = means[first:last, left:right]
     cells = -(-part.shape[1] // _CELL)
-    levels = _filled(part, timing)
-    levels = cv2.resize(levels, (cells, len(part)), interpolation=cv2.INTER_AREA)
+    filled = _filled(part, timing)
+    levels = cv2.resize(filled, (cells, len(part)), interpolation=cv2.INTER_AREA)
     width = part.shape[1] / cells
     least = _LEAST * float(((spans[:, 3] - spans[:, 2]) / width).sum())
     shape = _within_rim(np.asarray(levels, dtype=np.float64), least)
@@ -79,7 +79,9 @@ def _filled(part: FloatArray, timing: LampTiming) -> FloatArray:
     dark = np.diff(place)[~rises[:-1] & rises[1:]]
     width = int(dark.max(initial=timing.chip) + 2.0) | 1
     line = np.ones((1, width), dtype=np.uint8)
-    return np.asarray(cv2.morphologyEx(part, cv2.MORPH_CLOSE, line, borderType=cv2.BORDER_REPLICATE))
+    return np.asarray(
+        cv2.morphologyEx(part, cv2.MORPH_CLOSE, line, borderType=cv2.BORDER_REPLICATE)
+    )
 
 
 def _within_rim(levels: FloatArray, least: float) -> np.ndarray | None:

@@ -16,6 +16,8 @@ from occ_model.photo.lamps.steady import steady_lamps
 from occ_model.photo.lamps.strips import strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
@@ -54,6 +56,14 @@ _OWN = 0.65
 _CHIP_TOLERANCE = 0.02
 """Share by which the chips of one lamp's segments may differ."""
 
+_BLURRED, _HARDLY_STRIPED = 0.15, 0.3
+"""Light between the stripes, as a share of that of the stripes, from which the exposure may be
+longer than a chip, and from which it is so."""
+
+_SAME_PERIOD = 0.03
+"""Share by which the distance of a lamp's edges may differ from that after which its light repeats.
+"""
+
 _WITHIN = 0.5
 """Share of a lamp within another one from which it is a part of that one."""
 
@@ -68,6 +78,7 @@ class _Blinking:
     lamp: Lamp
     timing: LampTiming
     light: float
+    dark: float
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -138,7 +149,10 @@ def _blinking(
             continue
         if len(spans) >= _LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
-            found.append(_described(timing, spans, [strips[strip] for strip in shown]))
+            one = _described(timing, spans, [strips[strip] for strip in shown])
+            if _counts_some(one, means[shown[0] : shown[-1] + 1]):
+                one = replace(one, lamp=replace(one.lamp, is_blurred=True))
+            found.append(one)
     return found
 
 
@@ -200,7 +214,25 @@ def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -
         product_uncertainty=timing.uncertainty / spacing / chip,
         periods=None if timing.is_code else region.columns / spacing,
     )
-    return _Blinking(lamp, timing, (high / WHITE) ** _GAMMA - (low / WHITE) ** _GAMMA)
+    light, dark = ((level / WHITE) ** _GAMMA for level in (high, low))
+    return _Blinking(lamp, timing, light - dark, dark)
+
+
+def _counts_some(one: _Blinking, means: FloatArray) -> bool:
+    """Whether a count of edges may have missed some: faint stripes that do not repeat as counted.
+
+    Light that an exposure longer than a chip has gathered never falls to that of the surroundings.
+    """
+    share = one.dark / max(one.light + one.dark, 1e-9)
+    if not _BLURRED < share < _HARDLY_STRIPED:
+        return share >= _HARDLY_STRIPED
+    region, period = one.lamp.region, one.lamp.period
+    quarter = len(means) // 4
+    inner = means[quarter : len(means) - quarter, region.first_column : region.last_column]
+    found = repeat_period(without_trend(inner.mean(axis=0)))
+    if period is None or found is None:
+        return True
+    return abs(found[0] - period) > _SAME_PERIOD * period
 
 
 def _is_lamp(timing: LampTiming) -> bool:
@@ -242,7 +274,9 @@ def _without_parts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
     )
     kept: list[_Blinking] = []
     for one in ordered:
-        if all(_shared(one.lamp, other.lamp) < _WITHIN for other in kept):
+        # A lamp may lie within the light that another one scatters.
+        near = [other for other in kept if other.light > _GLOW * one.light]
+        if all(_shared(one.lamp, other.lamp) < _WITHIN for other in near):
             kept.append(one)
     return kept
 

@@ -109,8 +109,8 @@ def segments_of(
         ):
             begin, end, chip = coded
             part = edges.part(begin, end)
-            period = _repeated(part, chip)
-            found.append(Segment(strip, part, period, 0.5 * period if period else chip))
+            cycle = _repeated(part, chip)
+            found.append(Segment(strip, part, cycle, 0.5 * cycle if cycle else chip))
         elif period:
             found.append(Segment(strip, edges.part(begin, end), period, 0.5 * period))
         else:

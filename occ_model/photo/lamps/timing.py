@@ -14,7 +14,7 @@ _LATTICE_TOLERANCE = 0.12
 
 _CODE_OFF, _CODE_COLUMN = 0.045, 0.12
 _PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
-"""Shares of a chip, and of a column besides, by which the edges of a code, and those of a pulse that
+"""Shares of a chip, and of a column besides, by which the edges of a code, and of a pulse that
 repeats, lie off their lattices at most, on average."""
 
 _TIGHTER = 0.5

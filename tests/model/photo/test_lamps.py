@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from photo_world.hot_lamps import hot_lamp_scene
 from photo_world.lamp_scores import score_of
 from simulated_photos import photo_of
 
@@ -42,6 +43,20 @@ def test_nearly_all_lamps_of_simulated_scenes_are_found(seeds: range) -> None:
     score = score_of(seeds)
     assert score.found >= 0.9 * score.there
     assert score.right >= 0.9 * score.there
+    assert score.invented <= 0.05 * score.reported + 1
+
+
+@pytest.mark.parametrize(
+    "seeds",
+    [range(72000, 72002), pytest.param(range(72002, 72010), marks=pytest.mark.whole)],
+    ids=["sample", "whole"],
+)
+def test_most_lamps_with_hot_spots_and_halos_are_found_and_none_with_a_wrong_frequency(
+    seeds: range,
+) -> None:
+    score = score_of(seeds, hot_lamp_scene)
+    assert score.found >= 0.7 * score.there
+    assert score.right >= score.found - score.there // 25
     assert score.invented <= 0.05 * score.reported + 1
 
 

@@ -79,7 +79,8 @@ class LampForm(QWidget):
         self.table.setToolTip(
             "The lamps, the brightest first: the columns that each covers, the columns of a "
             "chip, and the periods in view. Fewer than 2.5 are doubtful, and so is a lamp so "
-            "faint beside the brightest that it may be a reflection."
+            "faint beside the brightest that it may be a reflection, or whose stripes are faint "
+            "beside its light."
         )
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)

@@ -11,7 +11,7 @@ from photo_world.lamp_scenes import LampScene, Thing, lamp_scene
 OVERLAP = 0.4
 """Least share of the rectangle around two places that both fill, for them to be the same."""
 
-FREQUENCY = 0.03
+FREQUENCY = 0.01
 
 
 @dataclass

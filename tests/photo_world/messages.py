@@ -41,11 +41,12 @@ class Message:
         return any(self.chips[start : start + len(read.text)] == read.text for start in starts)
 
 
-def message(seed: int) -> Message:
+def message(seed: int, *, pauses: bool = False) -> Message:
     """Draw a message of 2.5 to 30 columns a chip and an exposure of 0.1 to 1.3 chips.
 
     A third are Manchester-coded. Half of the lamps are brighter than white; the light is uneven,
-    the tone curve a gamma of 1 to 2.4; there is blur of up to 1.5 columns, and noise.
+    the tone curve a gamma of 1 to 2.4; there is blur of up to 1.5 columns, and noise. With pauses
+    the lamp is off for 2 to 6 chips after every 16 to 40, which are no whole number.
     """
     random = np.random.default_rng([77, seed])
     columns_per_chip = float(np.exp(random.uniform(np.log(2.5), np.log(30.0))))
@@ -58,13 +59,27 @@ def message(seed: int) -> Message:
     first = float(random.uniform(2.0, 3.0))
     place = first + np.arange(columns) / columns_per_chip
     whole = np.concatenate([[0.0], np.cumsum(chips)])
-    ends = [
-        np.interp(place + half, np.arange(count + 1), whole)
-        for half in (-0.5 * exposure, 0.5 * exposure)
-    ]
+    ticks = np.arange(count + 1, dtype=np.float64)
+    if pauses:
+        ticks, whole, chips = _with_pauses(random, ticks, whole, chips)
+    ends = [np.interp(place + half, ticks, whole) for half in (-0.5 * exposure, 0.5 * exposure)]
     lit = (ends[1] - ends[0]) / exposure
     image = _photographed(random, lit)
     return Message(photo_of(image), "".join(map(str, chips)), first, columns_per_chip)
+
+
+def _with_pauses(
+    random: np.random.Generator, ticks: np.ndarray, whole: np.ndarray, chips: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Insert dark times; of the chips, as many dark ones as are nearest to each."""
+    pause_after = np.cumsum(random.integers(16, 41, len(chips)))
+    for at in pause_after[pause_after < len(chips)][::-1].tolist():
+        length = float(random.uniform(2.0, 6.0))
+        ticks = np.concatenate([ticks[: at + 1], ticks[at:] + length])
+        whole = np.concatenate([whole[: at + 1], whole[at:]])
+        dark = np.zeros(round(length), dtype=chips.dtype)
+        chips = np.concatenate([chips[:at], dark, chips[at:]])
+    return ticks, whole, chips
 
 
 def _photographed(random: np.random.Generator, lit: np.ndarray) -> np.ndarray:

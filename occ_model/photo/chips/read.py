@@ -4,6 +4,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.errors import MatchError
+from occ_model.photo.chips.bursts import in_phase
 from occ_model.photo.chips.edges import Edges, edges_of
 from occ_model.photo.chips.lattice import certainty, chips_between, coarsest, without_rims
 from occ_model.photo.reading.load import Photo
@@ -23,7 +24,8 @@ are right, and from which none is; about half are in the middle (1,300 simulated
 def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReading:
     """Read the chips in view of a photo, without knowing what is sent or whether it repeats.
 
-    The edges of the stripes lie on a lattice of chips, the coarsest that explains them. Chips whose
+    The edges of the stripes lie on a lattice of chips, the coarsest that explains them; a pause
+    between bursts that is no whole number of chips is counted as the nearest one. Chips whose
     exposure is longer than themselves leave too few edges to be read so.
 
     Parameters
@@ -47,10 +49,14 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
         ``region`` is no rectangle of the photo.
     """
     stripes = find_stripes(photo, region)
-    edges = edges_of(stripes.flattened)
+    seen = edges_of(stripes.flattened)
+    edges = in_phase(seen)
+    if edges is None:
+        edges = seen
     lattice = coarsest(edges)
     if lattice is not None:
-        edges = without_rims(edges, lattice)
+        kept = without_rims(edges, lattice)
+        edges, seen = kept, _alike(seen, edges, kept)
     found = None if lattice is None else chips_between(edges, lattice)
     if lattice is None or found is None:
         raise MatchError(
@@ -59,7 +65,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
         )
     chips, first = found
     start = (first + 0.5 * (lattice.rising + lattice.falling)) / lattice.frequency
-    unexplained = _unexplained(stripes.flattened, edges, lattice.frequency)
+    unexplained = _unexplained(stripes.flattened, seen, lattice.frequency)
     trust = np.clip((_UNEXPLAINED - unexplained) / (_UNEXPLAINED - _EXPLAINED), 0.0, 1.0)
     return ChipReading(
         chips=chips,
@@ -67,6 +73,14 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
         confidence=certainty(edges, lattice) * float(trust),
         start=stripes.region.first_column + start,
         region=stripes.region,
+    )
+
+
+def _alike(seen: Edges, moved: Edges, kept: Edges) -> Edges:
+    """Keep of the edges that are seen those that are kept of the same edges in phase."""
+    return Edges(
+        seen.rising[np.isin(moved.rising, kept.rising)],
+        seen.falling[np.isin(moved.falling, kept.falling)],
     )
 
 

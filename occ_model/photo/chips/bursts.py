@@ -1,0 +1,87 @@
+"""Bursts of chips that are no whole number of chips apart: each has a phase of its own."""
+
+from itertools import pairwise
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.photo.chips.edges import Edges
+from occ_model.photo.chips.lattice import coarsest, lattice_at
+
+_LEAST_EDGES = 8
+"""Fewest edges of a burst: fewer lie on some lattice by chance."""
+
+_PAUSE = 1.25
+"""Ratio to the longest bright run from which a dark one may be a pause."""
+
+_LEFT, _COHERENT = 0.5, 0.9
+"""Share of the incoherence of one lattice that is left where each burst has its own, at most, and
+coherence that these have at least."""
+
+_COARSER = 0.75
+"""Ratio to the chips a column of one lattice up to which that of the bursts is a coarser one."""
+
+
+def in_phase(edges: Edges) -> Edges | None:
+    """Move bursts until all lie on one lattice; None where one lattice explains edges as well.
+
+    A pause that is no whole number of chips is lengthened or shortened by up to half a chip.
+    """
+    bursts = _bursts(edges)
+    if len(bursts) < 2:
+        return None
+    longest = max(bursts, key=lambda one: one.count)
+    whole, own = coarsest(edges), coarsest(longest)
+    if own is None:
+        return None
+    frequency = own.frequency
+    turns = [lattice_at(one, frequency) for one in bursts]
+    first = 0.5 * (turns[0].rising + turns[0].falling)
+    moved = []
+    for one, turn in zip(bursts, turns, strict=True):
+        off = (0.5 * (turn.rising + turn.falling) - first + 0.5) % 1.0 - 0.5
+        moved.append(Edges(one.rising - off / frequency, one.falling - off / frequency))
+    joined = Edges(
+        np.concatenate([one.rising for one in moved]),
+        np.concatenate([one.falling for one in moved]),
+    )
+    lattice = coarsest(joined)
+    if lattice is None or lattice.coherence < _COHERENT:
+        return None
+    if whole is not None:
+        # A pause of some chips and a half lies on a lattice of half chips, too.
+        is_coarser = lattice.frequency < _COARSER * whole.frequency
+        if not is_coarser and 1.0 - lattice.coherence > _LEFT * (1.0 - whole.coherence):
+            return None
+    return joined
+
+
+def _bursts(edges: Edges) -> list[Edges]:
+    """Split edges at dark runs that are longer than any bright one."""
+    if min(len(edges.rising), len(edges.falling)) < 2:
+        return [edges]
+    bright = _gaps(edges.rising, edges.falling)
+    dark = _gaps(edges.falling, edges.rising)
+    cuts = [
+        float(place) for place, gap in zip(edges.falling[: len(dark)], dark, strict=True)
+        if gap > _PAUSE * bright.max()
+    ]  # fmt: skip
+    bounds = [-np.inf, *cuts, np.inf]
+    found: list[Edges] = []
+    for first, last in pairwise(bounds):
+        part = edges.within(np.nextafter(first, np.inf), last)
+        if found and (part.count < _LEAST_EDGES or found[-1].count < _LEAST_EDGES):
+            before = found.pop()  # too few edges to tell a phase
+            part = Edges(
+                np.concatenate([before.rising, part.rising]),
+                np.concatenate([before.falling, part.falling]),
+            )
+        found.append(part)
+    return found
+
+
+def _gaps(begins: FloatArray, ends: FloatArray) -> FloatArray:
+    """Give the distance from each edge of a kind to the next one of the other, where there is."""
+    after = np.searchsorted(ends, begins)
+    inside = after < len(ends)
+    return np.asarray(ends[after[inside]] - begins[inside])

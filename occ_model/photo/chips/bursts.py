@@ -18,9 +18,6 @@ _LEFT, _COHERENT = 0.5, 0.9
 """Share of the incoherence of one lattice that is left where each burst has its own, at most, and
 coherence that these have at least."""
 
-_COARSER = 0.75
-"""Ratio to the chips a column of one lattice up to which that of the bursts is a coarser one."""
-
 
 def in_phase(edges: Edges) -> Edges | None:
     """Move bursts until all lie on one lattice; None where one lattice explains edges as well.
@@ -46,13 +43,9 @@ def in_phase(edges: Edges) -> Edges | None:
         np.concatenate([one.falling for one in moved]),
     )
     lattice = coarsest(joined)
-    if lattice is None or lattice.coherence < _COHERENT:
+    before = 0.0 if whole is None else whole.coherence
+    if lattice is None or lattice.coherence < max(_COHERENT, 1.0 - _LEFT * (1.0 - before)):
         return None
-    if whole is not None:
-        # A pause of some chips and a half lies on a lattice of half chips, too.
-        is_coarser = lattice.frequency < _COARSER * whole.frequency
-        if not is_coarser and 1.0 - lattice.coherence > _LEFT * (1.0 - whole.coherence):
-            return None
     return joined
 
 

@@ -52,7 +52,9 @@ def cause_of(scene: Scene, decoder: str) -> Cause | None:
     if scene.transmitter.pattern:
         return None
     try:
-        found = (_light(scene), _short_chips(scene), _few_chips(scene, decoder))
+        found = (
+            _light(scene), _short_chips(scene), _few_chips(scene, decoder), _bits(scene, decoder)
+        )  # fmt: skip
     except OccError:
         return None
     return next((one for one in (*found, _null(scene, decoder)) if one is not None), None)
@@ -123,15 +125,29 @@ def _frequency(value: float) -> Step:
     return Step(f"Set {HERTZ.format(value)}", {"switching_frequency": value})
 
 
+def _bits(scene: Scene, decoder: str) -> Cause | None:
+    bits, compared = scheme_of(scene.transmitter).bits, _compared_bits(scene)
+    if decoder != "matched" or bits <= compared:
+        return None
+    return Cause(
+        "too many bits to compare",
+        f"The matched decoder compares all payloads, of up to {compared} bits; this has {bits}.",
+        Step("Try the sequence decoder", decoder="sequence"),
+    )
+
+
+def _compared_bits(scene: Scene) -> int:
+    return MAX_BITS if scheme_of(scene.transmitter).is_papers else MOST_BITS
+
+
 def _null(scene: Scene, decoder: str) -> Cause | None:
     null = theory.null_frequency(scene)
     ratio = scene.transmitter.switching_frequency / null
     if decoder != "threshold" or ratio < _NEAR_NULL:
         return None
     side = "beyond" if ratio > 1.0 else "at"
-    scheme = scheme_of(scene.transmitter)
-    compared = MAX_BITS if scheme.is_papers else MOST_BITS
-    other = "matched" if scheme.bits <= compared else "sequence"
+    bits = scheme_of(scene.transmitter).bits
+    other = "matched" if bits <= _compared_bits(scene) else "sequence"
     return Cause(
         f"{side} the null at {HERTZ.format(null, 3)}",
         f"An exposure covers {2.0 * ratio:.3g} chips: single chips average out.",

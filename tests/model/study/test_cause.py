@@ -38,3 +38,15 @@ def test_a_scene_that_is_read_has_no_cause() -> None:
     for preset in occ.presets():
         assert cause_of(occ.load_preset(preset), "threshold") is None
     assert cause_of(occ.load_preset("phone-136us").replace(pattern="10"), "threshold") is None
+
+
+def test_more_bits_than_the_matched_decoder_compares_are_left_to_the_sequence_decoder() -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        **SMALL, payload="text:HELLO", line_code="manchester", framing="preamble", distance=0.6
+    )
+    assert occ.success_rate(scene, 3, "matched") == 0.0
+    cause = cause_of(scene, "matched")
+    assert cause is not None
+    assert cause.what == "too many bits to compare"
+    assert cause.step is not None
+    assert occ.success_rate(scene, 3, cause.step.decoder) == 100.0

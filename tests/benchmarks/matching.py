@@ -2,9 +2,10 @@
 
 ``--full`` does all of these in turn, with as many photos as stand here; ``first`` is the seed to
 begin with. ``coverage``: how well stated errors hold, on 600 photos of a world that is wider than
-the model; with ``--world lamps`` of single lamps as they are found in rooms. ``negatives``: 400
-pictures without stripes of an LED. ``others``: 200 photos of another code than the scene's.
-``unknown``: 300 photos of unknown chips, 1.5 to 20 periods in view, half of them saturated.
+the model; with ``--world lamps`` of single lamps as they are found in rooms, with ``--world
+foreign`` of a camera with other optics and tone curves. ``negatives``: 400 pictures without stripes
+of an LED. ``others``: 200 photos of another code than the scene's. ``unknown``: 300 photos of
+unknown chips, 1.5 to 20 periods in view, half of them saturated.
 ``known`` (the default): 500 simulated photos with noise, vignetting, blur and JPEG of quality 60 to
 95, of 4 to 30 columns a chip and exposures of a tenth of a chip to three.
 ``--plot FILE`` draws the errors of ``coverage`` beside their Cramer-Rao bounds.

@@ -1,7 +1,7 @@
 """Matches of photographs whose truth is known: how far off they are, by what they state."""
 
-from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from both_cores import on_both_cores
@@ -9,13 +9,12 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from photo_world.bounds import bound_of_light, bound_of_picture
+from photo_world.foreign import READOUT, foreign
 from photo_world.hot_lamps import hot_lamps
 from photo_world.photograph import KNOWN_GAMMA, World, photograph, random_world
 
 SATURATION_THIRDS = (0.0, 0.2, 0.4, 0.6)
 """Shares of saturated pixels that divide the photographs."""
-_READOUT = 10e-6
-"""Seconds of a column of those photographs whose lengths are counted in columns."""
 
 
 @dataclass(frozen=True)
@@ -115,38 +114,54 @@ def hot_trial_of(seed: int) -> Trial:
     top, bottom, left, right = (max(0, round(side)) for side in thing.box)
     saturated = float(np.mean(drawn.image[top:bottom, left:right] >= 254))
     is_pulse = "01" not in sent.chips
-    period = len(sent.chips) * sent.chip * _READOUT
+    chips = "10" if is_pulse else sent.chips
+    chip = len(sent.chips) * sent.chip / len(chips)
+    return _trial_by_columns(seed, drawn.image, saturated, chips, chip, drawn.exposure, "auto")
+
+
+def foreign_trial_of(seed: int) -> Trial:
+    """Match the photograph by another camera, told what was sent."""
+    drawn = foreign(seed)
+    saturated = float(np.mean(drawn.image >= 254))
+    return _trial_by_columns(
+        seed, drawn.image, saturated, drawn.chips, drawn.chip, drawn.exposure, "scene"
+    )
+
+
+def _trial_by_columns(
+    seed: int,
+    image: np.ndarray,
+    saturated: float,
+    chips: str,
+    chip: float,
+    exposure: float,
+    sent: str,
+) -> Trial:
+    """Match a photograph whose chip and exposure are counted in columns."""
     scene = occ.load_preset("phone-68us").replace(
-        pattern="10" if is_pulse else sent.chips,
-        switching_frequency=(2 if is_pulse else len(sent.chips)) / period,
-        gamma=KNOWN_GAMMA, readout_time=1e-6, exposure_time=1.0, start_time=0.0,
+        pattern=chips, switching_frequency=1.0 / (chip * READOUT), gamma=KNOWN_GAMMA,
+        readout_time=1e-6, exposure_time=1.0, start_time=0.0,
     )  # fmt: skip
     try:
-        match = occ.match_photo(photo_of(drawn.image), scene)
+        match = occ.match_photo(photo_of(image), scene, sent=sent)
     except occ.MatchError as why:
         return Trial(seed, saturated, failure=str(why))
-    exposure = drawn.exposure * _READOUT
+    exposed = exposure * READOUT
     return Trial(
         seed,
         saturated,
-        match.readout_time / _READOUT - 1.0,
-        match.exposure_time / exposure - 1.0,
-        match.uncertainties["readout_time"] / _READOUT,
-        match.uncertainties["exposure_time"] / exposure,
+        match.readout_time / READOUT - 1.0,
+        match.exposure_time / exposed - 1.0,
+        match.uncertainties["readout_time"] / READOUT,
+        match.uncertainties["exposure_time"] / exposed,
         doubts=match.reasons,
         exposure_doubts=match.exposure_reasons,
     )
 
 
-def hot_trials(seeds: Iterable[int]) -> Iterator[Trial]:
-    """Match the photographs of single lamps of some seeds."""
-    return on_both_cores(hot_trial_of, seeds)
-
-
-def trials(seeds: Iterable[int]) -> Iterator[Trial]:
-    """Match the photographs of some seeds."""
-    return on_both_cores(trial_of, seeds)
-
-
-WORLDS = {"wide": trials, "lamps": hot_trials}
+WORLDS = {
+    "wide": partial(on_both_cores, trial_of),
+    "lamps": partial(on_both_cores, hot_trial_of),
+    "foreign": partial(on_both_cores, foreign_trial_of),
+}
 """Matches of the photographs of some seeds, by the world that they are drawn from."""

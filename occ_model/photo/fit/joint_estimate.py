@@ -62,8 +62,8 @@ _CONTRADICTED = 0.02
 columns, where 5.4 was right, had correlations of 0.944 and 0.988."""
 
 _CONTRADICTION = (
-    "The pixels that are lit alike tell another timing than the mean of all pixels: the stated "
-    "errors may not hold."
+    "The pixels that are lit alike tell another exposure than the mean of all pixels: its stated "
+    "error may not hold."
 )
 
 
@@ -138,7 +138,7 @@ def refined(
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fits[0].correlation < explanation.correlation - _CONTRADICTED:
         return Refined(
-            explanation.fits, (_CONTRADICTION, *_doubts(unusual)), _exposure_doubts(seen, alike)
+            explanation.fits, _doubts(unusual), (_CONTRADICTION, *_exposure_doubts(seen, alike))
         )
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)

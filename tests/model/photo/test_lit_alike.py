@@ -83,3 +83,13 @@ def test_an_exposure_that_looks_like_a_box_of_blur_is_within_its_stated_error(
     assert (abs(off_box) < 2.0 * found.exposure_deviation) == holds_both
     # An edge's variance is that of the exposure, t^2/12, and the blur's, known to 2 % at best.
     assert found.exposure_deviation > 6.0 * 0.02 * world.blur**2 / columns**2
+
+
+@pytest.mark.parametrize("seed", [93017, pytest.param(93030, marks=pytest.mark.whole)])
+def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(seed: int) -> None:
+    """Twice as long as the right one, at the right readout time."""
+    found = trial(random_world(seed))
+    assert found.is_sure
+    assert abs(found.readout) < 2.0 * found.readout_deviation
+    assert any("lit alike tell another exposure" in why for why in found.exposure_doubts)
+    assert not found.is_sure_of("exposure")

@@ -199,7 +199,7 @@ class TestCommand:
         assert main(["match", str(file), "--scene", str(known), "--set", stated]) == 0
         lines = capsys.readouterr().out
         assert re.search(r"readout_time +[\d.]+ ± [\d.e-]+ µs", lines)
-        assert re.search(r"switching_frequency .*\(known\)", lines)
+        assert re.search(r"switching_frequency .*\(given\)", lines)
         assert "if switching" not in lines
 
     def test_a_square_wave_is_two_chips_a_cycle(

@@ -225,11 +225,6 @@ class MatchForm(QWidget):
             fit_gamma=self.gamma.isChecked(),
         )
 
-    @property
-    def certain_values(self) -> dict[str, float]:
-        """The known values that the user has confirmed, in SI units by name."""
-        return dict(self._certain)
-
     def show_choice(
         self, choice: MatchChoice, certain: Mapping[str, float], forgotten: Mapping[str, float]
     ) -> None:

@@ -43,6 +43,7 @@ from occ_gui.story.story_view import StoryView
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.photo_results import OpenPhoto
 from occ_gui.window.main_window import MainWindow
+from occ_gui.window.menus import words_of
 from occ_model.effects.registry import EFFECTS
 from occ_model.photo.reading.load import Photo
 from occ_model.plugins import all_at_work
@@ -310,6 +311,8 @@ class Application(QObject):
         self.messages.follow(view)
         self.window.leave_messages_to(verdict.sentence, verdict.wrapped)
         view.open_asked.connect(self.files.ask_for_photo)
+        view.show_samples({words_of(path.stem): path for path in sample_photos()})
+        view.sample_chosen.connect(self.files.open_sample)
         view.form.edited.connect(self.editor.edit)
         view.result.save_asked.connect(self._save_match)
         view.many.save_asked.connect(self.files.ask_to_save_table)

@@ -1,6 +1,7 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
 from PySide6.QtWidgets import (
@@ -41,6 +42,9 @@ class PhotoView(QWidget):
 
     open_asked = Signal()
     """The user opens a photo."""
+
+    sample_chosen = Signal(Path)
+    """The user opens one of the sample photos."""
 
     refused = Signal(str)
     """Why a value that was entered in a form is refused."""
@@ -89,8 +93,18 @@ class PhotoView(QWidget):
         layout = QVBoxLayout(page)
         layout.addWidget(text)
         layout.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
+        self._samples = QVBoxLayout()
+        layout.addLayout(self._samples)
         layout.addStretch()
         return page
+
+    def show_samples(self, files: Mapping[str, Path]) -> None:
+        """Offer sample photos, by what they show, where no photo is open."""
+        for text, path in files.items():
+            button = QPushButton(f"Sample: {text} (simulated)")
+            button.setToolTip("Open this photo with its scene, to try a match.")
+            button.clicked.connect(lambda _=False, path=path: self.sample_chosen.emit(path))
+            self._samples.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
 
     def _make_page(self) -> QWidget:
         page = self._page = QWidget()

@@ -287,7 +287,7 @@ class Menus(QObject):
         """List the photos that come with the program."""
         self.samples.clear()
         for path in files:
-            text = f"{_words_of(path.stem)} (simulated)"
+            text = f"{words_of(path.stem)} (simulated)"
             _add_file(self.samples, path, text, open_file)
         self.samples.setEnabled(not self.samples.isEmpty())
 
@@ -296,7 +296,7 @@ def _ask_for(ask: Callable[[str], None], name: str) -> None:
     ask(name)
 
 
-def _words_of(name: str) -> str:
+def words_of(name: str) -> str:
     """Write a file's name in words: ``led-1khz`` as LED 1 kHz."""
     words = re.sub(r"(\d)(k?)hz\b", r"\1 \2Hz", name.replace("-", " "))
     words = re.sub(r"\bled\b", "LED", words)

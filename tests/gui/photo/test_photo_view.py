@@ -1,11 +1,12 @@
 """Pane of the photo: its facts, a failed match, and its placement."""
 
 from dataclasses import replace
+from pathlib import Path
 
 from gui.combo_box import choose
 from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.values.placement import Placement
@@ -22,6 +23,19 @@ def test_without_a_photo_all_a_user_can_press_opens_one(view: LiveView, qtbot: Q
     for button in able:
         with qtbot.waitSignal(view.open_asked, timeout=1000):
             qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+
+
+def test_a_page_without_a_photo_offers_each_sample(view: LiveView, qtbot: QtBot) -> None:
+    paths = [Path("square-wave.png"), Path("packet.png")]
+    view.show_samples(dict(zip(("Square wave", "Packet"), paths, strict=True)))
+    buttons = [one for one in view.findChildren(QPushButton) if one.text().startswith("Sample")]
+    assert [one.text() for one in buttons] == [
+        "Sample: Square wave (simulated)", "Sample: Packet (simulated)"
+    ]  # fmt: skip
+    for path, button in zip(paths, buttons, strict=True):
+        with qtbot.waitSignal(view.sample_chosen) as opened:
+            button.click()
+        assert opened.args == [path]
 
 
 def test_what_is_known_of_a_photo_is_shown_with_its_units(view: LiveView, photo: Photo) -> None:

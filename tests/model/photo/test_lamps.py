@@ -55,7 +55,7 @@ def test_most_lamps_with_hot_spots_and_halos_are_found_and_none_with_a_wrong_fre
     seeds: range,
 ) -> None:
     score = score_of(seeds, hot_lamp_scene)
-    # Of 102 lamps of other seeds 84 % were found: three standard deviations less of so few.
+    # Of 102 lamps that the search was made with 84 % are found: three deviations less of so few.
     assert score.found >= 0.84 * score.there - 3.0 * (0.84 * 0.16 * score.there) ** 0.5
     assert score.surely_wrong == 0
     assert score.invented <= 0.05 * score.reported + 1

@@ -1,6 +1,8 @@
 """Photometry: pixel values from luminance, equations (1) to (3) of the paper."""
 
 import math
+import operator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
@@ -25,7 +27,11 @@ def _gain(camera: Camera) -> float:
     return camera.iso * camera.exposure_time / (camera.meter_constant * camera.f_number**2)
 
 
-def pixel_value(luminance: FloatArray, camera: Camera) -> FloatArray:
+def pixel_value(
+    luminance: FloatArray,
+    camera: Camera,
+    power: Callable[[FloatArray, float], FloatArray] = operator.pow,
+) -> FloatArray:
     """Return the pixel value of a constant luminance before the sensor saturates.
 
     PV = 118 (S t L / (K N^2))^(1/gamma), the paper's equations (1) and (2).
@@ -36,13 +42,15 @@ def pixel_value(luminance: FloatArray, camera: Camera) -> FloatArray:
         cd/m2.
     camera
         Its exposure time, ISO speed, f-number, calibration constant and gamma are used.
+    power
+        Raises to a power.
 
     Returns
     -------
     ndarray of float64, shape as ``luminance``
         Grey levels; above 255 the pixel is saturated, see :func:`saturate`.
     """
-    return np.asarray(_MID_GREY * (_gain(camera) * luminance) ** (1.0 / camera.gamma))
+    return np.asarray(_MID_GREY * power(_gain(camera) * luminance, 1.0 / camera.gamma))
 
 
 def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:

@@ -6,16 +6,24 @@ exp(-2 pi^2 n^2 s^2).
 """
 
 import math
-from functools import lru_cache
+from collections.abc import Iterator
+from functools import cached_property, lru_cache
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import FloatArray
 from occ_model.effects.normal import normal_share
+from occ_model.effects.sample import Sample
 
 _HARMONICS = np.arange(1.0, 7.0)
 _SIGNS = (-1.0) ** _HARMONICS
 _DAMPING = 2.0 * math.pi**2 * _HARMONICS**2
+
+_NEGLIGIBLE = 9.0
+"""Exponent from which a harmonic is damped to nothing."""
+
+_SHARP = 0.08
+"""Noise in steps below which nearly all values are rounded as without it."""
 
 
 @lru_cache(maxsize=1)
@@ -30,20 +38,30 @@ def _transform() -> FloatArray:
 def _rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean square error of rounding, in steps."""
     found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
-    for n, sign, damping in zip(_HARMONICS, _SIGNS, _DAMPING, strict=True):
-        found += (
-            sign / (math.pi * n) ** 2 * np.cos(2.0 * math.pi * n * x) * np.exp(-damping * s * s)
-        )
+    for n, sign, damping in _harmonics(s):
+        found += sign / (math.pi * n) ** 2 * np.cos(2.0 * math.pi * n * x) * damping
     return np.asarray(np.maximum(found, 0.0))
 
 
 def _rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean of round(x) - x, in steps."""
-    found = np.zeros(np.broadcast_shapes(x.shape, s.shape))
+    found = np.rint(x) - x
+    sharp = np.broadcast_to(s < _SHARP, found.shape)
+    if sharp.all():
+        return found
+    damped = np.zeros(found.shape)
+    for n, sign, damping in _harmonics(s):
+        damped += sign / (math.pi * n) * np.sin(2.0 * math.pi * n * x) * damping
+    return np.where(sharp, found, damped)
+
+
+def _harmonics(s: FloatArray) -> Iterator[tuple[float, float, FloatArray]]:
+    """Give number, sign and damping of those that some noise in steps leaves."""
+    least = float(s.min())
     for n, sign, damping in zip(_HARMONICS, _SIGNS, _DAMPING, strict=True):
-        found += sign / (math.pi * n) * np.sin(2.0 * math.pi * n * x) * np.exp(-damping * s * s)
-    sharp = np.rint(x) - x
-    return np.where(s < 0.08, sharp, found)
+        if damping * least * least > _NEGLIGIBLE:
+            return
+        yield float(n), float(sign), np.exp(-damping * s * s)
 
 
 def _moved_steps(change: FloatArray) -> FloatArray:
@@ -95,12 +113,10 @@ class FileChange:
     ----------
     steps : ndarray of float64, shape (8, 8)
         Of the coefficients.
-    blocks : ndarray of int64, shape (blocks, 8)
-        The places of its blocks in the sample's columns.
-    inner
-        The sample's nodes between the rims.
-    whole : ndarray of float64, shape (columns, nodes)
-        The sample's pixels with all effects.
+    sample
+        The sample.
+    stack : ndarray of float64, shape (sets, columns, nodes)
+        Its pixels with all effects, and without some.
     spread
         Root mean square of a pixel's noise in grey levels.
     block_rows
@@ -112,99 +128,118 @@ class FileChange:
     def __init__(  # noqa: PLR0917 - what a file and a sample are
         self,
         steps: FloatArray,
-        blocks: IndexArray,
-        inner: slice,
-        whole: FloatArray,
+        sample: Sample,
+        stack: FloatArray,
         spread: float,
         block_rows: float,
         rims: float,
     ) -> None:
-        self._blocks, self._inner = blocks, inner
-        self._step = steps[0][None, :, None]
+        self._blocks, self._inner = sample.blocks, sample.inner
+        self._step = steps[0][:, None]
         self._others = steps[1:].ravel()
-        self._all = steps
+        self._all = steps.ravel()
         self._noise = math.sqrt(spread**2 + _ROUNDING)
         self.block_rows = max(block_rows, 1.0)
         self._rims = rims
-        self._whole = whole
-        self._contrast = float(np.ptp(whole))
-        self._x = self._coefficients(whole)
+        self._stack = stack
+        self._contrast = float(np.ptp(stack[0]))
+        self._x = self._coefficients(stack)
+
+    def _in_blocks(self, values: FloatArray) -> FloatArray:
+        """Return the pixels between the rims, shape (sets, blocks, 8, nodes)."""
+        return values[:, :, self._inner][:, self._blocks]
 
     def _coefficients(self, values: FloatArray) -> FloatArray:
-        """Return those without a vertical frequency, in their steps: (blocks, 8, nodes)."""
+        """Return those without a vertical frequency, in their steps: (sets, blocks, 8, nodes)."""
         if not len(self._blocks):
-            return np.zeros((1, 8, 1))
-        blocks = values[self._blocks][:, :, self._inner]
-        found = np.einsum("kc,bcr->bkr", _transform(), blocks) * math.sqrt(8.0)
-        found[:, 0] -= 1024.0
-        return np.asarray(found / self._step)
+            return np.zeros((len(values), 1, 8, 1))
+        found = np.matmul(_transform() * math.sqrt(8.0), self._in_blocks(values))
+        found[:, :, 0] -= 1024.0
+        found /= self._step
+        return np.asarray(found)
 
-    def means(self, values: FloatArray, spread: float) -> FloatArray:
-        """Return the pixels' mean values as they are read back, with some noise."""
+    def means(self, values: FloatArray, spread: FloatArray) -> FloatArray:
+        """Return the pixels' mean values as they are read back.
+
+        Parameters
+        ----------
+        values : ndarray of float64, shape (sets, columns, nodes)
+            The pixels with some sets of effects.
+        spread : ndarray of float64, shape (sets,)
+            Their noise.
+        """
         if not len(self._blocks):
             return values
-        if spread < _SHARPEST:  # pixels are whole levels before they are in a file
-            values = values + _rounding_mean(values, np.full(1, spread))
+        noise = spread[:, None, None]
+        if spread.min() < _SHARPEST:  # pixels are whole levels before they are in a file
+            rounded = values + _rounding_mean(values, noise)
+            values = np.where(noise < _SHARPEST, rounded, values)
         x = self._coefficients(values)
-        own = math.sqrt(spread**2 + _ROUNDING) / self._step
-        wide = np.sqrt(own * own + x.var(axis=2, keepdims=True))
-        shift = _rounding_mean(x.mean(axis=2, keepdims=True), wide) * self._step / math.sqrt(8.0)
-        back = np.einsum("kc,bkr->bcr", _transform(), shift)
+        own = np.sqrt(noise * noise + _ROUNDING)[:, None] / self._step
+        wide = np.sqrt(own * own + x.var(axis=3, keepdims=True))
+        shift = _rounding_mean(x.mean(axis=3, keepdims=True), wide) * self._step / math.sqrt(8.0)
+        back = np.matmul(_transform().T, shift)
         out = values.copy()
-        out[self._blocks.ravel()] += back.reshape(-1, 1)
+        out[:, self._blocks.ravel()] += back.reshape(len(values), -1, 1)
         return out
 
     def own_change(self) -> float:
         """Return the mean square of what the file changes."""
         rims = self._rims
-        own = np.broadcast_to(self._noise / self._step, self._x.shape)
-        along = (_rounding_square(self._x, own) * self._step**2).sum(axis=1).mean()
+        along = (_rounding_square(self._x[0], self._noise / self._step) * self._step**2).sum(axis=1)
         noise = self._noise / self._others
         others = (self._others**2 * _rounding_square(np.zeros(1), noise)).sum()
-        edges = min(float((self._all**2).mean()) / 12.0, self._contrast**2 / 4.0)
-        return (1.0 - rims) * float(along + others) / 64.0 + rims * edges + _ROUNDING
+        inner = float(along.mean() + others) / 64.0
+        return (1.0 - rims) * inner + rims * self._rounding_at_edges + _ROUNDING
+
+    @property
+    def _rounding_at_edges(self) -> float:
+        """The mean square of rounding where a rim spreads all coefficients."""
+        return min(float((self._all**2).mean()) / 12.0, self._contrast**2 / 4.0)
 
     def own_sampling(self) -> float:
         """Return the mean square of the rounding's sampling error in a column's mean."""
-        own = self._noise / self._step[0, :, 0]
-        square = self._step[0, :, 0] ** 2 * np.minimum(1.0, (own / _DITHERED) ** 2) / 12.0
-        rims = self._rims * min(float((self._all**2).mean()) / 12.0, self._contrast**2 / 4.0)
+        own = self._noise / self._step
+        square = self._step**2 * np.minimum(1.0, (own / _DITHERED) ** 2) / 12.0
+        rims = self._rims * self._rounding_at_edges
         return (float(square.sum()) / 64.0 + rims) / self.block_rows
 
-    def added(self, values: FloatArray) -> tuple[float, float]:
-        """Return what rounding adds to the mean square of a change.
+    @cached_property
+    def added(self) -> tuple[FloatArray, FloatArray]:
+        """What rounding adds to the mean square of a change, for each of the sets of effects.
 
         Pixels that change by a part of a level round to another one here and there: a change of all
         coefficients, as by noise.
 
         Returns
         -------
-        image, sampling
+        image, sampling : ndarray of float64, shape (sets,)
             To that of the pixels, and of the part of a column's mean that differs from block to
             block.
         """
-        x = self._coefficients(values)
-        change = x - self._x
-        moved = (values - self._whole)[self._blocks][:, :, self._inner]
-        if not moved.size:
-            moved = values - self._whole
-        flips = math.sqrt(float(_moved_steps(moved).mean()))
-        size = math.sqrt(float((moved**2).mean()))
+        change = self._x - self._x[0]
+        moved = self._in_blocks(self._stack)
+        moved = moved - moved[0] if moved.size else self._stack - self._stack[0]
+        moved = moved.reshape(len(moved), -1)
+        flips = np.sqrt(_moved_steps(moved).mean(axis=1))
+        size = np.sqrt((moved**2).mean(axis=1))
         step = self._step
-        own = self._noise / step
-        spread = np.maximum(_moved_steps(change), _moved_steps_of_noise(flips / step))
-        sharp = (np.rint(x) - np.rint(self._x)) ** 2 - change**2
-        steps = np.where(own < _DITHERED, sharp, spread) * step**2
-        along = float(steps.sum(axis=1).mean())
+        sharp = (self._noise / step < _DITHERED)[:, 0]
+        by_noise = _moved_steps_of_noise(flips[:, None, None] / step)[:, None]
+        steps = np.maximum(_moved_steps(change), by_noise)
+        if sharp.any():
+            whole = np.rint(self._x[:, :, sharp])
+            steps[:, :, sharp] = (whole - whole[0]) ** 2 - change[:, :, sharp] ** 2
+        along = (steps * step**2).sum(axis=2).mean(axis=(1, 2))
         q = self._others
-        across = (q**2 * _moved_steps_of_noise(flips / q) * _near_half(self._noise / q)).sum()
-        rims = self._rims * self._at_rims(math.hypot(size, flips))
-        image = (1.0 - self._rims) * (along + float(across)) / 64.0 + rims
-        return image, (max(along, 0.0) / 64.0 + rims) / self.block_rows
+        across = _moved_steps_of_noise(flips[:, None] / q) @ (q**2 * _near_half(self._noise / q))
+        rims = self._rims * self._at_rims(np.hypot(size, flips))
+        image = (1.0 - self._rims) * (along + across) / 64.0 + rims
+        return image, (np.maximum(along, 0.0) / 64.0 + rims) / self.block_rows
 
-    def _at_rims(self, size: float) -> float:
-        """Return what rounding adds to a change where a rim spreads all coefficients."""
-        return float((self._all**2 * _moved_steps_of_noise(size / self._all)).mean())
+    def _at_rims(self, size: FloatArray) -> FloatArray:
+        """Return what rounding adds to changes where a rim spreads all coefficients."""
+        return np.asarray(_moved_steps_of_noise(size[..., None] / self._all) @ self._all**2 / 64.0)
 
     @property
     def undithered_share(self) -> float:
@@ -218,7 +253,7 @@ class FileChange:
         Where noise does not spread a block's mean over the steps, the smallest change may round
         the blocks of an even picture otherwise, all at once.
         """
-        step = self._step[0, :2, 0]
+        step = self._step[:2, 0]
         sharp = np.exp(-_DAMPING[0] * (self._noise / step) ** 2)
         return float((step**2 * sharp).sum()) / 6.0 / 64.0
 
@@ -232,19 +267,19 @@ class FileChange:
         square
             Mean square of the change over all of the picture.
         """
-        return share * self._at_rims(math.sqrt(square / share)) if share else 0.0
+        if not share:
+            return 0.0
+        return share * float(self._at_rims(np.array(math.sqrt(square / share))))
 
     def spread(self, spread: FloatArray) -> FloatArray:
         """Return the deviation of a pixel's noise as it is read back, for some before."""
         few = np.linspace(0.0, float(spread.max()) + 1e-6, 9)
-        step, q = self._step[0, :, 0], self._others
+        step, q = self._step[:, 0], self._others
         noise = np.sqrt(few**2 + _ROUNDING)[:, None]
         s = noise / step
         along = step**2 * (s * s + 1.0 / 12.0) * -np.expm1(-((s / 0.3) ** 2))
-        across = q**2 * _rounded_noise(noise / q)
-        return np.asarray(
-            np.interp(spread, few, np.sqrt((along.sum(axis=1) + across.sum(axis=1)) / 64.0))
-        )
+        across = _rounded_noise(noise / q) @ q**2
+        return np.interp(spread, few, np.sqrt((along.sum(axis=1) + across) / 64.0))
 
     def of_noise(self, own: float, left: float) -> tuple[float, float]:
         """Return the mean square of noise as it is read back: in pixels, and in a column's mean.
@@ -256,12 +291,12 @@ class FileChange:
         """
         rest = math.sqrt(left**2 + _ROUNDING)
         own = math.sqrt(own**2 + float(_moved_steps_of_noise(np.asarray(own))))
-        step, q = self._step[0, :, 0], self._others
+        step, q = self._step[:, 0], self._others
         along = (own * own + step**2 * _moved_steps_of_noise(own / step)).sum()
         both = _rounded_noise(math.hypot(own, rest) / q) + _rounded_noise(rest / q)
         apart = (own / q) ** 2 + _moved_steps_of_noise(own / q)
         across = (q**2 * np.minimum(both, apart)).sum()
-        rims = self._rims * self._at_rims(own)
+        rims = self._rims * float(self._at_rims(np.array(own)))
         image = float(along + across) / 64.0 + rims
         return image, (float(along) / 64.0 + rims) / self.block_rows
 

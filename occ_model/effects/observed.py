@@ -18,7 +18,10 @@ class Observed:
     names
         All effects of the scene.
     seen
-        Gives what is observed with some of them, each value times the root of its weight.
+        Gives what is observed with some sets of them, each value times the root of its weight:
+        shape (sets, values).
+    changing
+        The effects whose absence changes that.
 
     Attributes
     ----------
@@ -30,27 +33,36 @@ class Observed:
         Share by which any mean square may be larger.
     """
 
-    def __init__(self, names: frozenset[str], seen: Callable[[frozenset[str]], FloatArray]) -> None:
+    def __init__(
+        self,
+        names: frozenset[str],
+        seen: Callable[[Sequence[frozenset[str]]], FloatArray],
+        changing: Sequence[str],
+    ) -> None:
         self._names = names
         self._seen = seen
+        self._place = {name: at for at, name in enumerate(changing)}
         self.alone: dict[str, float] = {}
         self.doubt: dict[str, float] = {}
         self.unsure = 0.0
-        self.complete = seen(names)
-        self._moved = {name: self.complete - seen(names - {name}) for name in sorted(names)}
+        found = seen([names, *(names - {name} for name in changing)])
+        self.complete = found[0]
+        moved = found[1:] - found[0]
+        self._products = moved @ moved.T
 
     def together(self, left_out: frozenset[str]) -> float:
         """Return the mean square of what leaving out some effects together changes."""
         if not left_out:
             return 0.0
-        if len(left_out) == 1:
-            (name,) = left_out
-            change = self._moved[name]
+        moved = [self._place[name] for name in left_out if name in self._place]
+        if len(moved) <= 1:
+            square = float(self._products[moved, moved].sum())
         else:
-            change = self.complete - self._seen(self._names - left_out)
+            change = self._seen([self._names - left_out])[0] - self.complete
+            square = float(change @ change)
         independent = sum(self.alone.get(name, 0.0) for name in left_out)
         doubt = max(self.doubt.get(name, 0.0) for name in left_out)
-        return max(float(change @ change) + independent, 0.0) * (1.0 + self.unsure) + doubt
+        return max(square + independent, 0.0) * (1.0 + self.unsure) + doubt
 
     def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
         """Return about the same for many sets of effects, as if their changes added.
@@ -62,10 +74,11 @@ class Observed:
         members : ndarray of float64, shape (sets, effects)
             1 where a set has an effect.
         """
-        moved = np.stack([self._moved[name] for name in names])
         alone = np.array([self.alone.get(name, 0.0) for name in names])
         doubt = np.array([self.doubt.get(name, 0.0) for name in names])
-        products = moved @ moved.T
-        squares = np.einsum("si,ij,sj->s", members, products, members, optimize=True)
+        moving = [at for at, name in enumerate(names) if name in self._place]
+        places = [self._place[names[at]] for at in moving]
+        moved = members[:, moving]
+        squares = ((moved @ self._products[np.ix_(places, places)]) * moved).sum(axis=1)
         sure = np.maximum(squares + members @ alone, 0.0)
         return np.asarray(sure * (1.0 + self.unsure) + (members * doubt).max(axis=1))

@@ -1,6 +1,7 @@
 """How leaving effects out changes the image and the column profile, estimated from a sample."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -8,43 +9,40 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
-from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.sampled_pixels import Names, SampledPixels
 
 
 def observed_image(pixels: SampledPixels) -> Observed:
     """Return the pixels, each weighted by how much of its change is seen."""
     everything, file = pixels.names, pixels.file
-    whole = pixels.values(everything)
     spread = pixels.spread(everything)
     slope = np.gradient(spread, pixels.levels)
     unclipped = share_unclipped(pixels.levels, spread, WHITE)
     # Where the light changes, its noise does; and pixels that are cut off change less.
-    share = pixels.look(unclipped * (1.0 + slope**2), whole)
+    noise = [pixels.variances[effect.name] * unclipped for effect in pixels.noises]
+    share, *noise = pixels.at_whole(np.stack([unclipped * (1.0 + slope**2), *noise]))
     weights = np.sqrt(np.maximum(share * pixels.sample.pixel_weights, 0.0)).ravel()
 
-    def seen(included: frozenset[str]) -> FloatArray:
-        return pixels.values(included).ravel() * weights
+    def seen(sets: Sequence[Names]) -> FloatArray:
+        return pixels.values(sets).reshape(len(sets), -1) * weights
 
-    found = Observed(everything, seen)
+    found = Observed(everything, seen, pixels.moving)
     region = pixels.view.region
     for name in pixels.outline & everything:
         found.doubt[name] = pixels.doubted_pixels(
             pixels.contrast**2 / (region.rows * region.columns)
         )
-    for effect in pixels.effects:
-        name = effect.name
-        if effect in pixels.noises:
-            variance = pixels.look(pixels.variances[name] * unclipped, whole)
-            square = float((variance * pixels.sample.pixel_weights).sum())
-            if file is not None:
-                square = file.of_noise(*pixels.noise_without(name))[0]
-            found.alone[name] = square
-        elif file is not None and effect in pixels.files:
-            found.alone[name] = file.own_change()
-        elif file is not None:
+    for effect, variance in zip(pixels.noises, noise, strict=True):
+        found.alone[effect.name] = (
+            float(pixels.mean_of(variance))
+            if file is None
+            else file.of_noise(*pixels.noise_without(effect.name))[0]
+        )
+    if file is not None:
+        found.alone[pixels.files[0].name] = file.own_change()
+        for name in pixels.moving:
             plain = found.together(frozenset({name}))
-            added = file.added(pixels.values(everything - {name}))[0]
-            added += _added_at_rims(pixels, name, plain)
+            added = float(file.added[0][pixels.place(name)]) + _added_at_rims(pixels, name, plain)
             found.alone[name] = max(added, -0.5 * plain)
     return found
 
@@ -64,32 +62,33 @@ def _added_at_rims(pixels: SampledPixels, name: str, plain: float) -> float:
 def observed_profile(pixels: SampledPixels) -> Observed:
     """Return the means of the columns, rounded, clipped and as a file keeps them."""
     everything, sample, file = pixels.names, pixels.sample, pixels.file
-    whole, rows = pixels.values(everything), pixels.view.region.rows
-    weights = np.sqrt(sample.weights)
+    rows, weights = pixels.view.region.rows, np.sqrt(sample.weights)
 
-    def seen(included: frozenset[str]) -> FloatArray:
-        spread = pixels.spread(included)
-        if file is not None and pixels.files[0].name in included:
-            spread = np.hypot(spread, math.sqrt(file.own_change()))
-        table = clipped_mean(pixels.levels, spread, WHITE)
-        return pixels.mean_of_rows(pixels.look(table, pixels.read_back(included))) * weights
+    def seen(sets: Sequence[Names]) -> FloatArray:
+        spread = np.stack([pixels.spread(included) for included in sets])
+        if file is not None:
+            filed = [at for at, one in enumerate(sets) if pixels.files[0].name in one]
+            spread[filed] = np.hypot(spread[filed], math.sqrt(file.own_change()))
+        tables = clipped_mean(pixels.levels, spread, WHITE)
+        found = pixels.look_each(tables, pixels.read_back(sets))
+        return pixels.mean_of_rows(found) * weights
 
-    found = Observed(everything, seen)
+    found = Observed(everything, seen, sorted(everything))
     region = pixels.view.region
     for name in pixels.outline & everything:
         share = pixels.contrast**2 / (region.rows**2 * region.columns)
         found.doubt[name] = pixels.doubted_pixels(share)
-    for effect in pixels.effects:
+    for effect in pixels.noises:
         name = effect.name
-        if effect in pixels.noises:
-            variance = pixels.look(pixels.variances[name], whole)
-            part = float((pixels.mean_of_rows(variance) * sample.weights).sum()) / rows
-            if file is not None:
-                part = file.of_noise(*pixels.noise_without(name))[1]
-            found.alone[name] = part
-        elif file is not None and effect in pixels.files:
-            found.alone[name] = file.own_sampling()
-            found.doubt[name] = found.together(frozenset({name}))
-        elif file is not None:
-            found.alone[name] = file.added(pixels.values(everything - {name}))[1]
+        found.alone[name] = (
+            float(pixels.mean_of(pixels.at_whole(pixels.variances[name]))) / rows
+            if file is None
+            else file.of_noise(*pixels.noise_without(name))[1]
+        )
+    if file is not None:
+        name = pixels.files[0].name
+        found.alone[name] = file.own_sampling()
+        found.doubt[name] = found.together(frozenset({name}))
+        for name in pixels.moving:
+            found.alone[name] = float(file.added[1][pixels.place(name)])
     return found

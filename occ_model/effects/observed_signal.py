@@ -1,6 +1,7 @@
 """How leaving effects out changes the enhanced signal, estimated from a sample."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -9,7 +10,7 @@ from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
-from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.sampled_pixels import Names, SampledPixels
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
@@ -46,33 +47,42 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     sample = pixels.sample
     weights = np.sqrt(sample.weights)
     levels = np.clip(pixels.levels, 0.0, WHITE)
-
+    spreads: dict[Names, FloatArray] = {}
+    curves: dict[Names, FloatArray] = {}
     optics = frozenset(effect.name for effect in pixels.lenses)
-    smooth: dict[frozenset[str], tuple[FloatArray, FloatArray]] = {}
+    moving = frozenset(pixels.moving)
 
-    def curve(included: frozenset[str]) -> tuple[FloatArray, FloatArray]:
-        spread = pixels.spread(included)
-        if pixels.file is not None and pixels.files[0].name in included:
-            spread = pixels.file.spread(spread)
-        return pixels.enhancement(included).mean(levels, spread), spread
+    def spread_of(included: Names) -> FloatArray:
+        key = included - moving
+        if key not in spreads:
+            own = pixels.spread(included)
+            is_filed = pixels.file is not None and pixels.files[0].name in included
+            spreads[key] = pixels.file.spread(own) if pixels.file and is_filed else own
+        return spreads[key]
 
-    def seen(included: frozenset[str]) -> FloatArray:
-        values, key = pixels.read_back(included), included - optics
-        if key not in smooth:
-            smooth[key] = curve(included)
-        mean, spread = smooth[key]
-        if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
-            flat = np.clip(values.ravel(), 0.0, WHITE)
-            sharp = pixels.enhancement(included).mean(flat, pixels.look(spread, flat))
-            smoothed = sharp.reshape(values.shape)
-        else:
-            smoothed = pixels.look(mean, values)
-        inside = pixels.inside(included)
+    def curve_of(included: Names) -> FloatArray:
+        key = included - optics
+        if key not in curves:
+            curves[key] = pixels.enhancement(included).mean(levels, spread_of(included))
+        return curves[key]
+
+    def seen(sets: Sequence[Names]) -> FloatArray:
+        values = pixels.read_back(sets)
+        found = pixels.look_each(np.stack([curve_of(one) for one in sets]), values)
+        for included, own, of_own in zip(sets, values, found, strict=True):
+            spread = spread_of(included)
+            if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
+                flat = np.clip(own.ravel(), 0.0, WHITE)
+                sharp = pixels.enhancement(included).mean(flat, pixels.look(spread, flat))
+                of_own[:] = sharp.reshape(own.shape)
+        inside = pixels.inside(sets)
         if inside is not None:  # beside the panel nothing is enhanced
-            smoothed = np.where(inside, smoothed, _beside(pixels, included, values))
-        return pixels.mean_of_rows(smoothed) * weights
+            for included, own, of_own, on in zip(sets, values, found, inside, strict=True):
+                if not on.all():
+                    of_own[~on] = _beside(pixels, included, own[~on])
+        return pixels.mean_of_rows(found) * weights
 
-    found = Observed(pixels.names, seen)
+    found = Observed(pixels.names, seen, sorted(pixels.names))
     found.alone.update(_signal_sampling(pixels))
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
     method = pixels.scene.model.enhancement
@@ -90,7 +100,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     return found
 
 
-def _beside(pixels: SampledPixels, included: frozenset[str], values: FloatArray) -> FloatArray:
+def _beside(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
     """Return the mean of pixels of some mean values that are rounded and not enhanced."""
     spread = pixels.spread(included)
     if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
@@ -104,8 +114,11 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
     Whole plateaus of values that lie between two levels may be rounded otherwise; in a file
     whatever its own error reaches, since that is alike in blocks of equal rows.
     """
-    whole = np.clip(pixels.values(pixels.names), 0.0, WHITE)
-    sharp = pixels.look(pixels.spread(pixels.names), whole) < _LEAST_SMOOTHING_NOISE
+    spread = pixels.spread(pixels.names)
+    if float(spread.min()) >= _LEAST_SMOOTHING_NOISE:
+        return
+    whole = np.clip(pixels.whole, 0.0, WHITE)
+    sharp = pixels.look(spread, whole) < _LEAST_SMOOTHING_NOISE
     if not sharp.any():
         return
     enhancement = pixels.enhancement(pixels.names)
@@ -137,18 +150,16 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     large = np.flatnonzero(steps > _LARGE_STEP)
     if not len(large):
         return
-    profile = pixels.light(pixels.names).panel[region.first_column : region.last_column]
-    for limit in pixels.limits:
-        profile = limit.apply(pixels.scene, profile)
+    profile = pixels.profile(pixels.names)[region.first_column : region.last_column]
     away = np.abs(profile - large[:, None] - 0.5)
     sampled = away[:, sample.columns - region.first_column]
+    moves = pixels.mean_of((pixels.stack - pixels.whole) ** 2).tolist()
     for name in pixels.names:
         if name in pixels.variances:
             own, rest = pixels.noise_without(name)
             moved, share = own, min(0.5, (own / max(rest, _ROUNDING_MARGIN)) ** 2 / 8.0)
         else:
-            without = pixels.values(pixels.names - {name})
-            moved = math.sqrt(pixels.mean_of((pixels.values(pixels.names) - without) ** 2))
+            moved = math.sqrt(moves[pixels.place(name)])
             share = min(0.5, 0.4 * moved / max(pixels.noise_with(pixels.names), _ROUNDING_MARGIN))
         near = max(moved, _ROUNDING_MARGIN)
         unseen = np.count_nonzero(sampled < near, axis=1) < _LEAST_SAMPLED_COLUMNS
@@ -164,7 +175,7 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     lost = np.where(
         spread > _CLIPPED_NOISE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0
     )
-    cut = pixels.mean_of(pixels.look(lost, pixels.values(pixels.names)))
+    cut = float(pixels.mean_of(pixels.at_whole(lost)))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change() * min(gain, 8.0) ** 2 / 4.0
     found.doubt[name] = found.doubt.get(name, 0.0) + doubt
@@ -177,50 +188,52 @@ def _signal_sampling(pixels: SampledPixels) -> dict[str, float]:
     over the rows. Where the steps are even, a change of a whole step passes no more than one.
     """
     everything, file = pixels.names, pixels.file
-    whole, rows = pixels.values(everything), pixels.view.region.rows
+    rows = pixels.view.region.rows
     spread = pixels.spread(everything)
     levels = np.clip(pixels.levels, 0.0, WHITE)
     mean, deviation, jumps = pixels.enhancement(everything).smoothed(levels, spread)
     step = float(pixels.levels[1] - pixels.levels[0])
-    even = np.gradient(mean, step) ** 2
-    uneven = np.maximum(np.gradient(jumps, step) - even, 0.0)
+    slope = np.gradient(mean, step) ** 2
+    excess = np.maximum(np.gradient(jumps, step) - slope, 0.0)
     total = spread**2
-    inside = pixels.inside(everything)
+    tables, names = [slope, excess, slope * total], []
+    for effect in pixels.noises:
+        own = np.sqrt(pixels.variances[effect.name])
+        if file is not None:
+            read, _ = file.of_noise(*pixels.noise_without(effect.name))
+            own = np.maximum(own, math.sqrt(read))
+        part = slope * (own**2 + np.tanh(4.8 * own) / 6.0) + excess * 0.8 * own
+        part = np.where(own**2 > 0.7 * total, deviation**2, np.minimum(part, deviation**2))
+        tables += [part, own**2]
+        names.append(effect.name)
+    even, uneven, scattered, *parts = pixels.at_whole(np.stack(tables))
     one = 1.0 / (rows**2 * pixels.view.region.columns)
-    pixel = pixels.mean_of(pixels.look(even + uneven, whole)) * one
-    drawn = pixels.mean_of(pixels.look(even * total, whole)) * one
-    evenly, unevenly = pixels.look(even, whole), pixels.look(uneven, whole)
+    pixel = float(pixels.mean_of(even + uneven)) * one
+    inside = pixels.inside([everything])
     found = {}
-    for effect in pixels.effects:
-        name, linear, moves_few = effect.name, 0.0, True
-        if effect in pixels.noises:
-            own = np.sqrt(pixels.variances[name])
-            moves_few = float(own.max()) < 0.5 * float(spread.max())
-            if file is not None:
-                read, linear = file.of_noise(*pixels.noise_without(name))
-                own = np.maximum(own, math.sqrt(read))
-            part = even * (own**2 + np.tanh(4.8 * own) / 6.0) + uneven * 0.8 * own
-            part = np.where(own**2 > 0.7 * total, deviation**2, np.minimum(part, deviation**2))
-            part = pixels.look(part, whole)
-            if inside is not None:
-                part = np.where(inside, part, pixels.look(own**2, whole))
-        elif file is not None and effect in pixels.files:
-            linear, moves_few = file.own_sampling(), False
-            moved = min(math.sqrt(file.own_change()), 1.0)
-            part = pixels.look(even / 6.0 + uneven * 0.8 * moved, whole)
-        else:
-            without = pixels.values(everything - {name})
-            change = np.abs(whole - without)
-            if file is not None:
-                added, linear = file.added(without)
-                change = np.sqrt(change**2 + max(added, 0.0))
-            change = np.minimum(change, 0.5)
-            part = evenly * change * (1.0 - change) + unevenly * change
-        if linear:
-            part = part + linear * rows * evenly
-        found[name] = pixels.mean_of(part) / rows
-        if effect in pixels.noises:  # one pixel whose noise is drawn otherwise
-            found[name] += drawn
-        if moves_few:
-            found[name] += _FLUCTUATION * math.sqrt(found[name] * pixel)
+
+    def sampling(part: FloatArray, linear: float, moves_few: bool) -> float:
+        square = float(pixels.mean_of(part + linear * rows * even if linear else part)) / rows
+        return square + moves_few * _FLUCTUATION * math.sqrt(square * pixel)
+
+    for name, part, own in zip(names, parts[::2], parts[1::2], strict=True):
+        own_spread = float(pixels.variances[name].max())
+        moves_few = own_spread < 0.25 * float(total.max())
+        linear = file.of_noise(*pixels.noise_without(name))[1] if file is not None else 0.0
+        shown = part if inside is None else np.where(inside[0], part, own)
+        # One pixel whose noise is drawn otherwise.
+        drawn = float(pixels.mean_of(scattered)) * one
+        square = float(pixels.mean_of(shown + linear * rows * even)) / rows + drawn
+        found[name] = square + moves_few * _FLUCTUATION * math.sqrt(square * pixel)
+    if file is not None:
+        moved = min(math.sqrt(file.own_change()), 1.0)
+        part = even / 6.0 + uneven * 0.8 * moved
+        found[pixels.files[0].name] = sampling(part, file.own_sampling(), moves_few=False)
+    for name in pixels.moving:
+        change, linear = np.abs(pixels.stack[pixels.place(name)] - pixels.whole), 0.0
+        if file is not None:
+            added, linear = (float(of_sets[pixels.place(name)]) for of_sets in file.added)
+            change = np.sqrt(change**2 + max(added, 0.0))
+        change = np.minimum(change, 0.5)
+        found[name] = sampling(even * change * (1.0 - change) + uneven * change, linear, moves_few=True)
     return found

@@ -1,13 +1,14 @@
 """Pixels of a sample of a scene, with all effects and without each; columns cost microseconds."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
@@ -35,6 +36,9 @@ from occ_model.effects.file_change import FileChange
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.sample import Sample, sample_of
 
+Names = frozenset[str]
+"""Effects by name."""
+
 _LEVELS = 129
 
 _UNSAMPLED_RIM_PIXELS = 1.0
@@ -44,20 +48,12 @@ _SEEN_SHARE = 0.003
 """Change of a pixel's light from beyond a rim that can round it otherwise."""
 
 
-class _Light:
-    """The columns' values with some effects on the light."""
-
-    def __init__(self, view: PaperView, effects: Iterable[LightEffect]) -> None:
-        scene, light = view.scene, view.light
-        for effect in effects:
-            light = effect.apply(scene, light)
-        self.light: ColumnLight = light
-        self.panel = view.values if light is view.light else panel_values(scene, light)
-        self.surroundings = np.broadcast_to(surroundings_values(scene, light), self.panel.shape)
-
-
 class SampledPixels:
-    """A sample of a scene's pixels, and what they and their noise are with some of the effects."""
+    """A sample of a scene's pixels, and what they and their noise are with some of the effects.
+
+    What is asked of many sets of effects is computed for all of them at once: the first axis of
+    the arrays is that of the sets.
+    """
 
     def __init__(self, view: PaperView, effects: Iterable[Effect]) -> None:
         self.view = view
@@ -69,14 +65,13 @@ class SampledPixels:
         self.limits = [e for e in self.effects if isinstance(e, PixelEffect)]
         self.noises = [e for e in self.effects if isinstance(e, NoiseEffect)]
         self.files = [e for e in self.effects if isinstance(e, FileEffect)]
-        self.means = [*self.lights, *self.lenses, *self.limits]
-        self._light_of: dict[frozenset[str], _Light] = {}
-        self._values_of: dict[frozenset[str], FloatArray] = {}
-        self._place_of: dict[int, tuple[FloatArray, tuple[IndexArray, FloatArray]]] = {}
-        self._enhancement_of: dict[frozenset[str], Enhancement] = {}
+        self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
+        self._moving = frozenset(self.moving)
+        self._light_of: dict[Names, ColumnLight] = {}
+        self._enhancement_of: dict[Names, Enhancement] = {}
         self.sample = self._sampled()
-        power = 1.0 / self.scene.camera.gamma
-        self._dimmed = {n: g**power for n, g in self.sample.transmission.items()}
+        gains, power = self.sample.transmission, 1.0 / self.scene.camera.gamma
+        self._dimmed = {name: _power(gain, power) for name, gain in gains.items()}
 
     def _sampled(self) -> Sample:
         scene, view = self.scene, self.view
@@ -102,56 +97,85 @@ class SampledPixels:
 
         return MEMORY.recall(key, make, lambda made: made.arrays)
 
-    def light(self, included: frozenset[str]) -> _Light:
-        """Return the values of all columns of the picture with some effects on the light."""
+    @cached_property
+    def stack(self) -> FloatArray:
+        """The pixels' mean values with all effects, and without each of ``moving``."""
+        return self._computed([self._moving, *(self._moving - {name} for name in self.moving)])
+
+    @property
+    def whole(self) -> FloatArray:
+        """The pixels' mean values with all effects, shape (columns, nodes)."""
+        return np.asarray(self.stack[0])
+
+    def place(self, name: str) -> int:
+        """Return the place in ``stack`` of the pixels without an effect."""
+        return self.moving.index(name) + 1 if name in self._moving else 0
+
+    def values(self, sets: Sequence[Names]) -> FloatArray:
+        """Return the pixels' mean values with some effects, shape (sets, columns, nodes)."""
+        asked = [included & self._moving for included in sets]
+        missing = [self._moving - included for included in asked]
+        if all(len(names) <= 1 for names in missing):
+            return self.stack[[self.place(next(iter(names), "")) for names in missing]]
+        return self._computed(asked)
+
+    def _light(self, included: Names) -> ColumnLight:
+        """Return the light of all columns with some effects on it."""
         chosen = [effect for effect in self.lights if effect.name in included]
         key = frozenset(effect.name for effect in chosen)
         if key not in self._light_of:
-            self._light_of[key] = _Light(self.view, chosen)
+            light = self.view.light
+            for effect in chosen:
+                light = effect.apply(self.scene, light)
+            self._light_of[key] = light
         return self._light_of[key]
 
-    def values(self, included: frozenset[str]) -> FloatArray:
-        """Return the pixels' mean values with some effects, shape (columns, nodes)."""
-        included = included & frozenset(e.name for e in self.means)
-        if included not in self._values_of:
-            self._values_of[included] = self._computed(included)
-        return self._values_of[included]
+    def _at_columns(self, included: Names) -> tuple[FloatArray, FloatArray]:
+        """Return the values of the sample's columns, on the panel and beside it."""
+        light, columns = self._light(included), self.sample.columns
+        ambient = light.ambient if len(light.ambient) == 1 else light.ambient[columns]
+        own = ColumnLight(light.lit[columns], ambient)
+        panel = panel_values(self.scene, own)
+        return panel, np.broadcast_to(surroundings_values(self.scene, own), panel.shape)
 
-    def _computed(self, included: frozenset[str]) -> FloatArray:
+    def _computed(self, sets: Sequence[Names]) -> FloatArray:
         sample, camera = self.sample, self.scene.camera
-        light = self.light(included)
-        places = sample.columns
-        panel = light.panel[places][:, None]
-        cover = sample.covers[included & self.outline]
-        emission = [gain for name, gain in sample.emission.items() if name in included]
-        if cover is None and not emission:
-            values = np.broadcast_to(panel, sample.rows.shape)
-        else:
-            surroundings = light.surroundings[places][:, None]
-            dark = luminance_of(surroundings, camera)
+        lights = [effect.name for effect in self.lights]
+        keys = [included.intersection(lights) for included in sets]
+        known = {key: self._at_columns(key) for key in dict.fromkeys(keys)}
+        panel = np.stack([known[key][0] for key in keys])[:, :, None]
+        values = np.empty((len(sets), *sample.rows.shape))
+        if any(cover is not None for cover in sample.covers.values()) or sample.emission:
+            dark = luminance_of(np.stack([known[key][1] for key in keys]), camera)[:, :, None]
             own = luminance_of(panel, camera) - dark
-            for factor in [*emission, *([] if cover is None else [cover])]:
-                own = own * factor
-            values = pixel_value(np.maximum(dark + own, 0.0), camera)
-        for name, gain in self._dimmed.items():
-            if name in included:
-                values = values * gain
-        for limit in self.limits:
-            if limit.name in included:
-                values = limit.apply(self.scene, values)
-        return np.minimum(values, WHITE)
+            for included, one, of_panel in zip(sets, values, own, strict=True):
+                cover = sample.covers[included & self.outline]
+                one[:] = of_panel if cover is None else of_panel * cover
+                for name, gain in sample.emission.items():
+                    if name in included:
+                        one *= gain
+            values += dark
+            values = pixel_value(np.maximum(values, 0.0, out=values), camera, _power)
+        else:
+            values[:] = panel
+        for included, one in zip(sets, values, strict=True):
+            for name, dimmed in self._dimmed.items():
+                if name in included:
+                    one *= dimmed
+            for limit in self.limits:
+                if limit.name in included:
+                    one[:] = limit.apply(self.scene, one)
+        return np.minimum(values, WHITE, out=values)
 
     @cached_property
-    def outline(self) -> frozenset[str]:
+    def outline(self) -> Names:
         """The effects that move or soften the rims of the panel."""
         return max(self.sample.covers, key=len)
 
     @cached_property
     def levels(self) -> FloatArray:
         """Levels from the darkest pixel of the sample to the brightest, with any effects."""
-        found = [self.values(self.names), *(self.values(self.names - {e.name}) for e in self.means)]
-        low = min(float(values.min()) for values in found)
-        high = max(float(values.max()) for values in found)
+        low, high = float(self.stack.min()), float(self.stack.max())
         step = max(high - low, FLAT) / (_LEVELS - 3)
         full = saturation_value(self.scene)
         if low < full < high:  # where noise ends, a level of the table
@@ -165,51 +189,66 @@ class SampledPixels:
             e.name: e.spread(self.scene, np.maximum(self.levels, 0.0)) ** 2 for e in self.noises
         }
 
-    def spread(self, included: frozenset[str]) -> FloatArray:
+    def spread(self, included: Names) -> FloatArray:
         """Return the standard deviation of noise at the levels, with some effects."""
         own = [variance for name, variance in self.variances.items() if name in included]
         return np.sqrt(sum(own, np.zeros(_LEVELS)))
 
-    def look(self, table: FloatArray, values: FloatArray) -> FloatArray:
-        """Interpolate a table over the levels at values."""
+    def look(self, tables: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate tables over the levels, the last axis, at values: (..., *values.shape)."""
         below, share = self._place(values)
-        steps = table[1:] - table[:-1]
-        return np.asarray(table[below] + share * steps[below])
+        return np.asarray(tables[..., below] + share * np.diff(tables)[..., below])
 
-    def _place(self, values: FloatArray) -> tuple[IndexArray, FloatArray]:
+    def look_each(self, tables: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate a table of its own for each of the sets: (sets, columns, nodes)."""
+        below, share = self._place(values)
+        steps = np.diff(tables, append=0.0).ravel()
+        below += _LEVELS * np.arange(len(tables))[:, None, None]
+        return np.asarray(tables.ravel()[below] + share * steps[below])
+
+    def at_whole(self, tables: FloatArray) -> FloatArray:
+        """Interpolate tables at the pixels with all effects."""
+        below, share = self._place_of_whole
+        return np.asarray(tables[..., below] + share * np.diff(tables)[..., below])
+
+    @cached_property
+    def _place_of_whole(self) -> tuple[NDArray[np.intp], FloatArray]:
+        return self._place(self.whole)
+
+    def _place(self, values: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
         """Return the level below each value, and how far the value lies towards the next one."""
-        known = self._place_of.get(id(values))
-        if known is not None and known[0] is values:
-            return known[1]
         low, high = float(self.levels[0]), float(self.levels[-1])
         place = (values - low) * ((_LEVELS - 1) / (high - low))
-        place = np.minimum(np.maximum(place, 0.0), _LEVELS - 1.001)
+        np.maximum(place, 0.0, out=place)
+        np.minimum(place, _LEVELS - 1.001, out=place)
         below = place.astype(np.intp)
-        found = below, place - below
-        if any(values is kept for kept in self._values_of.values()):  # looked up again and again
-            self._place_of[id(values)] = values, found
-        return found
+        place -= below
+        return below, place
 
     @cached_property
     def file(self) -> FileChange | None:
         """What the file makes of the pixels, None where the scene has none."""
         if not self.files:
             return None
-        sample, view = self.sample, self.view
         return FileChange(
             self.files[0].steps(self.scene),
-            sample.blocks,
-            sample.inner,
-            self.values(self.names),
+            self.sample,
+            self.stack,
             self.noise_with(self.names),
-            view.region.rows / 8.0,
+            self.view.region.rows / 8.0,
             self.rim_share,
         )
 
-    def noise_with(self, included: frozenset[str]) -> float:
+    def noise_with(self, included: Names) -> float:
         """Return the root mean square of noise on the panel with some effects."""
-        whole = self.values(self.names)[:, self.sample.inner]
-        return math.sqrt(float(self.look(self.spread(included) ** 2, whole).mean()))
+        squares = [square for name, square in self._noise_squares.items() if name in included]
+        return math.sqrt(sum(squares))
+
+    @cached_property
+    def _noise_squares(self) -> dict[str, float]:
+        found = self.at_whole(np.stack(list(self.variances.values())))
+        means = found[:, :, self.sample.inner].mean(axis=(1, 2))
+        return dict(zip(self.variances, means.tolist(), strict=True))
 
     def noise_without(self, name: str) -> tuple[float, float]:
         """Return the root mean square of a noise, and of all the other, on the panel."""
@@ -256,36 +295,52 @@ class SampledPixels:
 
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
         """Return the mean of each column over its rows."""
-        return np.asarray((seen * self.sample.row_weights).sum(axis=1))
+        return np.asarray(np.einsum("...cn,cn->...c", seen, self.sample.row_weights))
 
-    def mean_of(self, pixels: FloatArray) -> float:
-        """Return the mean over all pixels."""
-        return float((self.mean_of_rows(pixels) * self.sample.weights).sum())
+    def mean_of(self, pixels: FloatArray) -> FloatArray:
+        """Return the mean over all pixels, shape (...)."""
+        return np.asarray(np.tensordot(pixels, self.sample.pixel_weights, 2))
 
-    def read_back(self, included: frozenset[str]) -> FloatArray:
+    def read_back(self, sets: Sequence[Names]) -> FloatArray:
         """Return the pixels' mean values, of a file as they are read back."""
-        values = self.values(included)
-        if self.file is None or self.files[0].name not in included:
+        values = self.values(sets)
+        filed = [at for at, one in enumerate(sets) if self.files and self.files[0].name in one]
+        if self.file is None or not filed:
             return values
-        return self.file.means(values, self.noise_with(included))
+        noise = np.array([self.noise_with(sets[at]) for at in filed])
+        values[filed] = self.file.means(values[filed], noise)
+        return values
 
-    def enhancement(self, included: frozenset[str]) -> Enhancement:
+    def profile(self, included: Names) -> FloatArray:
+        """Return the values of all columns on the panel that some effects leave."""
+        light = self._light(included)
+        found = self.view.values if light is self.view.light else panel_values(self.scene, light)
+        for limit in self.limits:
+            if limit.name in included:
+                found = limit.apply(self.scene, found)
+        return saturate(found)
+
+    def enhancement(self, included: Names) -> Enhancement:
         """Return the receiver's enhancement of the profile that some effects leave."""
-        key = included & frozenset(e.name for e in (*self.lights, *self.limits))
+        key = included.intersection(e.name for e in (*self.lights, *self.limits))
         if key not in self._enhancement_of:
-            profile = self.light(included).panel
-            for limit in self.limits:
-                if limit.name in included:
-                    profile = limit.apply(self.scene, profile)
             method = self.scene.model.enhancement
-            self._enhancement_of[key] = Enhancement(saturate(profile), method)
+            self._enhancement_of[key] = Enhancement(self.profile(included), method)
         return self._enhancement_of[key]
 
-    def inside(self, included: frozenset[str]) -> NDArray[np.bool_] | None:
+    def inside(self, sets: Sequence[Names]) -> NDArray[np.bool_] | None:
         """Return which pixels of the sample are the panel's, None where all are."""
-        share = self.sample.covers[included & self.outline]
-        return None if share is None else share >= 0.5
+        covers = [self.sample.covers[included & self.outline] for included in sets]
+        if all(cover is None for cover in covers):
+            return None
+        shape = self.sample.rows.shape
+        return np.stack([np.ones(shape, bool) if c is None else c >= 0.5 for c in covers])
 
     def is_like_noise(self, name: str) -> bool:
         """Return whether what an effect changes differs from column to column."""
         return any(effect.name == name for effect in (*self.noises, *self.files))
+
+
+def _power(values: FloatArray, power: float) -> FloatArray:
+    """Return a power, some times faster than NumPy's."""
+    return np.asarray(cv2.pow(values.reshape(-1, 1), power)).reshape(values.shape)

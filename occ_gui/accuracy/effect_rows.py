@@ -135,7 +135,7 @@ def _row(
         stage,
         decision.label,
         found if decision.estimate else None,
-        decision.estimate or None,
+        decision.limit or None,
         error,
         meaning,
         seconds if time else None,

@@ -50,8 +50,14 @@ class Observed:
         moved = found[1:] - found[0]
         self._products = moved @ moved.T
 
+    def shown(self, name: str) -> float:
+        """Return the mean square of what leaving out an effect changes, as the sample shows it."""
+        place = self._place.get(name)
+        square = 0.0 if place is None else float(self._products[place, place])
+        return max(square + self.alone.get(name, 0.0), 0.0)
+
     def together(self, left_out: frozenset[str]) -> float:
-        """Return the mean square of what leaving out some effects together changes."""
+        """Return the most of the mean square of what leaving out some together changes."""
         if not left_out:
             return 0.0
         moved = [self._place[name] for name in left_out if name in self._place]

@@ -29,6 +29,8 @@ class Decision:
         stretched profile: close, and with an allowance above. 0 where the scene does not have the
         effect; of the observable ``"decision"`` in margins, 1 being where a chip could be read
         otherwise.
+    limit
+        The most that it changes, as far as a sample can show: what is compared with the tolerance.
     included
         Whether it is simulated.
     forced
@@ -44,6 +46,7 @@ class Decision:
     kind: str
     stage: Stage
     estimate: float
+    limit: float
     included: bool
     forced: bool
     why: str

@@ -1,0 +1,133 @@
+"""The sets of effects that a scene can be simulated with, what they take and how far they are."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.effects.cost import seconds_of
+from occ_model.effects.effect import Effect
+from occ_model.effects.estimates import ALLOWANCE, Estimates
+from occ_model.effects.paper_view import PaperView
+from occ_model.effects.registry import EFFECTS
+from occ_model.results.plan import Way
+from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
+
+_FARTHEST = 1.5
+"""Times that changes that are added may exceed the tolerance where together they are within it."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EffectSets:
+    """The sets of effects that no other is both faster and closer than, the fastest first.
+
+    Parameters
+    ----------
+    estimates
+        What leaving effects out changes.
+    names
+        The effects that may be left out.
+    everything
+        Seconds with all of them.
+    ways
+        The sets, with their errors as if changes added.
+    """
+
+    estimates: Estimates
+    names: frozenset[str]
+    everything: float
+    ways: tuple[Way, ...]
+
+    @classmethod
+    def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> "EffectSets":
+        """Compare all sets of a scene's effects that are not switched by hand."""
+        force = settings.force
+        free = tuple(e for e in EFFECTS if e.name in estimates.sizes and e.name not in force)
+        forced_in = tuple(e for e in EFFECTS if force.get(e.name))
+        pixels = view.scene.camera.rows * view.scene.camera.columns
+        subsets = _subsets(free, forced_in, pixels, settings.noise)
+        errors = _errors_of(estimates, free, subsets.left_out)
+        ordered = errors[subsets.order]
+        is_closer = ordered[1:] < np.minimum.accumulate(ordered)[:-1]
+        front = subsets.order[np.append(True, is_closer)]
+        ways = tuple(
+            Way(subsets.effects[at], seconds, error)
+            for at, seconds, error in zip(
+                front.tolist(), subsets.seconds[front].tolist(), errors[front].tolist(), strict=True
+            )
+        )
+        return cls(estimates, subsets.effects[0], float(subsets.seconds[0]), ways)
+
+    def error_of(self, way: Way) -> float:
+        """Return the least tolerance at which a set may be simulated.
+
+        Its effects' changes may add up otherwise than their sum, and are tried together.
+        """
+        return max(self.estimates.error_of(self.names - way.effects), way.error / _FARTHEST)
+
+    def chosen(self, tolerance: float) -> tuple[Way, float]:
+        """Return the fastest set within a tolerance, and its error."""
+        if tolerance == math.inf:
+            return Way(frozenset(), self.ways[0].seconds, math.inf), math.inf
+        for way in self.ways if tolerance else ():
+            if way.error <= tolerance * _FARTHEST:
+                error = self.error_of(way)
+                if error <= tolerance:
+                    return way, error
+        return Way(self.names, self.everything, 0.0), 0.0
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Subsets:
+    """All subsets of some effects, the first of which has all.
+
+    Parameters
+    ----------
+    effects
+        The names in each.
+    left_out : ndarray of float64, shape (subsets, effects)
+        1 where a subset does not have an effect.
+    seconds : ndarray of float64, shape (subsets,)
+        What each takes.
+    order : ndarray of int64, shape (subsets,)
+        The fastest first.
+    """
+
+    effects: tuple[frozenset[str], ...]
+    left_out: FloatArray
+    seconds: FloatArray
+    order: np.ndarray
+
+
+@lru_cache(maxsize=8)
+def _subsets(
+    free: tuple[Effect, ...], forced_in: tuple[Effect, ...], pixels: int, noise: NoiseSource
+) -> _Subsets:
+    number = np.arange(2 ** len(free))[:, None]
+    left_out = ((number >> np.arange(len(free))) & 1).astype(np.float64)
+    inside = np.hstack([1.0 - left_out, np.ones((len(left_out), len(forced_in)))])
+    seconds = seconds_of([*free, *forced_in], inside, pixels, noise)
+    names = [
+        frozenset(e.name for e, out in zip(free, row, strict=True) if not out)
+        for row in left_out.tolist()
+    ]
+    return _Subsets(tuple(names), left_out, seconds, np.argsort(seconds, kind="stable"))
+
+
+def _errors_of(
+    estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray
+) -> FloatArray:
+    """Return what leaving out sets of effects changes, in levels, as if changes added."""
+    if estimates.seen is None:
+        return np.where(left_out.any(axis=1), math.inf, 0.0)
+    if not free:
+        return np.zeros(1)
+    names = [effect.name for effect in free]
+    factors = np.array([estimates.factors[name] for name in names])
+    squares = estimates.seen.of_subsets(names, left_out)
+    factor = np.maximum((left_out * factors).max(axis=1), 1.0)
+    errors = np.sqrt(squares) * (ALLOWANCE * estimates.stretch) * factor
+    errors[0] = 0.0
+    return errors

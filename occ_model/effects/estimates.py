@@ -1,0 +1,154 @@
+"""How much leaving effects out changes what is observed of a scene, estimated from a sample."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.effects.effect import Effect
+from occ_model.effects.observed import Observed
+from occ_model.effects.observed_image import observed_image, observed_profile
+from occ_model.effects.observed_signal import observed_signal, signal_swing
+from occ_model.effects.paper_view import PaperView
+from occ_model.effects.registry import EFFECTS
+from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.errors import ProjectionError
+from occ_model.scene.simulation_settings import Observable, SimulationSettings
+
+ALLOWANCE = 1.2
+"""Factor on what a sample shows, so that hardly any change is larger than its estimate."""
+
+_PEAK, _NOISE_PEAK = 2.0, 3.0
+"""Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
+
+_LEAST_ESTIMATE = 1e-9
+"""Estimate in grey levels of an effect that a scene has and a sample does not show."""
+
+_UNDITHERED_FRACTION = 0.25
+"""Share of a mean square by which a file without noise may change it further."""
+
+_READ_FRACTION = 0.15
+"""Share of a chip from its middle at which it is read."""
+
+
+def observed(pixels: SampledPixels, observable: Observable) -> Observed:
+    """Return what is observed of the sample, and how it changes."""
+    if observable == "image":
+        found = observed_image(pixels)
+    else:
+        found = observed_profile(pixels) if observable == "profile" else observed_signal(pixels)
+    if pixels.file is not None:
+        found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_share
+        doubt = pixels.file.undithered()
+        rims = pixels.rim_share  # where no noise spreads it, a rim's blocks round otherwise
+        square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
+        at_rims = pixels.file.undithered_share * pixels.file.added_at_rims(rims, square)
+        doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
+        for name in pixels.names:
+            found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+    return found
+
+
+def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
+    """Return how far chips keep from the threshold, and the steps between columns near it.
+
+    Both in levels of the signal. A chip that passes the threshold is read wrongly; where the
+    signal crosses it, noise larger than the step between columns makes runs that are none.
+    """
+    scene, sample = pixels.scene, pixels.sample
+    seen = signal.complete / np.sqrt(sample.weights)
+    low, high = float(seen.min()), float(seen.max())
+    camera, frequency = scene.camera, scene.transmitter.switching_frequency
+    middle = scene.model.start_time + sample.columns * camera.readout_time
+    phase = (middle + camera.exposure_time / 2.0) * frequency % 1.0
+    chips = seen[np.abs(phase - 0.5) < _READ_FRACTION]
+    if high - low < 1.0 or not len(chips):
+        return 0.0, 0.0
+    scaled = ((seen - low) * (WHITE / (high - low))).astype(np.uint8)
+    found, _ = cv2.threshold(scaled[None, :], 0, 255, cv2.THRESH_OTSU)
+    threshold = low + (found + 0.5) * (high - low) / WHITE
+    across = max(camera.exposure_time / camera.readout_time, 1.0)
+    return float(np.abs(chips - threshold).min()), (high - low) / across
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Estimates:
+    """What leaving effects out changes.
+
+    Parameters
+    ----------
+    sizes, limits
+        The change by each effect of the scene, in levels of the stretched profile, by name: as the
+        sample shows it, and with what it may not show.
+    seen
+        What is observed, None where no set of effects is known to be small enough.
+    stretch
+        Levels of the stretched profile per grey level.
+    factors
+        By what an effect's change counts more than by its size.
+    """
+
+    sizes: Mapping[str, float]
+    limits: Mapping[str, float]
+    seen: Observed | None
+    stretch: float
+    factors: Mapping[str, float]
+
+    def with_others_of(self, other: "Estimates") -> "Estimates":
+        """Return the same with the sizes of effects that are missing here."""
+        sizes, limits = {**other.sizes, **self.sizes}, {**other.limits, **self.limits}
+        return Estimates(sizes, limits, self.seen, self.stretch, self.factors)
+
+    def unknown(self) -> "Estimates":
+        """Return the same where no set of effects is known to be small enough together."""
+        return Estimates(self.sizes, self.limits, None, self.stretch, self.factors)
+
+    def error_of(self, left_out: frozenset[str]) -> float:
+        """Return what leaving out some effects together changes at most, in levels."""
+        if not left_out:
+            return 0.0
+        if self.seen is None:
+            return math.inf
+        factor = max(self.factors.get(name, 1.0) for name in left_out)
+        return math.sqrt(self.seen.together(left_out)) * ALLOWANCE * self.stretch * factor
+
+
+def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
+    """Estimate what leaving out each effect changes, with some switched by hand."""
+    try:
+        found = _estimates_of(view, settings.observable, EFFECTS)
+    except ProjectionError:  # the simulation refuses the lens
+        unknown = {"distortion": math.inf}
+        return Estimates(unknown, unknown, None, WHITE / view.swing, {})
+    force = settings.force
+    if any(not on and name in found.sizes for name, on in force.items()):
+        kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
+        found = _estimates_of(view, settings.observable, kept).with_others_of(found)
+    # Far above the tolerance, or hidden to a sample: it cannot tell.
+    return found.unknown() if view.swing <= FLAT else found
+
+
+def _estimates_of(
+    view: PaperView, observable: Observable, effects: tuple[Effect, ...]
+) -> Estimates:
+    pixels = SampledPixels(view, effects)
+    of_signal = observable in ("signal", "decision")
+    swing = signal_swing(pixels) if of_signal else view.swing
+    stretch, factors = WHITE / swing, dict.fromkeys(pixels.names, 1.0)
+    seen = observed(pixels, "signal" if of_signal else observable)
+    if observable == "decision":
+        margin, step = (max(found, 1e-6) for found in margins(pixels, seen))
+        stretch = _PEAK / margin
+        for name in pixels.names:
+            if pixels.is_like_noise(name):
+                factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
+    sizes, limits = {}, {}
+    for effect in pixels.effects:
+        name = effect.name
+        unit = ALLOWANCE * stretch * factors[name]
+        sizes[name] = max(math.sqrt(seen.shown(name)), _LEAST_ESTIMATE) * unit
+        limits[name] = max(math.sqrt(seen.together(frozenset({name}))) * unit, sizes[name])
+    return Estimates(sizes, limits, seen, stretch, factors)

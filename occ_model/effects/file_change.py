@@ -96,6 +96,29 @@ def _rounded_noise(s: FloatArray) -> FloatArray:
     return np.where(s > _FINEST, s * s + 1.0 / 12.0, np.interp(s, *_rounded_noises()))
 
 
+def _rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
+    """Return the variance of rounded values of some mean and noise, in steps."""
+    away = x - np.rint(x)
+    mean, square = np.zeros(np.broadcast_shapes(x.shape, s.shape)), 0.0
+    for step in (1.0, 2.0, 3.0):
+        above = normal_share((away - step + 0.5) / s)
+        below = normal_share((-away - step + 0.5) / s)
+        mean += above - below
+        square = square + (2.0 * step - 1.0) * (above + below)
+    return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))
+
+
+_WIDE = 0.8
+"""Noise in steps from which its rounded values vary as much wherever they lie."""
+
+_CUT_BLOCK = 84.0 / 64.0
+"""Variance of the sum of the first n rows of a block whose mean is 0, in a pixel's, for any n."""
+
+_EDGE_SPECTRUM: FloatArray = np.full((8, 8), 8.0 / math.pi) / np.outer(
+    np.maximum(np.arange(8.0), 1.0), np.maximum(np.arange(8.0), 1.0)
+)
+"""About the coefficients of an edge of one grey level in a block."""
+
 _DITHERED = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
@@ -119,10 +142,12 @@ class FileChange:
         Its pixels with all effects, and without some.
     spread
         Root mean square of a pixel's noise in grey levels.
-    block_rows
-        Rows of blocks that the panel spans.
+    rows
+        Rows that the panel spans.
     rims
         Share of the pixels that lie in blocks with a rim of the panel.
+    ends
+        Rims that a column meets: where what is observed cuts a block.
     """
 
     def __init__(  # noqa: PLR0917 - what a file and a sample are
@@ -131,18 +156,21 @@ class FileChange:
         sample: Sample,
         stack: FloatArray,
         spread: float,
-        block_rows: float,
+        rows: int,
         rims: float,
+        ends: float,
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]
         self._others = steps[1:].ravel()
         self._all = steps.ravel()
         self._noise = math.sqrt(spread**2 + _ROUNDING)
-        self.block_rows = max(block_rows, 1.0)
+        self.block_rows = max(rows / 8.0, 1.0)
         self._rims = rims
+        self._cut = _CUT_BLOCK * ends / rows**2
         self._stack = stack
-        self._contrast = float(np.ptp(stack[0]))
+        contrast = float(np.ptp(stack[0]))
+        self._of_rims = np.hypot(self._noise, contrast * _EDGE_SPECTRUM).ravel() / self._all
         self._x = self._coefficients(stack)
 
     def _in_blocks(self, values: FloatArray) -> FloatArray:
@@ -194,15 +222,14 @@ class FileChange:
 
     @property
     def _rounding_at_edges(self) -> float:
-        """The mean square of rounding where a rim spreads all coefficients."""
-        return min(float((self._all**2).mean()) / 12.0, self._contrast**2 / 4.0)
+        """The mean square of rounding in blocks with a rim."""
+        return float((self._all**2 * np.minimum(self._of_rims**2, 1.0 / 12.0)).mean())
 
     def own_sampling(self) -> float:
         """Return the mean square of the rounding's sampling error in a column's mean."""
         own = self._noise / self._step
         square = self._step**2 * np.minimum(1.0, (own / _DITHERED) ** 2) / 12.0
-        rims = self._rims * self._rounding_at_edges
-        return (float(square.sum()) / 64.0 + rims) / self.block_rows
+        return float(square.sum()) / 64.0 / self.block_rows + self._cut * self._rounding_at_edges
 
     @cached_property
     def added(self) -> tuple[FloatArray, FloatArray]:
@@ -224,22 +251,30 @@ class FileChange:
         flips = np.sqrt(_moved_steps(moved).mean(axis=1))
         size = np.sqrt((moved**2).mean(axis=1))
         step = self._step
-        sharp = (self._noise / step < _DITHERED)[:, 0]
-        by_noise = _moved_steps_of_noise(flips[:, None, None] / step)[:, None]
-        steps = np.maximum(_moved_steps(change), by_noise)
-        if sharp.any():
-            whole = np.rint(self._x[:, :, sharp])
-            steps[:, :, sharp] = (whole - whole[0]) ** 2 - change[:, :, sharp] ** 2
-        along = (steps * step**2).sum(axis=2).mean(axis=(1, 2))
+        read = self._x + _rounding_mean(self._x, self._noise / step)
+        shift = read - read[0]
+        by_noise = _moved_steps_of_noise(flips[:, None, None] / step)
+        spread = np.maximum(_moved_steps(shift), by_noise[:, None] * self._near_half)
+        along = ((shift**2 - change**2 + spread) * step**2).sum(axis=2).mean(axis=(1, 2))
+        apart = (spread * step**2).sum(axis=2).mean(axis=(1, 2))
         q = self._others
         across = _moved_steps_of_noise(flips[:, None] / q) @ (q**2 * _near_half(self._noise / q))
-        rims = self._rims * self._at_rims(np.hypot(size, flips))
-        image = (1.0 - self._rims) * (along + across) / 64.0 + rims
-        return image, (np.maximum(along, 0.0) / 64.0 + rims) / self.block_rows
+        rims = self._at_rims(np.hypot(size, flips))
+        image = (1.0 - self._rims) * (along + across) / 64.0 + self._rims * rims
+        return image, apart / 64.0 / self.block_rows + self._cut * rims
+
+    @cached_property
+    def _near_half(self) -> FloatArray:
+        """How near to a step's end the coefficients are, against values spread evenly."""
+        away = np.abs(self._x[0] - np.rint(self._x[0]))
+        spread = np.maximum(self._noise / self._step, _SHARP)
+        density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
+        return np.minimum(density, 1.0)
 
     def _at_rims(self, size: FloatArray) -> FloatArray:
-        """Return what rounding adds to changes where a rim spreads all coefficients."""
-        return np.asarray(_moved_steps_of_noise(size[..., None] / self._all) @ self._all**2 / 64.0)
+        """Return what rounding adds to changes in blocks with a rim."""
+        weights = self._all**2 * _near_half(self._of_rims) / 64.0
+        return np.asarray(_moved_steps_of_noise(size[..., None] / self._all) @ weights)
 
     @property
     def undithered_share(self) -> float:
@@ -291,14 +326,18 @@ class FileChange:
         """
         rest = math.sqrt(left**2 + _ROUNDING)
         own = math.sqrt(own**2 + float(_moved_steps_of_noise(np.asarray(own))))
-        step, q = self._step[:, 0], self._others
-        along = (own * own + step**2 * _moved_steps_of_noise(own / step)).sum()
-        both = _rounded_noise(math.hypot(own, rest) / q) + _rounded_noise(rest / q)
+        all_of_it = math.hypot(own, rest)
+        step, q = self._step, self._others
+        both = _rounded_variance(self._x[0], all_of_it / step)
+        both = (both + _rounded_variance(self._x[0], rest / step)).mean(axis=(0, 2))
+        apart = (own / step) ** 2 + _moved_steps_of_noise(own / step)
+        along = float((step**2 * np.minimum(both[:, None], apart)).sum()) / 64.0
+        both = _rounded_noise(all_of_it / q) + _rounded_noise(rest / q)
         apart = (own / q) ** 2 + _moved_steps_of_noise(own / q)
-        across = (q**2 * np.minimum(both, apart)).sum()
-        rims = self._rims * float(self._at_rims(np.array(own)))
-        image = float(along + across) / 64.0 + rims
-        return image, (float(along) / 64.0 + rims) / self.block_rows
+        across = float((q**2 * np.minimum(both, apart)).sum()) / 64.0
+        rims = float(self._at_rims(np.array(own)))
+        image = along + across + self._rims * rims
+        return image, along / self.block_rows + self._cut * rims
 
 
 def _near_half(s: FloatArray) -> FloatArray:

@@ -32,6 +32,11 @@ def observed_image(pixels: SampledPixels) -> Observed:
         found.doubt[name] = pixels.doubted_pixels(
             pixels.contrast**2 / (region.rows * region.columns)
         )
+        if file is not None and not pixels.sample.is_covered:
+            # A rim that moves outwards changes blocks that are observed in part.
+            rims = pixels.rim_share
+            beyond = file.added_at_rims(rims, rims * pixels.view.swing**2 / 64.0)
+            found.doubt[name] += beyond
     for effect, variance in zip(pixels.noises, noise, strict=True):
         found.alone[effect.name] = (
             float(pixels.mean_of(variance))
@@ -52,11 +57,7 @@ def _added_at_rims(pixels: SampledPixels, name: str, plain: float) -> float:
     if name not in pixels.outline or pixels.file is None:
         return 0.0
     ends = pixels.moved_rims(name) * 8.0 / pixels.view.region.rows
-    if plain:
-        return pixels.file.added_at_rims(min(ends, 1.0), plain)
-    # A rim that moves outwards changes blocks that are observed in part.
-    rims = pixels.rim_share
-    return pixels.file.added_at_rims(rims, rims * pixels.view.swing**2 / 64.0)
+    return pixels.file.added_at_rims(min(ends, 1.0), plain)
 
 
 def observed_profile(pixels: SampledPixels) -> Observed:

@@ -235,8 +235,9 @@ class SampledPixels:
             self.sample,
             self.stack,
             self.noise_with(self.names),
-            self.view.region.rows / 8.0,
+            self.view.region.rows,
             self.rim_share,
+            2.0 if self.view.sides is None else float(self._level_rims[0]),
         )
 
     def noise_with(self, included: Names) -> float:
@@ -257,12 +258,18 @@ class SampledPixels:
     @property
     def rim_share(self) -> float:
         """The share of the region's pixels that lie in a file's blocks with a rim."""
-        region, camera = self.view.region, self.scene.camera
+        region = self.view.region
         if self.view.sides is None:
             return min(1.0, 8.0 / region.rows + 8.0 / region.columns)
-        ends = (region.first_row > 0) + (region.last_row < camera.rows)
-        sides = (region.first_column > 0) + (region.last_column < camera.columns)
+        ends, sides = self._level_rims
         return min(1.0, 4.0 * ends / region.rows + 4.0 * sides / region.columns)
+
+    @property
+    def _level_rims(self) -> tuple[int, int]:
+        """How many rims of a level panel the picture shows, of those along rows and columns."""
+        region, camera = self.view.region, self.scene.camera
+        ends = (region.first_row > 0) + (region.last_row < camera.rows)
+        return ends, (region.first_column > 0) + (region.last_column < camera.columns)
 
     def moved_rims(self, name: str) -> float:
         """Return how many rims of a column, 0 to 2, an effect moves or softens in the mean."""

@@ -1,8 +1,9 @@
 """Contrast enhancement: histogram equalization or a stretch, and rounding to 8 bits."""
 
 import math
+from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import Any, Self
 
 import cv2
 import numpy as np
@@ -93,30 +94,23 @@ class Enhancement:
         -------
         mean, deviation : ndarray of float64, shape as ``levels``
         """
-        mean, deviation, _ = self.smoothed(levels, spread)
+        mean, deviation, _ = self.smoothed(PassedSteps.of(levels, spread))
         return mean, deviation
 
-    def mean(self, levels: FloatArray, spread: FloatArray) -> FloatArray:
+    def mean(self, passed: "PassedSteps") -> FloatArray:
         """Return the first of these alone."""
-        return _mean_passed(self.curve.astype(np.float64), *_steps_passed(levels, spread))
+        return passed.mean_of(self.curve.astype(np.float64))
 
-    def smoothed(
-        self, levels: FloatArray, spread: FloatArray
-    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+    def smoothed(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the same, and the mean of the sum of the squares of all steps that are passed.
 
         By its slope the mean square of the signal's change grows with a small change of a pixel.
         """
         curve = self.curve.astype(np.float64)
-        edge, passed = _steps_passed(levels, spread)
-
-        def passed_of(values: FloatArray) -> FloatArray:
-            return _mean_passed(values, edge, passed)
-
-        mean = passed_of(curve)
+        mean = passed.mean_of(curve)
         jumps = np.concatenate([[0.0], np.cumsum(np.diff(curve) ** 2)])
-        deviation = np.sqrt(np.maximum(passed_of(curve**2) - mean**2, 0.0))
-        return mean, deviation, passed_of(jumps)
+        deviation = np.sqrt(np.maximum(passed.mean_of(curve**2) - mean**2, 0.0))
+        return mean, deviation, passed.mean_of(jumps)
 
     def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
         """Enhance grey levels that are rounded already, shape (rows, columns), if wanted in place.
@@ -144,7 +138,8 @@ def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> 
     ndarray of float64, shape (256,)
         Its sum is that of the weights.
     """
-    edge, passed = _steps_passed(levels, spread)
+    steps = PassedSteps.of(levels, spread)
+    edge, passed = steps.edge, steps.passed
     ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
     share = np.hstack([ones, passed]) - np.hstack([passed, none])
     place = np.hstack([edge, edge[:, -1:] + 1])
@@ -158,29 +153,37 @@ def share_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatAr
     return _tail((limit - levels) / np.maximum(spread, _LEVEL_TOLERANCE))
 
 
-def _steps_passed(levels: FloatArray, spread: FloatArray) -> tuple[IndexArray, FloatArray]:
-    """Return the steps from one grey level to the next near some levels, and who passes them.
+@dataclass(frozen=True, eq=False, slots=True)
+class PassedSteps:
+    """The steps from one grey level to the next near some levels, and who passes them.
 
-    Returns
-    -------
-    step : ndarray of int64, shape (values, steps)
+    Parameters
+    ----------
+    edge : ndarray of int64, shape (values, steps)
         The grey level below each step; below the first one lies hardly any pixel.
     passed : ndarray of float64, shape (values, steps)
         The fraction of the pixels above it.
     """
-    reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
-    lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
-    step = lowest[:, None] + np.arange(2 * reach)
-    scale = (1.0 / np.maximum(spread, _LEVEL_TOLERANCE))[:, None]
-    passed = _tail((step + (0.5 - levels[:, None])) * scale)
-    passed[step >= 255] = 0.0
-    return step, passed
 
+    edge: IndexArray
+    passed: FloatArray
 
-def _mean_passed(values: FloatArray, edge: IndexArray, passed: FloatArray) -> FloatArray:
-    """Return the mean of what pixels get whose level has some value, from the steps they pass."""
-    steps = np.concatenate([np.diff(values), np.zeros(edge.shape[1] + 1)])
-    return np.asarray(values[edge[:, 0]] + np.einsum("ij,ij->i", steps[edge], passed))
+    @classmethod
+    def of(cls, levels: FloatArray, spread: FloatArray) -> Self:
+        """Find them for noisy pixels of some mean values."""
+        reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
+        lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
+        step = lowest[:, None] + np.arange(2 * reach)
+        scale = (1.0 / np.maximum(spread, _LEVEL_TOLERANCE))[:, None]
+        passed = _tail((step + (0.5 - levels[:, None])) * scale)
+        passed[step >= 255] = 0.0
+        return cls(step, passed)
+
+    def mean_of(self, values: FloatArray) -> FloatArray:
+        """Return the mean of what pixels get whose level has some value."""
+        steps = np.concatenate([np.diff(values), np.zeros(self.edge.shape[1] + 1)])
+        passed = np.einsum("ij,ij->i", steps[self.edge], self.passed)
+        return np.asarray(values[self.edge[:, 0]] + passed)
 
 
 def _tail(deviations: FloatArray) -> FloatArray:

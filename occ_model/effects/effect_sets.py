@@ -41,7 +41,9 @@ class EffectSets:
     ways: tuple[Way, ...]
 
     @classmethod
-    def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> "EffectSets":
+    def of(
+        cls, estimates: Estimates, view: PaperView, settings: SimulationSettings
+    ) -> "EffectSets":
         """Compare all sets of a scene's effects that are not switched by hand."""
         force = settings.force
         free = tuple(e for e in EFFECTS if e.name in estimates.sizes and e.name not in force)
@@ -116,9 +118,7 @@ def _subsets(
     return _Subsets(tuple(names), left_out, seconds, np.argsort(seconds, kind="stable"))
 
 
-def _errors_of(
-    estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray
-) -> FloatArray:
+def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatArray) -> FloatArray:
     """Return what leaving out sets of effects changes, in levels, as if changes added."""
     if estimates.seen is None:
         return np.where(left_out.any(axis=1), math.inf, 0.0)

@@ -15,9 +15,10 @@ from occ_model.arrays import FloatArray
 from occ_model.effects.normal import normal_share
 from occ_model.effects.sample import Sample
 
-_HARMONICS = np.arange(1.0, 7.0)
-_SIGNS = (-1.0) ** _HARMONICS
-_DAMPING = 2.0 * math.pi**2 * _HARMONICS**2
+_HARMONICS = 6
+
+_DAMPING = 2.0 * math.pi**2
+"""Exponent of the first harmonic, for a noise of one step; it grows as the square of the number."""
 
 _NEGLIGIBLE = 9.0
 """Exponent from which a harmonic is damped to nothing."""
@@ -38,8 +39,8 @@ def _transform() -> FloatArray:
 def _rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean square error of rounding, in steps."""
     found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
-    for n, sign, damping in _harmonics(s):
-        found += sign / (math.pi * n) ** 2 * np.cos(2.0 * math.pi * n * x) * damping
+    for n, cosine, _ in _harmonics(x, s):
+        found += cosine / (math.pi * n) ** 2
     return np.asarray(np.maximum(found, 0.0))
 
 
@@ -50,18 +51,29 @@ def _rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
     if sharp.all():
         return found
     damped = np.zeros(found.shape)
-    for n, sign, damping in _harmonics(s):
-        damped += sign / (math.pi * n) * np.sin(2.0 * math.pi * n * x) * damping
+    for n, _, sine in _harmonics(x, np.maximum(s, _SHARP)):
+        damped += sine / (math.pi * n)
     return np.where(sharp, found, damped)
 
 
-def _harmonics(s: FloatArray) -> Iterator[tuple[float, float, FloatArray]]:
-    """Give number, sign and damping of those that some noise in steps leaves."""
-    least = float(s.min())
-    for n, sign, damping in zip(_HARMONICS, _SIGNS, _DAMPING, strict=True):
-        if damping * least * least > _NEGLIGIBLE:
+def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[float, FloatArray, FloatArray]]:
+    """Give the number n, and (-1)^n times the damped cosine and sine, of those that noise leaves.
+
+    Each follows from the one before by the sum of the angles.
+    """
+    angle = 2.0 * math.pi * x
+    first = -np.exp(-_DAMPING * s * s)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    turn, lift = cosine, sine
+    damped, ratio, square = first, first, first * first
+    least = float(s.min()) ** 2
+    for n in range(1, _HARMONICS + 1):
+        if n > 1 and _DAMPING * n * n * least > _NEGLIGIBLE:
             return
-        yield float(n), float(sign), np.exp(-damping * s * s)
+        yield float(n), cosine * damped, sine * damped
+        cosine, sine = cosine * turn - sine * lift, sine * turn + cosine * lift
+        ratio = ratio * square
+        damped = damped * ratio
 
 
 def _moved_steps(change: FloatArray) -> FloatArray:
@@ -72,9 +84,8 @@ def _moved_steps(change: FloatArray) -> FloatArray:
 
 def _moved_steps_of_noise(s: FloatArray) -> FloatArray:
     """Return the same for a change by noise: by |d| - d^2 where that stays within a step."""
-    found = np.full(s.shape, 1.0 / 6.0)
-    for n, damping in zip(_HARMONICS[:2], _DAMPING[:2], strict=True):
-        found -= np.exp(-damping * s * s) / (math.pi * n) ** 2
+    damped = np.exp(-_DAMPING * s * s)
+    found = 1.0 / 6.0 - (damped + damped**4 / 4.0) / math.pi**2
     return np.asarray(np.where(s < 0.3, math.sqrt(2.0 / math.pi) * s - s * s, found))
 
 
@@ -279,7 +290,7 @@ class FileChange:
     @property
     def undithered_share(self) -> float:
         """The share of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
-        sharp = np.exp(-_DAMPING[0] * (self._noise / self._step) ** 2)
+        sharp = np.exp(-_DAMPING * (self._noise / self._step) ** 2)
         return float(sharp.mean())
 
     def undithered(self) -> float:
@@ -289,7 +300,7 @@ class FileChange:
         the blocks of an even picture otherwise, all at once.
         """
         step = self._step[:2, 0]
-        sharp = np.exp(-_DAMPING[0] * (self._noise / step) ** 2)
+        sharp = np.exp(-_DAMPING * (self._noise / step) ** 2)
         return float((step**2 * sharp).sum()) / 6.0 / 64.0
 
     def added_at_rims(self, share: float, square: float) -> float:
@@ -328,8 +339,9 @@ class FileChange:
         own = math.sqrt(own**2 + float(_moved_steps_of_noise(np.asarray(own))))
         all_of_it = math.hypot(own, rest)
         step, q = self._step, self._others
-        both = _rounded_variance(self._x[0], all_of_it / step)
-        both = (both + _rounded_variance(self._x[0], rest / step)).mean(axis=(0, 2))
+        x = self._x[0].mean(axis=2, keepdims=True)
+        both = _rounded_variance(x, all_of_it / step) + _rounded_variance(x, rest / step)
+        both = both.mean(axis=(0, 2))
         apart = (own / step) ** 2 + _moved_steps_of_noise(own / step)
         along = float((step**2 * np.minimum(both[:, None], apart)).sum()) / 64.0
         both = _rounded_noise(all_of_it / q) + _rounded_noise(rest / q)

@@ -19,8 +19,7 @@ def observed_image(pixels: SampledPixels) -> Observed:
     slope = np.gradient(spread, pixels.levels)
     unclipped = share_unclipped(pixels.levels, spread, WHITE)
     # Where the light changes, its noise does; and pixels that are cut off change less.
-    noise = [pixels.variances[effect.name] * unclipped for effect in pixels.noises]
-    share, *noise = pixels.at_whole(np.stack([unclipped * (1.0 + slope**2), *noise]))
+    share = pixels.at_whole(unclipped * (1.0 + slope**2))
     weights = np.sqrt(np.maximum(share * pixels.sample.pixel_weights, 0.0)).ravel()
 
     def seen(sets: Sequence[Names]) -> FloatArray:
@@ -37,11 +36,11 @@ def observed_image(pixels: SampledPixels) -> Observed:
             rims = pixels.rim_share
             beyond = file.added_at_rims(rims, rims * pixels.view.swing**2 / 64.0)
             found.doubt[name] += beyond
-    for effect, variance in zip(pixels.noises, noise, strict=True):
-        found.alone[effect.name] = (
-            float(pixels.mean_of(variance))
+    for name, variance in pixels.variances.items():
+        found.alone[name] = (
+            float(pixels.mean_at_whole(variance * unclipped))
             if file is None
-            else file.of_noise(*pixels.noise_without(effect.name))[0]
+            else pixels.noise_read_back[name][0]
         )
     if file is not None:
         found.alone[pixels.files[0].name] = file.own_change()
@@ -79,12 +78,11 @@ def observed_profile(pixels: SampledPixels) -> Observed:
     for name in pixels.outline & everything:
         share = pixels.contrast**2 / (region.rows**2 * region.columns)
         found.doubt[name] = pixels.doubted_pixels(share)
-    for effect in pixels.noises:
-        name = effect.name
+    for name, variance in pixels.variances.items():
         found.alone[name] = (
-            float(pixels.mean_of(pixels.at_whole(pixels.variances[name]))) / rows
+            float(pixels.mean_at_whole(variance)) / rows
             if file is None
-            else file.of_noise(*pixels.noise_without(name))[1]
+            else pixels.noise_read_back[name][1]
         )
     if file is not None:
         name = pixels.files[0].name

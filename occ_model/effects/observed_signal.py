@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
@@ -48,6 +48,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     weights = np.sqrt(sample.weights)
     levels = np.clip(pixels.levels, 0.0, WHITE)
     spreads: dict[Names, FloatArray] = {}
+    passed: dict[Names, PassedSteps] = {}
     curves: dict[Names, FloatArray] = {}
     optics = frozenset(effect.name for effect in pixels.lenses)
     moving = frozenset(pixels.moving)
@@ -63,7 +64,10 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     def curve_of(included: Names) -> FloatArray:
         key = included - optics
         if key not in curves:
-            curves[key] = pixels.enhancement(included).mean(levels, spread_of(included))
+            spread, noises = spread_of(included), included - moving
+            if noises not in passed:
+                passed[noises] = PassedSteps.of(levels, spread)
+            curves[key] = pixels.enhancement(included).mean(passed[noises])
         return curves[key]
 
     def seen(sets: Sequence[Names]) -> FloatArray:
@@ -73,8 +77,8 @@ def observed_signal(pixels: SampledPixels) -> Observed:
             spread = spread_of(included)
             if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
                 flat = np.clip(own.ravel(), 0.0, WHITE)
-                sharp = pixels.enhancement(included).mean(flat, pixels.look(spread, flat))
-                of_own[:] = sharp.reshape(own.shape)
+                steps = PassedSteps.of(flat, pixels.look(spread, flat))
+                of_own[:] = pixels.enhancement(included).mean(steps).reshape(own.shape)
         inside = pixels.inside(sets)
         if inside is not None:  # beside the panel nothing is enhanced
             for included, own, of_own, on in zip(sets, values, found, inside, strict=True):
@@ -175,7 +179,7 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     lost = np.where(
         spread > _CLIPPED_NOISE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0
     )
-    cut = float(pixels.mean_of(pixels.at_whole(lost)))
+    cut = float(pixels.mean_at_whole(lost))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change() * min(gain, 8.0) ** 2 / 4.0
     found.doubt[name] = found.doubt.get(name, 0.0) + doubt
@@ -191,49 +195,47 @@ def _signal_sampling(pixels: SampledPixels) -> dict[str, float]:
     rows = pixels.view.region.rows
     spread = pixels.spread(everything)
     levels = np.clip(pixels.levels, 0.0, WHITE)
-    mean, deviation, jumps = pixels.enhancement(everything).smoothed(levels, spread)
+    mean, deviation, jumps = pixels.enhancement(everything).smoothed(PassedSteps.of(levels, spread))
     step = float(pixels.levels[1] - pixels.levels[0])
     slope = np.gradient(mean, step) ** 2
     excess = np.maximum(np.gradient(jumps, step) - slope, 0.0)
     total = spread**2
-    tables, names = [slope, excess, slope * total], []
-    for effect in pixels.noises:
-        own = np.sqrt(pixels.variances[effect.name])
-        if file is not None:
-            read, _ = file.of_noise(*pixels.noise_without(effect.name))
-            own = np.maximum(own, math.sqrt(read))
+    one = 1.0 / (rows**2 * pixels.view.region.columns)
+    pixel = float(pixels.mean_at_whole(slope + excess)) * one
+    found: dict[str, float] = {}
+
+    def add(name: str, square: float, linear: float, moves_few: bool) -> None:
+        if linear:
+            square += linear * rows * float(pixels.mean_at_whole(slope))
+        found[name] = square / rows
+        if name in pixels.variances:  # one pixel whose noise is drawn otherwise
+            found[name] += float(pixels.mean_at_whole(slope * total)) * one
+        if moves_few:
+            found[name] += _FLUCTUATION * math.sqrt(found[name] * pixel)
+
+    inside = pixels.inside([everything])
+    for name, variance in pixels.variances.items():
+        moves_few = float(variance.max()) < 0.25 * float(total.max())
+        read, linear = pixels.noise_read_back.get(name, (0.0, 0.0))
+        own = np.maximum(np.sqrt(variance), math.sqrt(read))
         part = slope * (own**2 + np.tanh(4.8 * own) / 6.0) + excess * 0.8 * own
         part = np.where(own**2 > 0.7 * total, deviation**2, np.minimum(part, deviation**2))
-        tables += [part, own**2]
-        names.append(effect.name)
-    even, uneven, scattered, *parts = pixels.at_whole(np.stack(tables))
-    one = 1.0 / (rows**2 * pixels.view.region.columns)
-    pixel = float(pixels.mean_of(even + uneven)) * one
-    inside = pixels.inside([everything])
-    found = {}
-
-    def sampling(part: FloatArray, linear: float, moves_few: bool) -> float:
-        square = float(pixels.mean_of(part + linear * rows * even if linear else part)) / rows
-        return square + moves_few * _FLUCTUATION * math.sqrt(square * pixel)
-
-    for name, part, own in zip(names, parts[::2], parts[1::2], strict=True):
-        own_spread = float(pixels.variances[name].max())
-        moves_few = own_spread < 0.25 * float(total.max())
-        linear = file.of_noise(*pixels.noise_without(name))[1] if file is not None else 0.0
-        shown = part if inside is None else np.where(inside[0], part, own)
-        # One pixel whose noise is drawn otherwise.
-        drawn = float(pixels.mean_of(scattered)) * one
-        square = float(pixels.mean_of(shown + linear * rows * even)) / rows + drawn
-        found[name] = square + moves_few * _FLUCTUATION * math.sqrt(square * pixel)
+        square = float(pixels.mean_at_whole(part, None if inside is None else inside[0]))
+        if inside is not None:
+            square += float(pixels.mean_at_whole(own**2, ~inside[0]))
+        add(name, square, linear, moves_few)
     if file is not None:
         moved = min(math.sqrt(file.own_change()), 1.0)
-        part = even / 6.0 + uneven * 0.8 * moved
-        found[pixels.files[0].name] = sampling(part, file.own_sampling(), moves_few=False)
-    for name in pixels.moving:
-        change, linear = np.abs(pixels.stack[pixels.place(name)] - pixels.whole), 0.0
-        if file is not None:
-            added, linear = (float(of_sets[pixels.place(name)]) for of_sets in file.added)
-            change = np.sqrt(change**2 + max(added, 0.0))
-        change = np.minimum(change, 0.5)
-        found[name] = sampling(even * change * (1.0 - change) + uneven * change, linear, moves_few=True)
+        square = float(pixels.mean_at_whole(slope / 6.0 + excess * 0.8 * moved))
+        add(pixels.files[0].name, square, file.own_sampling(), moves_few=False)
+    even, uneven = pixels.at_whole(slope), pixels.at_whole(excess)
+    changes = np.abs(pixels.stack[1:] - pixels.whole)
+    linear = np.zeros(len(changes))
+    if file is not None:
+        added, linear = (of_sets[1:] for of_sets in file.added)
+        changes = np.sqrt(changes**2 + np.maximum(added, 0.0)[:, None, None])
+    np.minimum(changes, 0.5, out=changes)
+    squares = pixels.mean_of(changes * (even * (1.0 - changes) + uneven))
+    for name, square, own in zip(pixels.moving, squares.tolist(), linear.tolist(), strict=True):
+        add(name, square, own, moves_few=True)
     return found

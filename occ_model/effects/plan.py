@@ -19,7 +19,6 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
 )
 
-
 _CLEARLY = 1.1
 """Times an estimate that a limit is to be for both to be told."""
 
@@ -173,9 +172,7 @@ def _sets_of(view: PaperView, settings: SimulationSettings) -> EffectSets:
     """Return the sets of effects that a scene can be simulated with."""
     force = frozenset(settings.force.items())
     corners = view.corners.tobytes()
-    return _answer(
-        _Question(view.scene, corners, settings.observable, force, settings.noise, view)
-    )
+    return _answer(_Question(view.scene, corners, settings.observable, force, settings.noise, view))
 
 
 @lru_cache(maxsize=4)  # a picture, its forecast and its reading ask the same
@@ -224,7 +221,7 @@ def _decide(
     )
 
 
-def _comparison(  # noqa: PLR0917 - what is compared
+def _comparison(
     estimate: float, limit: float, tolerance: float, included: bool, is_known: bool
 ) -> str:
     if tolerance == math.inf:

@@ -105,7 +105,7 @@ class Sample:
         gains = (*self.emission.values(), *self.transmission.values())
         return (self.rows, self.row_weights, self.weights, *covers, *gains)
 
-    @property
+    @cached_property
     def pixel_weights(self) -> FloatArray:
         """The share of the region's pixels that each stands for, shape as ``rows``."""
         return self.weights[:, None] * self.row_weights

@@ -206,10 +206,27 @@ class SampledPixels:
         below += _LEVELS * np.arange(len(tables))[:, None, None]
         return np.asarray(tables.ravel()[below] + share * steps[below])
 
-    def at_whole(self, tables: FloatArray) -> FloatArray:
-        """Interpolate tables at the pixels with all effects."""
+    def at_whole(self, table: FloatArray) -> FloatArray:
+        """Interpolate a table at the pixels with all effects."""
         below, share = self._place_of_whole
-        return np.asarray(tables[..., below] + share * np.diff(tables)[..., below])
+        return np.asarray(table[below] + share * np.diff(table)[below])
+
+    def mean_at_whole(self, tables: FloatArray, of: FloatArray | None = None) -> FloatArray:
+        """Return the means of tables at the pixels with all effects.
+
+        Parameters
+        ----------
+        tables : ndarray of float64, shape (..., levels)
+            Over the levels.
+        of : ndarray, shape (columns, nodes)
+            A weight of each pixel besides its own.
+        """
+        below, share = self._place_of_whole
+        weights = self.sample.pixel_weights if of is None else self.sample.pixel_weights * of
+        above = (weights * share).ravel()
+        found = np.bincount(below.ravel(), weights.ravel() - above, _LEVELS)
+        found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
+        return np.asarray(tables @ found)
 
     @cached_property
     def _place_of_whole(self) -> tuple[NDArray[np.intp], FloatArray]:
@@ -247,9 +264,16 @@ class SampledPixels:
 
     @cached_property
     def _noise_squares(self) -> dict[str, float]:
-        found = self.at_whole(np.stack(list(self.variances.values())))
-        means = found[:, :, self.sample.inner].mean(axis=(1, 2))
+        inner = self.whole[:, self.sample.inner]
+        means = self.look(np.stack(list(self.variances.values())), inner).mean(axis=(1, 2))
         return dict(zip(self.variances, means.tolist(), strict=True))
+
+    @cached_property
+    def noise_read_back(self) -> dict[str, tuple[float, float]]:
+        """The mean square of each noise as a file has it: in pixels, and in a column's mean."""
+        if self.file is None:
+            return {}
+        return {name: self.file.of_noise(*self.noise_without(name)) for name in self.variances}
 
     def noise_without(self, name: str) -> tuple[float, float]:
         """Return the root mean square of a noise, and of all the other, on the panel."""

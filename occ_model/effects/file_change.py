@@ -203,24 +203,23 @@ class FileChange:
         Parameters
         ----------
         values : ndarray of float64, shape (sets, columns, nodes)
-            The pixels with some sets of effects.
+            The pixels with some sets of effects; they are changed.
         spread : ndarray of float64, shape (sets,)
             Their noise.
         """
         if not len(self._blocks):
             return values
         noise = spread[:, None, None]
-        if spread.min() < _SHARPEST:  # pixels are whole levels before they are in a file
-            rounded = values + _rounding_mean(values, noise)
-            values = np.where(noise < _SHARPEST, rounded, values)
+        even = spread < _SHARPEST
+        if even.any():  # pixels are whole levels before they are in a file
+            values[even] += _rounding_mean(values[even], noise[even])
         x = self._coefficients(values)
         own = np.sqrt(noise * noise + _ROUNDING)[:, None] / self._step
         wide = np.sqrt(own * own + x.var(axis=3, keepdims=True))
         shift = _rounding_mean(x.mean(axis=3, keepdims=True), wide) * self._step / math.sqrt(8.0)
         back = np.matmul(_transform().T, shift)
-        out = values.copy()
-        out[:, self._blocks.ravel()] += back.reshape(len(values), -1, 1)
-        return out
+        values[:, self._blocks.ravel()] += back.reshape(len(values), -1, 1)
+        return values
 
     def own_change(self) -> float:
         """Return the mean square of what the file changes."""
@@ -327,27 +326,26 @@ class FileChange:
         across = _rounded_noise(noise / q) @ q**2
         return np.interp(spread, few, np.sqrt((along.sum(axis=1) + across) / 64.0))
 
-    def of_noise(self, own: float, left: float) -> tuple[float, float]:
+    def of_noise(self, own: FloatArray, left: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the mean square of noise as it is read back: in pixels, and in a column's mean.
 
         Parameters
         ----------
-        own, left
+        own, left : ndarray of float64, shape (noises,)
             Root mean square of the noise that is left out, and of all other.
         """
-        rest = math.sqrt(left**2 + _ROUNDING)
-        own = math.sqrt(own**2 + float(_moved_steps_of_noise(np.asarray(own))))
-        all_of_it = math.hypot(own, rest)
-        step, q = self._step, self._others
-        x = self._x[0].mean(axis=2, keepdims=True)
-        both = _rounded_variance(x, all_of_it / step) + _rounded_variance(x, rest / step)
-        both = both.mean(axis=(0, 2))
-        apart = (own / step) ** 2 + _moved_steps_of_noise(own / step)
-        along = float((step**2 * np.minimum(both[:, None], apart)).sum()) / 64.0
-        both = _rounded_noise(all_of_it / q) + _rounded_noise(rest / q)
-        apart = (own / q) ** 2 + _moved_steps_of_noise(own / q)
-        across = float((q**2 * np.minimum(both, apart)).sum()) / 64.0
-        rims = float(self._at_rims(np.array(own)))
+        rest = np.sqrt(left**2 + _ROUNDING)
+        own = np.sqrt(own**2 + _moved_steps_of_noise(own))
+        step, q = self._step[:, 0], self._others
+        spreads = np.append(rest, np.hypot(own[:1], rest[:1]))[:, None]
+        x = self._x[0].mean(axis=2)
+        varied = _rounded_variance(x, (spreads / step)[:, None]).mean(axis=1)
+        apart = (own[:, None] / step) ** 2 + _moved_steps_of_noise(own[:, None] / step)
+        along = np.minimum(varied[:-1] + varied[-1], apart) @ step**2 / 64.0
+        varied = _rounded_noise(spreads / q)
+        apart = (own[:, None] / q) ** 2 + _moved_steps_of_noise(own[:, None] / q)
+        across = np.minimum(varied[:-1] + varied[-1], apart) @ q**2 / 64.0
+        rims = self._at_rims(own)
         image = along + across + self._rims * rims
         return image, along / self.block_rows + self._cut * rims
 

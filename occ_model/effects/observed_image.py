@@ -27,15 +27,13 @@ def observed_image(pixels: SampledPixels) -> Observed:
 
     found = Observed(everything, seen, pixels.moving)
     region = pixels.view.region
-    for name in pixels.outline & everything:
-        found.doubt[name] = pixels.doubted_pixels(
-            pixels.contrast**2 / (region.rows * region.columns)
-        )
+    if pixels.outline:
+        doubt = pixels.doubted_pixels(pixels.contrast**2 / (region.rows * region.columns))
         if file is not None and not pixels.sample.is_covered:
             # A rim that moves outwards changes blocks that are observed in part.
             rims = pixels.rim_share
-            beyond = file.added_at_rims(rims, rims * pixels.view.swing**2 / 64.0)
-            found.doubt[name] += beyond
+            doubt += file.added_at_rims(rims, rims * pixels.view.swing**2 / 64.0)
+        found.doubt.update(dict.fromkeys(pixels.outline, doubt))
     for name, variance in pixels.variances.items():
         found.alone[name] = (
             float(pixels.mean_at_whole(variance * unclipped))
@@ -75,9 +73,9 @@ def observed_profile(pixels: SampledPixels) -> Observed:
 
     found = Observed(everything, seen, sorted(everything))
     region = pixels.view.region
-    for name in pixels.outline & everything:
+    if pixels.outline:
         share = pixels.contrast**2 / (region.rows**2 * region.columns)
-        found.doubt[name] = pixels.doubted_pixels(share)
+        found.doubt.update(dict.fromkeys(pixels.outline, pixels.doubted_pixels(share)))
     for name, variance in pixels.variances.items():
         found.alone[name] = (
             float(pixels.mean_at_whole(variance)) / rows

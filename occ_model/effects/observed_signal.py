@@ -93,11 +93,10 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     jump = contrast if method == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
-    for name in pixels.outline & pixels.names:
-        share = contrast**2 / (region.rows**2 * region.columns)
-        found.doubt[name] = pixels.doubted_pixels(share)
-        # A pixel of a rim is enhanced or not.
-        found.doubt[name] += pixels.moved_rims(name) * (part * jump / region.rows) ** 2
+    doubt = pixels.doubted_pixels(contrast**2 / (region.rows**2 * region.columns))
+    for name in pixels.outline:  # a pixel of a rim is enhanced or not
+        own = pixels.moved_rims(name) * (part * jump / region.rows) ** 2
+        found.doubt[name] = doubt + own
     _doubt_sharp_steps(pixels, found)
     _doubt_large_steps(pixels, found)
     _doubt_a_cut_file(pixels, found)

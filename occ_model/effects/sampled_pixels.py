@@ -273,7 +273,11 @@ class SampledPixels:
         """The mean square of each noise as a file has it: in pixels, and in a column's mean."""
         if self.file is None:
             return {}
-        return {name: self.file.of_noise(*self.noise_without(name)) for name in self.variances}
+        each = np.array([self.noise_without(name) for name in self.variances])
+        found = np.transpose(self.file.of_noise(*each.T)).tolist()
+        return {
+            name: (image, mean) for name, (image, mean) in zip(self.variances, found, strict=True)
+        }
 
     def noise_without(self, name: str) -> tuple[float, float]:
         """Return the root mean square of a noise, and of all the other, on the panel."""

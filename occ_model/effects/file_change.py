@@ -125,10 +125,10 @@ _WIDE = 0.8
 _CUT_BLOCK = 84.0 / 64.0
 """Variance of the sum of the first n rows of a block whose mean is 0, in a pixel's, for any n."""
 
-_EDGE_SPECTRUM: FloatArray = np.full((8, 8), 8.0 / math.pi) / np.outer(
-    np.maximum(np.arange(8.0), 1.0), np.maximum(np.arange(8.0), 1.0)
-)
-"""About the coefficients of an edge of one grey level in a block."""
+_EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
+"""About the coefficients of an edge of one grey level across a block."""
+
+_TINY = 1e-30
 
 _DITHERED = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
@@ -159,6 +159,8 @@ class FileChange:
         Share of the pixels that lie in blocks with a rim of the panel.
     ends
         Rims that a column meets: where what is observed cuts a block.
+    is_level
+        Whether rims lie along the rows.
     """
 
     def __init__(  # noqa: PLR0917 - what a file and a sample are
@@ -170,6 +172,7 @@ class FileChange:
         rows: int,
         rims: float,
         ends: float,
+        is_level: bool,
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]
@@ -180,9 +183,11 @@ class FileChange:
         self._rims = rims
         self._cut = _CUT_BLOCK * ends / rows**2
         self._stack = stack
-        contrast = float(np.ptp(stack[0]))
-        self._of_rims = np.hypot(self._noise, contrast * _EDGE_SPECTRUM).ravel() / self._all
         self._x = self._coefficients(stack)
+        contrast = float(np.ptp(stack[0]))
+        self._along = self._spectrum_along(float(stack[0].min()), is_level)
+        edge = contrast * np.outer(_EDGE_SPECTRUM, self._along)
+        self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
 
     def _in_blocks(self, values: FloatArray) -> FloatArray:
         """Return the pixels between the rims, shape (sets, blocks, 8, nodes)."""
@@ -284,7 +289,20 @@ class FileChange:
     def _at_rims(self, size: FloatArray) -> FloatArray:
         """Return what rounding adds to changes in blocks with a rim."""
         weights = self._all**2 * _near_half(self._of_rims) / 64.0
-        return np.asarray(_moved_steps_of_noise(size[..., None] / self._all) @ weights)
+        sizes = np.tile(self._along * math.sqrt(8.0), 8) / self._all
+        return np.asarray(_moved_steps_of_noise(size[..., None] * sizes) @ weights)
+
+    def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
+        """Return the shares of the horizontal frequencies in a row of the panel, as amplitudes.
+
+        A rim that lies along the rows has those of the stripes, any other besides its own.
+        """
+        values = self._x[0] * self._step
+        values[:, 0] += 1024.0 - 8.0 * dark
+        squares = (values**2).mean(axis=(0, 2))
+        if not is_level:
+            squares = np.maximum(squares, squares.sum() * (_EDGE_SPECTRUM / _EDGE_SPECTRUM[0]) ** 2)
+        return np.asarray(np.sqrt(squares / max(float(squares.sum()), _TINY)))
 
     @property
     def undithered_share(self) -> float:

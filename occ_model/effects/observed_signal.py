@@ -217,8 +217,13 @@ def _signal_sampling(pixels: SampledPixels) -> dict[str, float]:
         moves_few = float(variance.max()) < 0.25 * float(total.max())
         read, linear = pixels.noise_read_back.get(name, (0.0, 0.0))
         own = np.maximum(np.sqrt(variance), math.sqrt(read))
-        part = slope * (own**2 + np.tanh(4.8 * own) / 6.0) + excess * 0.8 * own
-        part = np.where(own**2 > 0.7 * total, deviation**2, np.minimum(part, deviation**2))
+        most = deviation**2
+        if file is None:
+            linear_part = slope * own**2
+        else:  # that the file has rounded as a whole
+            linear_part, most = np.zeros(len(own)), np.maximum(most - slope * total, 0.0)
+        part = linear_part + slope * np.tanh(4.8 * own) / 6.0 + excess * 0.8 * own
+        part = np.where(own**2 > 0.7 * total, most, np.minimum(part, most))
         square = float(pixels.mean_at_whole(part, None if inside is None else inside[0]))
         if inside is not None:
             square += float(pixels.mean_at_whole(own**2, ~inside[0]))

@@ -255,6 +255,7 @@ class SampledPixels:
             self.view.region.rows,
             self.rim_share,
             2.0 if self.view.sides is None else float(self._level_rims[0]),
+            self.view.sides is not None,
         )
 
     def noise_with(self, included: Names) -> float:

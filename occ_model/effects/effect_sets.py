@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Self
 
 import numpy as np
 
@@ -41,9 +42,7 @@ class EffectSets:
     ways: tuple[Way, ...]
 
     @classmethod
-    def of(
-        cls, estimates: Estimates, view: PaperView, settings: SimulationSettings
-    ) -> "EffectSets":
+    def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> Self:
         """Compare all sets of a scene's effects that are not switched by hand."""
         force = settings.force
         free = tuple(e for e in EFFECTS if e.name in estimates.sizes and e.name not in force)
@@ -130,4 +129,4 @@ def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatAr
     factor = np.maximum((left_out * factors).max(axis=1), 1.0)
     errors = np.sqrt(squares) * (ALLOWANCE * estimates.stretch) * factor
     errors[0] = 0.0
-    return errors
+    return np.asarray(errors)

@@ -7,6 +7,7 @@ exp(-2 pi^2 n^2 s^2).
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -110,12 +111,13 @@ def _rounded_noise(s: FloatArray) -> FloatArray:
 def _rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the variance of rounded values of some mean and noise, in steps."""
     away = x - np.rint(x)
-    mean, square = np.zeros(np.broadcast_shapes(x.shape, s.shape)), 0.0
+    mean = np.zeros(np.broadcast_shapes(x.shape, s.shape))
+    square = np.zeros(mean.shape)
     for step in (1.0, 2.0, 3.0):
         above = normal_share((away - step + 0.5) / s)
         below = normal_share((-away - step + 0.5) / s)
         mean += above - below
-        square = square + (2.0 * step - 1.0) * (above + below)
+        square += (2.0 * step - 1.0) * (above + below)
     return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))
 
 
@@ -140,6 +142,28 @@ _ROUNDING = 1.0 / 12.0
 """Mean square error of rounding to whole grey levels."""
 
 
+@dataclass(frozen=True, slots=True)
+class RimBlocks:
+    """A panel's rims in the blocks of a file.
+
+    Parameters
+    ----------
+    rows
+        Rows that the panel spans.
+    share
+        Of the pixels that lie in blocks with a rim.
+    ends
+        Rims that a column meets: where what is observed cuts a block.
+    is_level
+        Whether rims lie along the rows.
+    """
+
+    rows: int
+    share: float
+    ends: float
+    is_level: bool
+
+
 class FileChange:
     """A file's effect on the pixels of a sample.
 
@@ -153,39 +177,30 @@ class FileChange:
         Its pixels with all effects, and without some.
     spread
         Root mean square of a pixel's noise in grey levels.
-    rows
-        Rows that the panel spans.
     rims
-        Share of the pixels that lie in blocks with a rim of the panel.
-    ends
-        Rims that a column meets: where what is observed cuts a block.
-    is_level
-        Whether rims lie along the rows.
+        The panel's rims.
     """
 
-    def __init__(  # noqa: PLR0917 - what a file and a sample are
+    def __init__(
         self,
         steps: FloatArray,
         sample: Sample,
         stack: FloatArray,
         spread: float,
-        rows: int,
-        rims: float,
-        ends: float,
-        is_level: bool,
+        rims: RimBlocks,
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]
         self._others = steps[1:].ravel()
         self._all = steps.ravel()
         self._noise = math.sqrt(spread**2 + _ROUNDING)
-        self.block_rows = max(rows / 8.0, 1.0)
-        self._rims = rims
-        self._cut = _CUT_BLOCK * ends / rows**2
+        self.block_rows = max(rims.rows / 8.0, 1.0)
+        self._rims = rims.share
+        self._cut = _CUT_BLOCK * rims.ends / rims.rows**2
         self._stack = stack
         self._x = self._coefficients(stack)
         contrast = float(np.ptp(stack[0]))
-        self._along = self._spectrum_along(float(stack[0].min()), is_level)
+        self._along = self._spectrum_along(float(stack[0].min()), rims.is_level)
         edge = contrast * np.outer(_EDGE_SPECTRUM, self._along)
         self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
 
@@ -276,7 +291,7 @@ class FileChange:
         across = _moved_steps_of_noise(flips[:, None] / q) @ (q**2 * _near_half(self._noise / q))
         rims = self._at_rims(np.hypot(size, flips))
         image = (1.0 - self._rims) * (along + across) / 64.0 + self._rims * rims
-        return image, apart / 64.0 / self.block_rows + self._cut * rims
+        return np.asarray(image), np.asarray(apart / 64.0 / self.block_rows + self._cut * rims)
 
     @cached_property
     def _near_half(self) -> FloatArray:
@@ -342,7 +357,8 @@ class FileChange:
         s = noise / step
         along = step**2 * (s * s + 1.0 / 12.0) * -np.expm1(-((s / 0.3) ** 2))
         across = _rounded_noise(noise / q) @ q**2
-        return np.interp(spread, few, np.sqrt((along.sum(axis=1) + across) / 64.0))
+        read = np.sqrt((along.sum(axis=1) + across) / 64.0)
+        return np.asarray(np.interp(spread, few, read))
 
     def of_noise(self, own: FloatArray, left: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the mean square of noise as it is read back: in pixels, and in a column's mean.
@@ -365,7 +381,7 @@ class FileChange:
         across = np.minimum(varied[:-1] + varied[-1], apart) @ q**2 / 64.0
         rims = self._at_rims(own)
         image = along + across + self._rims * rims
-        return image, along / self.block_rows + self._cut * rims
+        return np.asarray(image), np.asarray(along / self.block_rows + self._cut * rims)
 
 
 def _near_half(s: FloatArray) -> FloatArray:

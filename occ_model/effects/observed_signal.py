@@ -11,13 +11,11 @@ from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import Names, SampledPixels
+from occ_model.effects.signal_sampling import SignalSampling
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
 many columns, and in few."""
-
-_FLUCTUATION = 4.0
-"""Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
 
 _ROUNDING_MARGIN = 0.02
 """Grey levels from the middle between two levels within which rounding cannot be foretold."""
@@ -42,44 +40,57 @@ def signal_swing(pixels: SampledPixels) -> float:
     return max(float(enhanced.max()) - float(enhanced.min()), FLAT)
 
 
-def observed_signal(pixels: SampledPixels) -> Observed:
-    """Return the means of the columns after the receiver's enhancement."""
-    sample = pixels.sample
-    weights = np.sqrt(sample.weights)
-    levels = np.clip(pixels.levels, 0.0, WHITE)
-    spreads: dict[Names, FloatArray] = {}
-    passed: dict[Names, PassedSteps] = {}
-    curves: dict[Names, FloatArray] = {}
-    optics = frozenset(effect.name for effect in pixels.lenses)
-    moving = frozenset(pixels.moving)
+class _Curves:
+    """The enhancement's curves, smoothed by the noise that some effects leave, over the levels."""
 
-    def spread_of(included: Names) -> FloatArray:
-        key = included - moving
-        if key not in spreads:
-            own = pixels.spread(included)
-            is_filed = pixels.file is not None and pixels.files[0].name in included
-            spreads[key] = pixels.file.spread(own) if pixels.file and is_filed else own
-        return spreads[key]
+    def __init__(self, pixels: SampledPixels) -> None:
+        self._pixels = pixels
+        self._levels = np.clip(pixels.levels, 0.0, WHITE)
+        self._moving = frozenset(pixels.moving)
+        self._lenses = frozenset(effect.name for effect in pixels.lenses)
+        self._noises: dict[Names, tuple[FloatArray, PassedSteps]] = {}
+        self._curves: dict[Names, FloatArray] = {}
 
-    def curve_of(included: Names) -> FloatArray:
-        key = included - optics
-        if key not in curves:
-            spread, noises = spread_of(included), included - moving
-            if noises not in passed:
-                passed[noises] = PassedSteps.of(levels, spread)
-            curves[key] = pixels.enhancement(included).mean(passed[noises])
-        return curves[key]
+    def noise(self, included: Names) -> tuple[FloatArray, PassedSteps]:
+        """Return the deviation at each level, as a file has it, and the steps that pixels pass."""
+        key = included - self._moving
+        if key not in self._noises:
+            spread, file = self._pixels.spread(included), self._pixels.file
+            if file is not None and self._pixels.files[0].name in included:
+                spread = file.spread(spread)
+            self._noises[key] = spread, PassedSteps.of(self._levels, spread)
+        return self._noises[key]
 
-    def seen(sets: Sequence[Names]) -> FloatArray:
-        values = pixels.read_back(sets)
-        found = pixels.look_each(np.stack([curve_of(one) for one in sets]), values)
+    def curve(self, included: Names) -> FloatArray:
+        """Return the mean of enhanced pixels at each level."""
+        key = included - self._lenses
+        if key not in self._curves:
+            enhancement = self._pixels.enhancement(included)
+            self._curves[key] = enhancement.mean(self.noise(included)[1])
+        return self._curves[key]
+
+    def enhanced(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
+        """Return the means of enhanced pixels of some mean values, shape as ``values``."""
+        pixels = self._pixels
+        found = pixels.look_each(np.stack([self.curve(one) for one in sets]), values)
         for included, own, of_own in zip(sets, values, found, strict=True):
-            spread = spread_of(included)
+            spread, _ = self.noise(included)
             if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
                 flat = np.clip(own.ravel(), 0.0, WHITE)
                 steps = PassedSteps.of(flat, pixels.look(spread, flat))
                 of_own[:] = pixels.enhancement(included).mean(steps).reshape(own.shape)
-        inside = pixels.inside(sets)
+        return found
+
+
+def observed_signal(pixels: SampledPixels) -> Observed:
+    """Return the means of the columns after the receiver's enhancement."""
+    sample = pixels.sample
+    weights = np.sqrt(sample.weights)
+    curves = _Curves(pixels)
+
+    def seen(sets: Sequence[Names]) -> FloatArray:
+        values = pixels.read_back(sets)
+        found, inside = curves.enhanced(sets, values), pixels.inside(sets)
         if inside is not None:  # beside the panel nothing is enhanced
             for included, own, of_own, on in zip(sets, values, found, inside, strict=True):
                 if not on.all():
@@ -87,10 +98,9 @@ def observed_signal(pixels: SampledPixels) -> Observed:
         return pixels.mean_of_rows(found) * weights
 
     found = Observed(pixels.names, seen, sorted(pixels.names))
-    found.alone.update(_signal_sampling(pixels))
+    found.alone.update(SignalSampling(pixels).of_effects())
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
-    method = pixels.scene.model.enhancement
-    jump = contrast if method == "none" else WHITE
+    jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
     doubt = pixels.doubted_pixels(contrast**2 / (region.rows**2 * region.columns))
@@ -182,64 +192,3 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change() * min(gain, 8.0) ** 2 / 4.0
     found.doubt[name] = found.doubt.get(name, 0.0) + doubt
-
-
-def _signal_sampling(pixels: SampledPixels) -> dict[str, float]:
-    """Return the mean square of what a mean of few rows deviates by, for each effect.
-
-    A pixel that moves by d passes the curve's steps in proportion to d, which noise spreads
-    over the rows. Where the steps are even, a change of a whole step passes no more than one.
-    """
-    everything, file = pixels.names, pixels.file
-    rows = pixels.view.region.rows
-    spread = pixels.spread(everything)
-    levels = np.clip(pixels.levels, 0.0, WHITE)
-    mean, deviation, jumps = pixels.enhancement(everything).smoothed(PassedSteps.of(levels, spread))
-    step = float(pixels.levels[1] - pixels.levels[0])
-    slope = np.gradient(mean, step) ** 2
-    excess = np.maximum(np.gradient(jumps, step) - slope, 0.0)
-    total = spread**2
-    one = 1.0 / (rows**2 * pixels.view.region.columns)
-    pixel = float(pixels.mean_at_whole(slope + excess)) * one
-    found: dict[str, float] = {}
-
-    def add(name: str, square: float, linear: float, moves_few: bool) -> None:
-        if linear:
-            square += linear * rows * float(pixels.mean_at_whole(slope))
-        found[name] = square / rows
-        if name in pixels.variances:  # one pixel whose noise is drawn otherwise
-            found[name] += float(pixels.mean_at_whole(slope * total)) * one
-        if moves_few:
-            found[name] += _FLUCTUATION * math.sqrt(found[name] * pixel)
-
-    inside = pixels.inside([everything])
-    for name, variance in pixels.variances.items():
-        moves_few = float(variance.max()) < 0.25 * float(total.max())
-        read, linear = pixels.noise_read_back.get(name, (0.0, 0.0))
-        own = np.maximum(np.sqrt(variance), math.sqrt(read))
-        most = deviation**2
-        if file is None:
-            linear_part = slope * own**2
-        else:  # that the file has rounded as a whole
-            linear_part, most = np.zeros(len(own)), np.maximum(most - slope * total, 0.0)
-        part = linear_part + slope * np.tanh(4.8 * own) / 6.0 + excess * 0.8 * own
-        part = np.where(own**2 > 0.7 * total, most, np.minimum(part, most))
-        square = float(pixels.mean_at_whole(part, None if inside is None else inside[0]))
-        if inside is not None:
-            square += float(pixels.mean_at_whole(own**2, ~inside[0]))
-        add(name, square, linear, moves_few)
-    if file is not None:
-        moved = min(math.sqrt(file.own_change()), 1.0)
-        square = float(pixels.mean_at_whole(slope / 6.0 + excess * 0.8 * moved))
-        add(pixels.files[0].name, square, file.own_sampling(), moves_few=False)
-    even, uneven = pixels.at_whole(slope), pixels.at_whole(excess)
-    changes = np.abs(pixels.stack[1:] - pixels.whole)
-    linear = np.zeros(len(changes))
-    if file is not None:
-        added, linear = (of_sets[1:] for of_sets in file.added)
-        changes = np.sqrt(changes**2 + np.maximum(added, 0.0)[:, None, None])
-    np.minimum(changes, 0.5, out=changes)
-    squares = pixels.mean_of(changes * (even * (1.0 - changes) + uneven))
-    for name, square, own in zip(pixels.moving, squares.tolist(), linear.tolist(), strict=True):
-        add(name, square, own, moves_few=True)
-    return found

@@ -32,7 +32,7 @@ from occ_model.effects.effect import (
     OpticsEffect,
     PixelEffect,
 )
-from occ_model.effects.file_change import FileChange
+from occ_model.effects.file_change import FileChange, RimBlocks
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.sample import Sample, sample_of
 
@@ -252,10 +252,12 @@ class SampledPixels:
             self.sample,
             self.stack,
             self.noise_with(self.names),
-            self.view.region.rows,
-            self.rim_share,
-            2.0 if self.view.sides is None else float(self._level_rims[0]),
-            self.view.sides is not None,
+            RimBlocks(
+                rows=self.view.region.rows,
+                share=self.rim_share,
+                ends=2.0 if self.view.sides is None else float(self._level_rims[0]),
+                is_level=self.view.sides is not None,
+            ),
         )
 
     def noise_with(self, included: Names) -> float:
@@ -379,4 +381,5 @@ class SampledPixels:
 
 def _power(values: FloatArray, power: float) -> FloatArray:
     """Return a power, some times faster than NumPy's."""
-    return np.asarray(cv2.pow(values.reshape(-1, 1), power)).reshape(values.shape)
+    found: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
+    return found.reshape(values.shape)

@@ -115,7 +115,11 @@ def test_reasons_name_the_estimate_and_the_tolerance(scene: Scene) -> None:
     plan = occ.plan(scene, 3.0)
     for decision in plan.decisions:
         if decision.estimate:
-            assert decision.reason.startswith(f"about {decision.estimate:.2g} levels")
+            assert decision.estimate <= decision.limit
+            told = f"about {decision.estimate:.2g}"
+            if decision.limit > 1.1 * decision.estimate:
+                told += f", at most {decision.limit:.2g}"
+            assert decision.reason.startswith(f"{told} levels")
             assert "tolerance 3" in decision.reason
             assert decision.reason.endswith("taken in" if decision.included else "left out")
         else:
@@ -126,7 +130,7 @@ def test_reasons_name_the_estimate_and_the_tolerance(scene: Scene) -> None:
 
 
 def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
-    """Above the tolerance by itself, within it, or within it and not worth to leave out."""
+    """Above the tolerance by itself or perhaps, within it, or within it and not worth it."""
     seen = set()
     for tolerance in np.geomspace(0.05, 30.0, 12).tolist():
         for decision in occ.plan(scene, tolerance).decisions:
@@ -136,11 +140,13 @@ def test_the_reason_is_the_comparison_that_decides(scene: Scene) -> None:
                 assert decision.why == "within the tolerance"
             elif decision.estimate > tolerance:
                 assert decision.why == "above the tolerance"
+            elif decision.limit > tolerance:
+                assert decision.why == "not known to be within the tolerance"
             else:
                 assert decision.why == "leaving out others saves more time"
                 assert decision.why in decision.reason
             seen.add(decision.why)
-    assert len(seen) == 3
+    assert len(seen) == 4
     for decision in occ.plan(scene, math.inf).decisions:
         why = "no tolerance is set" if decision.estimate else "none in this scene"
         assert decision.why == why

@@ -299,7 +299,7 @@ class FileChange:
         away = np.abs(self._x[0] - np.rint(self._x[0]))
         spread = np.maximum(self._noise / self._step, _SHARP)
         density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
-        return np.minimum(density, 1.0)
+        return np.asarray(np.minimum(density, 1.0))
 
     def _at_rims(self, size: FloatArray) -> FloatArray:
         """Return what rounding adds to changes in blocks with a rim."""

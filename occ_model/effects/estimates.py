@@ -21,6 +21,9 @@ from occ_model.scene.simulation_settings import Observable, SimulationSettings
 ALLOWANCE = 1.2
 """Factor on what a sample shows, so that hardly any change is larger than its estimate."""
 
+LIMIT_ALLOWANCE = 1.3
+"""The same for limits, which keep a plan's promise."""
+
 _PEAK, _NOISE_PEAK = 2.0, 3.0
 """Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
 
@@ -113,7 +116,7 @@ class Estimates:
         if self.seen is None:
             return math.inf
         factor = max(self.factors.get(name, 1.0) for name in left_out)
-        return math.sqrt(self.seen.together(left_out)) * ALLOWANCE * self.stretch * factor
+        return math.sqrt(self.seen.together(left_out)) * LIMIT_ALLOWANCE * self.stretch * factor
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
@@ -148,7 +151,8 @@ def _estimates_of(
     sizes, limits = {}, {}
     for effect in pixels.effects:
         name = effect.name
-        unit = ALLOWANCE * stretch * factors[name]
-        sizes[name] = max(math.sqrt(seen.shown(name)), _LEAST_ESTIMATE) * unit
-        limits[name] = max(math.sqrt(seen.together(frozenset({name}))) * unit, sizes[name])
+        unit = stretch * factors[name]
+        sizes[name] = max(math.sqrt(seen.shown(name)), _LEAST_ESTIMATE) * unit * ALLOWANCE
+        most = math.sqrt(seen.together(frozenset({name}))) * unit * LIMIT_ALLOWANCE
+        limits[name] = max(most, sizes[name])
     return Estimates(sizes, limits, seen, stretch, factors)

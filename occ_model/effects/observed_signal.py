@@ -98,7 +98,9 @@ def observed_signal(pixels: SampledPixels) -> Observed:
         return pixels.mean_of_rows(found) * weights
 
     found = Observed(pixels.names, seen, sorted(pixels.names))
-    found.alone.update(SignalSampling(pixels).of_effects())
+    sampling = SignalSampling(pixels)
+    found.alone.update(sampling.of_effects())
+    found.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
     jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns

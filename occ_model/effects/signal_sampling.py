@@ -1,6 +1,7 @@
 """What the mean of few enhanced pixels deviates by, for each effect, estimated from a sample."""
 
 import math
+from functools import cached_property
 
 import numpy as np
 
@@ -67,11 +68,21 @@ class SignalSampling:
         file = self._pixels.file
         if file is None:
             return {}
-        moved = min(math.sqrt(file.own_change()), 1.0)
-        part = self._even / 6.0 + self._uneven * 0.8 * moved
-        square = float(self._pixels.mean_at_whole(part))
-        found = self._of_mean(square, file.own_sampling(), 0.0, moves_few=False)
+        found = self._of_mean(self._rounded, file.own_sampling(), 0.0, moves_few=False)
         return {self._pixels.files[0].name: found}
+
+    @cached_property
+    def _rounded(self) -> float:
+        """The mean square of what a file's rounding changes in an enhanced pixel."""
+        file = self._pixels.file
+        moved = 0.0 if file is None else min(math.sqrt(file.own_change()), 1.0)
+        part = self._even / 6.0 + self._uneven * 0.8 * moved
+        return float(self._pixels.mean_at_whole(part))
+
+    @property
+    def doubt_of_file(self) -> float:
+        """How much more that of a file may be, whose rounding is alike in the rows of a block."""
+        return 7.0 * self._rounded / self._rows if self._pixels.files else 0.0
 
     def _of_changes(self) -> dict[str, float]:
         """Return it for effects that move the pixels' means."""

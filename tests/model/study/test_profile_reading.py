@@ -77,11 +77,11 @@ def test_a_panel_out_of_the_picture_is_not_read() -> None:
 
 def test_the_plan_is_the_signals_whatever_the_picture_is_planned_for() -> None:
     scene = small("phone-136us", switching_frequency=14.6e3)
-    of_profile = SimulationSettings(observable="profile")
+    of_profile = SimulationSettings(1.0, observable="profile")
     reading = read_profile(scene, of_profile)
     assert reading is not None
-    assert reading.plan.included == occ.plan(scene, observable="signal").included
-    assert occ.plan(scene, observable="profile").included != reading.plan.included
+    assert reading.plan.included == occ.plan(scene, 1.0, "signal").included
+    assert occ.plan(scene, 1.0, "profile").included != reading.plan.included
 
 
 def test_a_picture_too_large_to_be_made_is_not_read_by_its_profile() -> None:

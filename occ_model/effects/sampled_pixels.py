@@ -267,6 +267,8 @@ class SampledPixels:
 
     @cached_property
     def _noise_squares(self) -> dict[str, float]:
+        if not self.variances:
+            return {}
         inner = self.whole[:, self.sample.inner]
         means = self.look(np.stack(list(self.variances.values())), inner).mean(axis=(1, 2))
         return dict(zip(self.variances, means.tolist(), strict=True))
@@ -274,7 +276,7 @@ class SampledPixels:
     @cached_property
     def noise_read_back(self) -> dict[str, tuple[float, float]]:
         """The mean square of each noise as a file has it: in pixels, and in a column's mean."""
-        if self.file is None:
+        if self.file is None or not self.variances:
             return {}
         each = np.array([self.noise_without(name) for name in self.variances])
         found = np.transpose(self.file.of_noise(*each.T)).tolist()

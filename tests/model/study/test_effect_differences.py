@@ -28,11 +28,11 @@ def differences(scene: Scene) -> dict[str, EffectDifference]:
 
 
 @pytest.mark.parametrize("observable", OBSERVABLES)
-def test_a_measured_error_is_within_its_effects_bound(scene: Scene, observable: Observable) -> None:
+def test_a_measured_error_is_within_its_effects_limit(scene: Scene, observable: Observable) -> None:
     complete = CompleteSimulation(scene, observable)
     for decision in occ.plan(scene, 0.0, observable).decisions:
         if decision.estimate:
-            assert complete.without(decision.effect).error <= decision.estimate, decision.effect
+            assert complete.without(decision.effect).error <= decision.limit, decision.effect
 
 
 def test_leaving_out_one_effect_is_the_error_of_the_others(

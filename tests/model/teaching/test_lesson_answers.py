@@ -138,7 +138,8 @@ def test_at_a_tolerance_of_10_levels_the_named_effects_are_out() -> None:
     gone = set(sizes) - set(plan.included)
     assert gone == {"jpeg", "emission", "distortion", "defocus", "fixed-pattern"}
     assert round(sizes["jpeg"]) == 7
-    assert all(0.5 < sizes[effect] < 5.5 for effect in gone - {"jpeg"})
+    assert all(1.5 < sizes[effect] < 5.5 for effect in gone - {"jpeg", "defocus"})
+    assert round(sizes["defocus"], 1) == 0.3
     assert plan.left_out <= 10.0
     assert {"sensor-noise", "vignetting", "flicker", "led-edges"} == set(plan.included)
     assert round(sizes["sensor-noise"]) == 13

@@ -124,11 +124,11 @@ def _rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
 _WIDE = 0.8
 """Noise in steps from which its rounded values vary as much wherever they lie."""
 
-_CUT_BLOCK = 84.0 / 64.0
-"""Variance of the sum of the first n rows of a block whose mean is 0, in a pixel's, for any n."""
-
 _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
 """About the coefficients of an edge of one grey level across a block."""
+
+_WHITE_SPECTRUM: FloatArray = np.full(8, math.sqrt(1.0 / 8.0))
+"""Amplitudes of a change that is alike at all frequencies."""
 
 _TINY = 1e-30
 
@@ -152,15 +152,16 @@ class RimBlocks:
         Rows that the panel spans.
     share
         Of the pixels that lie in blocks with a rim.
-    ends
-        Rims that a column meets: where what is observed cuts a block.
+    cut
+        Variance of a column's sum over the rows of blocks that what is observed cuts, whose
+        mean is 0, in that of a pixel.
     is_level
         Whether rims lie along the rows.
     """
 
     rows: int
     share: float
-    ends: float
+    cut: float
     is_level: bool
 
 
@@ -196,7 +197,7 @@ class FileChange:
         self._noise = math.sqrt(spread**2 + _ROUNDING)
         self.block_rows = max(rims.rows / 8.0, 1.0)
         self._rims = rims.share
-        self._cut = _CUT_BLOCK * rims.ends / rims.rows**2
+        self._cut = rims.cut / rims.rows**2
         self._stack = stack
         self._x = self._coefficients(stack)
         contrast = float(np.ptp(stack[0]))
@@ -301,10 +302,10 @@ class FileChange:
         density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
         return np.asarray(np.minimum(density, 1.0))
 
-    def _at_rims(self, size: FloatArray) -> FloatArray:
-        """Return what rounding adds to changes in blocks with a rim."""
+    def _at_rims(self, size: FloatArray, along: FloatArray = _WHITE_SPECTRUM) -> FloatArray:
+        """Return what rounding adds to changes in blocks with a rim, by their frequencies."""
         weights = self._all**2 * _near_half(self._of_rims) / 64.0
-        sizes = np.tile(self._along * math.sqrt(8.0), 8) / self._all
+        sizes = np.tile(along * math.sqrt(8.0), 8) / self._all
         return np.asarray(_moved_steps_of_noise(size[..., None] * sizes) @ weights)
 
     def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
@@ -347,7 +348,7 @@ class FileChange:
         """
         if not share:
             return 0.0
-        return share * float(self._at_rims(np.array(math.sqrt(square / share))))
+        return share * float(self._at_rims(np.array(math.sqrt(square / share)), self._along))
 
     def spread(self, spread: FloatArray) -> FloatArray:
         """Return the deviation of a pixel's noise as it is read back, for some before."""

@@ -86,6 +86,7 @@ def observed_profile(pixels: SampledPixels) -> Observed:
         name = pixels.files[0].name
         found.alone[name] = file.own_sampling()
         found.doubt[name] = found.together(frozenset({name}))
-        for name in pixels.moving:
-            found.alone[name] = float(file.added[1][pixels.place(name)])
+        for name in pixels.moving:  # what rounding adds is known to within its size
+            found.alone[name] = added = float(file.added[1][pixels.place(name)])
+            found.doubt[name] = found.doubt.get(name, 0.0) + added
     return found

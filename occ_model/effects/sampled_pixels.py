@@ -255,7 +255,7 @@ class SampledPixels:
             RimBlocks(
                 rows=self.view.region.rows,
                 share=self.rim_share,
-                ends=2.0 if self.view.sides is None else float(self._level_rims[0]),
+                cut=_cut_rows(self.view.region.first_row) + _cut_rows(self.view.region.last_row),
                 is_level=self.view.sides is not None,
             ),
         )
@@ -379,6 +379,12 @@ class SampledPixels:
     def is_like_noise(self, name: str) -> bool:
         """Return whether what an effect changes differs from column to column."""
         return any(effect.name == name for effect in (*self.noises, *self.files))
+
+
+def _cut_rows(end: int) -> float:
+    """Return the variance of the sum of the rows of a block that end at a row, by a pixel's."""
+    rows = end % 8
+    return rows * (8 - rows) / 8.0
 
 
 def _power(values: FloatArray, power: float) -> FloatArray:

@@ -148,13 +148,12 @@ class Coverage:
         start = np.clip(np.floor(x.min(axis=0)) - reach, columns.start, columns.stop)
         stop = np.clip(np.ceil(x.max(axis=0)) + reach + 1, columns.start, columns.stop)
         order = np.argsort(start)
-        merged: list[tuple[int, int]] = []
-        for first, last in zip(start[order].tolist(), stop[order].tolist(), strict=True):
-            if merged and first <= merged[-1][1]:
-                merged[-1] = merged[-1][0], max(merged[-1][1], int(last))
-            elif last > first:
-                merged.append((int(first), int(last)))
-        return merged
+        order = order[stop[order] > start[order]]
+        start, stop = start[order].astype(np.int64), np.maximum.accumulate(stop[order])
+        apart = np.append(True, start[1:] > stop[:-1])[: len(start)]
+        firsts = np.flatnonzero(apart)
+        lasts = np.append(firsts[1:], len(start))[: len(firsts)] - 1
+        return list(zip(start[firsts].tolist(), stop[lasts].astype(int).tolist(), strict=True))
 
     def _within(self, rows: range, columns: slice) -> Pixels:
         share = np.empty((len(rows), columns.stop - columns.start), dtype=np.float32)

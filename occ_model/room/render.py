@@ -1,7 +1,7 @@
 """Render a room: one picture of all lamps that its camera sees."""
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -143,7 +143,7 @@ def render_room(
     seen = lamps_in_view(room)
     timer.stage_ended("projection")
     views = [one.view for one in seen] or [_dark_view(room.scene)]
-    chosen = _joined([plan_of(view, settings) for view in views])
+    chosen = _joined([plan_of(view, settings) for view in _extreme(views)])
     timer.stage_ended("plan")
     if len(views) == 1:
         frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
@@ -160,6 +160,32 @@ def render_room(
 def _dark_view(scene: Scene) -> PaperView:
     """Return the view of a picture that shows no lamp."""
     return paper_view_of(dataclasses.replace(scene, pose=Pose(distance=1.0, offset_x=1e3)))
+
+
+def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
+    """Return the lamps among which any effect is largest.
+
+    Of lamps in one picture effects differ by what is listed here: the depth (defocus), the place in
+    the picture (vignetting, distortion), the lamp's tilt (emission), its light (noise), the number
+    of its pixels and its frequency (LED edges, and what a stretch makes of all).
+    """
+
+    def features(view: PaperView) -> tuple[float, ...]:
+        scene, corners = view.scene, view.corners
+        camera, sent = scene.camera, scene.transmitter
+        middle = np.array([camera.columns - 1, camera.rows - 1]) / 2.0
+        return (
+            scene.pose.distance, float(np.hypot(*(corners - middle).T).max()),
+            float(np.ptp(corners[:, 0]) * np.ptp(corners[:, 1])) / sent.panel_width
+            / sent.panel_height, sent.luminance, sent.switching_frequency, view.swing,
+            float(np.ptp(corners[:, 0])),
+        )  # fmt: skip
+
+    table = np.array([features(view) for view in views])
+    # Numbers that are alike but for rounding make no other lamp an extreme one.
+    table = np.round(table / np.maximum(np.abs(table).max(axis=0), 1e-30), 6)
+    places = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
+    return [views[place] for place in sorted(places)]
 
 
 def _joined(plans: list[Plan]) -> Plan:

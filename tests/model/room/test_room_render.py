@@ -8,8 +8,11 @@ import pytest
 
 import occ_model as occ
 from occ_model.camera.photometry import luminance_of
+from occ_model.effects.plan import plan_of
 from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.view import lamps_in_view
+from occ_model.scene.simulation_settings import SimulationSettings
 
 SMALL = {"rows": 600, "columns": 800}
 TURNED = {"yaw": 0.2, "pitch": -0.1, "roll": 0.3, "start_time": 1e-3}
@@ -108,3 +111,31 @@ def test_a_turned_camera_sees_a_lamp_where_an_independent_projection_puts_it() -
     expected = corners[:, :2] / corners[:, 2:] * scene.camera.focal_length_pixels
     expected += [(800 - 1) / 2, (600 - 1) / 2]
     np.testing.assert_allclose(made.lamps[0].outline, expected, atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_plan_of_a_picture_includes_what_any_of_its_lamps_calls_for(seed: int) -> None:
+    random = np.random.default_rng([2512, seed])
+    scene = occ.load_preset("phone-136us-real").replace(
+        rows=300, columns=400, focus_distance=float(random.uniform(0.5, 3.0))
+    )
+    lamps = tuple(
+        RoomLamp(
+            name=f"{n}", x=float(random.uniform(-1.5, 1.5)), y=float(random.uniform(-1.0, 1.0)),
+            z=float(random.uniform(1.5, 3.5)), pitch=float(random.uniform(-0.4, 0.4)),
+            transmitter=scene.transmitter.replaced({
+                "panel_width": float(random.uniform(0.1, 0.6)),
+                "luminance": float(10.0 ** random.uniform(2.5, 4.0)),
+                "switching_frequency": float(10.0 ** random.uniform(3.3, 4.5)),
+            }),
+        )
+        for n in range(12)
+    )  # fmt: skip
+    room = Room(lamps=lamps, scene=scene)
+    for tolerance in (0.5, 3.0):
+        joined = set(render_room(room, tolerance=tolerance).plan.included)
+        views = [seen.view for seen in lamps_in_view(room)]
+        assert len(views) > 6
+        settings = SimulationSettings(tolerance, "image")
+        each = [set(plan_of(view, settings).included) for view in views]
+        assert set.union(*each) == joined

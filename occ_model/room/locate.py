@@ -314,7 +314,7 @@ def _deviations(
         start, end = outlines[lamp.name][side], outlines[lamp.name][(side + 1) % 4]
         along = (end - start) / np.hypot(*(end - start))
         across = np.array([-along[1], along[0]])
-        off += ((edge.points - start) @ across / edge.errors).tolist()
+        off += edge.whitened((edge.points - start) @ across).tolist()
     return np.array(off)
 
 

@@ -124,7 +124,7 @@ def test_a_place_that_one_lamp_tells_is_not_sure(monkeypatch: pytest.MonkeyPatch
     room = _room(5, 1)
     there = locate.Located(room.camera, np.eye(6), 1.0, 2)
     corners = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]])
-    edge = Edge(0, corners[:2], np.array([0.0, 1.0]), (1.0, 1.0))
+    edge = Edge(0, corners[:2], np.array([0.0, 1.0]), np.eye(2))
     measured = [locate._Measured(room.lamps[0], corners, [edge] * 4, is_cut=False)]
     monkeypatch.setattr(locate, "_explanations", lambda *_: [there])
     places, reasons = locate._located(measured, room, 1, ())

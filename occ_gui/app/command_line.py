@@ -41,11 +41,11 @@ _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 
 PANES = (
     "controls", "decode", "photo", "profile", "accuracy", "map", "bench", "bands",
-    "equations", "spectrum", "compare", "lessons", "video",
+    "equations", "spectrum", "compare", "lessons", "video", "room",
 )  # fmt: skip
 """Names of the panes."""
 
-MODES = ("explore", "photo", "limits", "effects", "lessons", "video")
+MODES = ("explore", "photo", "limits", "effects", "lessons", "video", "room")
 """Names of the modes."""
 
 OVERLAYS = ("beside", "blend", "split", "difference")

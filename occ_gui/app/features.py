@@ -16,6 +16,7 @@ from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.pins.feature import compare
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.profile.feature import profile
+from occ_gui.room.feature import room
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
@@ -65,5 +66,6 @@ def features(parts: Parts) -> tuple[Feature[Any], ...]:
         compare(parts.pins),
         lessons(store, parts.board, parts.controls, parts.preferences),
         video(store, parts.board),
+        room(),
         bench(store, parts.frame_rate, parts.measuring.for_bench, parts.window.say),
     )

@@ -21,7 +21,7 @@ from occ_gui.window.current_pane import PICTURE, CurrentPane
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
 
-_WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands")
+_WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands", "room")
 """Panes with a figure of their own, of the same name; for any other the picture is copied."""
 
 _ENDING = "export/ending"

@@ -187,6 +187,7 @@ class Menus(QObject):
             "effects": ("E&ffects", "What accuracy costs in time."),
             "lessons": ("Le&ssons", "Learn step by step."),
             "video": ("&Video", "Read films, and what a camera sees."),
+            "room": ("&Room", "Many lamps in one picture: where am I?"),
         }
         self.modes = QActionGroup(self)
         for place, name in enumerate(MODES, 1):

@@ -2,24 +2,39 @@
 
 import argparse
 import math
+import sys
+from concurrent.futures import Executor
 from pathlib import Path
 
 import numpy as np
 
+from occ_model.commands.files import TABLE
 from occ_model.commands.options import (
     Commands,
     add_simulation_options,
     number,
     simulation_settings_of,
+    whole_number,
 )
+from occ_model.commands.sweep import add_work_options, run_with_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_image
 from occ_model.photo.reading.load import load_photo
-from occ_model.program import EXIT_FAILURE
+from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.room.locate import Located, RoomReading, read_room
 from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
+from occ_model.scene.from_text import with_settings
+from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study.room_map import (
+    RoomMapRequest,
+    RoomMapText,
+    RoomPoint,
+    floor_under,
+    room_map,
+)
+from occ_model.study.sweep.sweep import Progress
 
 _AXES = tuple(Place.__dataclass_fields__)
 
@@ -42,20 +57,46 @@ def add_to(commands: Commands) -> None:
     )
     add_simulation_options(locate)
     locate.set_defaults(command=_locate)
+    floor = kinds.add_parser(
+        "map",
+        help="measure over the floor how many lamps are read, and how well the place is known",
+        epilog="Stopped by Ctrl-C, or by anything else, what is done is in the file of --out; the "
+        "same command goes on from there.",
+    )  # fmt: skip
+    _add_room(floor)
+    floor.add_argument(
+        "--side", type=whole_number, default=5, metavar="N",
+        help="places on each side of the floor below the lamps; default: %(default)s",
+    )  # fmt: skip
+    floor.add_argument(
+        "--images", type=whole_number, default=1, help="a place; default: %(default)s"
+    )
+    floor.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    floor.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
+    add_work_options(floor)
+    floor.set_defaults(command=_map, writes={"out": TABLE})
 
 
 def _add_room(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--room", default="office", help=f"{', '.join(rooms())}, or a room file; default: office"
     )
+    parser.add_argument(
+        "--set", action="append", default=[], dest="settings", metavar="NAME=VALUE",
+        help="a parameter of the camera, or of all lamps; may be repeated",
+    )  # fmt: skip
     for name in _AXES:
         unit = "metres" if name in "xyz" else "degrees"
         parser.add_argument(f"--{name}", type=number, help=f"of the camera, in {unit}")
 
 
 def _room_of(options: argparse.Namespace) -> Room:
+    room = load_room(options.room)
+    changed = with_settings(room.scene, options.settings)
+    names = [text.split("=", 1)[0].strip() for text in options.settings]
+    room = room.with_sent(**{name: changed.value(name) for name in names})
     given = {name: getattr(options, name) for name in _AXES if getattr(options, name) is not None}
-    return load_room(options.room).replace(
+    return room.replace(
         **{name: v if name in "xyz" else math.radians(v) for name, v in given.items()}
     )
 
@@ -73,6 +114,39 @@ def _render(options: argparse.Namespace) -> int:
     print(
         f"{one_line(str(options.out))}: {len(shown)} of {len(room.lamps)} lamps in the picture, "
         f"simulated in {1e3 * seconds:.1f} ms: {one_line(', '.join(shown)) or 'none'}"
+    )
+    return 0
+
+
+def _map(options: argparse.Namespace) -> int:
+    room = _room_of(options)
+    request = RoomMapRequest(
+        room, *floor_under(room, options.side), options.images, options.seed, options.tolerance
+    )
+
+    def run(executor: Executor | None, progress: Progress) -> tuple[RoomPoint, ...]:
+        return room_map(
+            request, executor=executor, jobs=options.jobs, progress=progress, results=options.out
+        )
+
+    points = run_with_bar(run, request.points, options)
+    if points is None:
+        return EXIT_INTERRUPTED
+    if not options.out:
+        text = RoomMapText(request)
+        sys.stdout.writelines([text.header, *map(text.text, points)])
+        return 0
+    pictures = request.points * request.images
+    sure, named, wrong, shown = (
+        sum(getattr(point, count) for point in points)
+        for count in ("sure", "named", "wrong", "shown")
+    )
+    errors = [point.error for point in points if point.sure]
+    median = f", in the median {1e3 * float(np.median(errors)):.3g} mm off" if errors else ""
+    print(
+        f"{one_line(str(options.out))}: {request.points} places, {pictures} pictures: "
+        f"{named} lamps named, {wrong} wrongly, of {shown} "
+        f"whole ones; {sure} places sure{median}"
     )
     return 0
 

@@ -3,10 +3,11 @@
 import argparse
 import sys
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager, nullcontext
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from occ_model.commands.cluster import cluster_executor
 from occ_model.commands.files import TABLE
@@ -31,14 +32,15 @@ from occ_model.results.sweep_request import (
     SHOWN,
     SIGNAL_PATHS,
     RateSettings,
-    SweepRequest,
 )
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.request_check import checked_request
-from occ_model.study.sweep.sweep import run_sweep
+from occ_model.study.sweep.sweep import Progress, run_sweep
 
 BOTH, ALL = "both", "all"
+
+Study = TypeVar("Study")
 
 PLOT_ENDINGS = (".png", ".pdf", ".svg")
 """The endings of the files that a plot is written to."""
@@ -86,15 +88,7 @@ def add_to(commands: Commands) -> None:
         help="by whole images, by the column means alone, or as the plan allows; "
         "default: %(default)s",
     )  # fmt: skip
-    work = parser.add_mutually_exclusive_group()
-    work.add_argument(
-        "--jobs", type=whole_number, default=1, metavar="N", help="processes; default: %(default)s"
-    )
-    work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
-    parser.add_argument(
-        "--out", type=Path, metavar="FILE.csv",
-        help="results, point by point; where a part of them is there, the rest is measured",
-    )  # fmt: skip
+    add_work_options(parser)
     parser.add_argument(
         "--plot", type=Path, metavar="FILE",
         help="draw one axis as curves, two as maps; PNG, PDF or SVG by its ending",
@@ -104,6 +98,19 @@ def add_to(commands: Commands) -> None:
         help="success rates in the plot, or bits a second; default: %(default)s",
     )  # fmt: skip
     parser.set_defaults(command=_run, writes={"out": TABLE})
+
+
+def add_work_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where a study's work is done, and where its results go."""
+    work = parser.add_mutually_exclusive_group()
+    work.add_argument(
+        "--jobs", type=whole_number, default=1, metavar="N", help="processes; default: %(default)s"
+    )
+    work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
+    parser.add_argument(
+        "--out", type=Path, metavar="FILE.csv",
+        help="results, point by point; where a part of them is there, the rest is measured",
+    )  # fmt: skip
 
 
 def _run(options: argparse.Namespace) -> int:
@@ -126,7 +133,13 @@ def _run(options: argparse.Namespace) -> int:
     check_count("jobs", options.jobs, 1, MOST_JOBS)
     if options.plot:
         _check_plot(options.plot, len(axes))
-    table = _measured(request, options)
+
+    def run(executor: Executor | None, progress: Progress) -> SweepTable:
+        return run_sweep(
+            request, executor=executor, jobs=options.jobs, progress=progress, results=options.out
+        )
+
+    table = run_with_bar(run, request.points, options)
     if table is None:
         return EXIT_INTERRUPTED
     if options.out:
@@ -166,7 +179,9 @@ def _check_plot(path: Path, axes: int) -> None:
         )
 
 
-def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable | None:
+def run_with_bar(
+    run: Callable[[Executor | None, Progress], Study], points: int, options: argparse.Namespace
+) -> Study | None:
     """Measure with a progress bar that shows the time left; None after Ctrl-C."""
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
     reached = 0
@@ -175,27 +190,20 @@ def _measured(request: SweepRequest, options: argparse.Namespace) -> SweepTable 
 
         def progress(done: int, total: int, _left: float) -> None:
             nonlocal bar, reached
-            if bar is None:  # not before the first point: a refused sweep shows none
+            if bar is None:  # not before the first point: a refused study shows none
                 bar = stack.enter_context(progress_bar(total=total, unit="point"))
             reached = done
             bar.update(done - bar.n)
 
         try:
             stack.enter_context(_warnings_as_sentences())
-            executor = stack.enter_context(workers)
-            return run_sweep(
-                request,
-                executor=executor,
-                jobs=options.jobs,
-                progress=progress,
-                results=options.out,
-            )
+            return run(stack.enter_context(workers), progress)
         except KeyboardInterrupt:
             pass
     kept = f"they are in {one_line(str(options.out))}, and the same command goes on from there."
     if not options.out:
         kept = "with --out FILE.csv they would be kept."
-    print(f"occ-model: stopped after {reached} of {request.points} points; {kept}", file=sys.stderr)
+    print(f"occ-model: stopped after {reached} of {points} points; {kept}", file=sys.stderr)
     return None
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.room.reading import ReadLamp
@@ -31,6 +31,9 @@ _ENDS = 0.06
 
 _LEAST_POINTS = 16
 """Points from which a line is fitted."""
+
+_LEAST_TOLD = 4
+"""Bright pixels inside a lamp from which the level of its light is told."""
 
 _MOST_DEVIATIONS = 3.5
 """Deviations beyond which a point is left out of a line."""
@@ -165,8 +168,8 @@ class EdgeFinder:
         lit = inside > _BRIGHT * np.percentile(inside, 95)
         if lit.sum() < _LEAST_POINTS:
             return _NONE
-        share, shared = _shares(light[lit], inside[lit, None])
-        found = middle[lit] + inwards * (_REACH + 0.5 - share)
+        count, shared, _ = _counts(light[lit], inside[lit, None], 0.0)
+        found = middle[lit] + inwards * (_REACH + 0.5 - count)
         return _Points(np.stack([places[lit].astype(np.float64), found], axis=1), shared)
 
     def _across_columns(
@@ -184,19 +187,19 @@ class EdgeFinder:
             return _NONE
         near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
         across = middle[:, None] + near
-        expected = own[across]
-        lit = expected[:, _INSIDE:].min(axis=1) > _BRIGHT * np.percentile(own, 99)
-        if lit.sum() < _LEAST_POINTS:
-            return _NONE
-        places = places[lit]
-        light = self._light[places[:, None], across[lit]]
-        share, shared = _shares(light, expected[lit])
-        found = middle[lit] + inwards * (_REACH + 0.5 - share)
-        return _Points(np.stack([found, places.astype(np.float64)], axis=1), shared)
+        light = self._light[places[:, None], across]
+        count, shared, is_lit = _counts(light, own[across], _BRIGHT * np.percentile(own, 99))
+        found = middle[is_lit] + inwards * (_REACH + 0.5 - count[is_lit])
+        return _Points(np.stack([found, places[is_lit].astype(np.float64)], axis=1), shared)
 
 
-def _shares(light: FloatArray, expected: FloatArray) -> tuple[FloatArray, float]:
-    """Return how many pixels about an edge are lit, and the error that all counts share.
+def _counts(
+    light: FloatArray, expected: FloatArray, bright: float
+) -> tuple[FloatArray, float, BoolArray]:
+    """Return how many pixels about an edge are lit, the error that all counts share, and which.
+
+    The light about an edge is as much as its innermost pixels would hold, so many and a part of
+    the next. A count is told only where that one is bright.
 
     Parameters
     ----------
@@ -204,25 +207,40 @@ def _shares(light: FloatArray, expected: FloatArray) -> tuple[FloatArray, float]
         From outside to inside.
     expected : ndarray of float64
         The lamp's own light there, shape as ``light`` or (points, 1).
+    bright
+        Expected light from which a pixel is bright.
     """
+    full = np.broadcast_to(expected, light.shape)
     dark = light[:, :_INSIDE].mean(axis=0)
     outside = float(dark.mean())
-    inner = slice(-_INSIDE, None)
-    full = np.broadcast_to(expected, light.shape)
-    level = (light[:, inner] - outside).sum(axis=0) / full[:, inner].sum(axis=0)
+    inner = full[:, -_INSIDE:].mean(axis=0)
+    is_told = inner > max(bright, 0.0)
+    places = np.arange(_REACH + 1, _REACH + _INSIDE + 1, dtype=np.float64)[is_told]
+    none = np.zeros(len(light), dtype=np.bool_)
+    if len(places) < _LEAST_TOLD:
+        return np.zeros(len(light)), 0.0, none
+    level = ((light[:, -_INSIDE:] - outside).mean(axis=0) / np.maximum(inner, 1e-12))[is_told]
     # The light falls towards the rim: the level is taken where the lit pixels are.
-    place = np.arange(_REACH + 1, _REACH + _INSIDE + 1, dtype=np.float64)
-    slope, gain = np.polyfit(place - place.mean(), level, 1)
-    scatter = float((level - gain - slope * (place - place.mean())).std() * np.sqrt(1.25))
-    back = place.mean() - _REACH / 2.0
-    own = full[:, _INSIDE:-_INSIDE] * (gain - slope * back)
-    share = ((light[:, _INSIDE:-_INSIDE] - outside) / own).sum(axis=1)
-    spread = float((place - place.mean()).std() * np.sqrt(_INSIDE))
-    of_level = _REACH * scatter / gain * np.hypot(1.0 / np.sqrt(_INSIDE), back / spread)
+    apart = places - places.mean()
+    slope, gain = np.polyfit(apart, level, 1)
+    scatter = float((level - gain - slope * apart).std() * np.sqrt(len(places) / (len(places) - 2)))
+    back = places.mean() - _REACH / 2.0
+    spread = float(apart.std() * np.sqrt(len(places)))
+    own = full[:, _INSIDE:-_INSIDE][:, ::-1] * (gain - slope * back)  # from inside to outside
+    held = np.cumsum(own, axis=1)
+    total = (light[:, _INSIDE:-_INSIDE] - outside).sum(axis=1)
+    last = np.minimum((held < total[:, None]).sum(axis=1), own.shape[1] - 2)
+    row = np.arange(len(light))
+    before = held[row, last] - own[row, last]
+    count = last + (total - before) / np.maximum(own[row, last], 1e-12)
+    beside = np.stack([own[row, np.maximum(last + step, 0)] for step in (-1, 0, 1)])
+    is_lit = beside.min(axis=0) > bright * gain
+    of_level = _REACH * scatter / gain * np.hypot(1.0 / np.sqrt(len(places)), back / spread)
     of_pixels = np.sqrt(_REACH) * scatter / gain
-    width = 2.0 * _REACH + 1.0
-    of_dark = width * float(dark.std()) / np.sqrt(_INSIDE) / float((full * gain).mean())
-    return share, float(np.sqrt(of_level**2 + of_pixels**2 + of_dark**2))
+    of_dark = (
+        (2.0 * _REACH + 1.0) * float(dark.std()) / np.sqrt(_INSIDE) / float((inner * gain).max())
+    )
+    return count, float(np.sqrt(of_level**2 + of_pixels**2 + of_dark**2)), is_lit
 
 
 def _places(start: float, end: float, size: int) -> "np.ndarray[tuple[int], np.dtype[np.int64]]":

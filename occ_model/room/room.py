@@ -202,6 +202,21 @@ class Room:
         camera = dataclasses.replace(room.camera, **place)
         return dataclasses.replace(room, camera=camera, scene=room.scene.replace(**changes))
 
+    def with_sent(self, **changes: Any) -> Self:
+        """Return the room with parameters of the scene changed, for all lamps those that they have.
+
+        Raises
+        ------
+        ParameterError
+            A name is unknown, or a value is out of range.
+        """
+        sent = {name: value for name, value in changes.items() if name in GROUPS["transmitter"]}
+        lamps = tuple(
+            dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced(sent))
+            for lamp in self.lamps
+        )
+        return self.replace(lamps=lamps, **changes)
+
     def to_toml(self) -> str:
         """Write the room as the text of a room file."""
         tables = self.scene.tables()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.projection import image_points, rotation_of
+from occ_model.camera.projection import image_points, image_rays, rotation_of
 from occ_model.effects.defocus import blur_of
 from occ_model.effects.paper_view import PaperView, paper_view_of, region_of
 from occ_model.errors import ParameterError, ProjectionError, one_line
@@ -152,3 +152,40 @@ def _clipped(points: FloatArray) -> FloatArray:
             along = (_LEAST_DEPTH - start[2]) / (end[2] - start[2])
             kept.append(start + along * (end - start))
     return np.array(kept).reshape(-1, 3)
+
+
+def seen_outline(room: Room, height: float) -> FloatArray:
+    """Return the part of a level plane that the camera sees, shape (corners, 2): x and y.
+
+    Empty where no whole picture of it is above the camera.
+
+    Parameters
+    ----------
+    height
+        Of the plane, metres.
+    """
+    camera, place = room.scene.camera, room.camera
+    right, bottom = camera.columns - 1.0, camera.rows - 1.0
+    corners = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])
+    rays = image_rays(corners, camera)
+    turned = np.column_stack([rays, np.ones(4)]) @ rotation(place).T
+    above = height - place.z
+    if above <= 0.0 or turned[:, 2].min() <= _LEAST_DEPTH:
+        return np.empty((0, 2))
+    return np.asarray([place.x, place.y] + turned[:, :2] / turned[:, 2:] * above)
+
+
+def aim_of(place: Place, height: float) -> tuple[float, float]:
+    """Return where on a level plane above it the middle of a camera's picture is."""
+    x, y, z = rotation(place)[:, 2].tolist()
+    along = (height - place.z) / max(z, _LEAST_DEPTH)
+    return place.x + along * x, place.y + along * y
+
+
+def aimed_at(place: Place, x: float, y: float, height: float) -> Place:
+    """Return a camera turned so that a point is in the middle of its picture, its roll kept."""
+    away = np.array([x - place.x, y - place.y, height - place.z])
+    away /= np.linalg.norm(away)
+    about = rotation_of(Pose(roll=place.roll)).T @ away
+    pitch, yaw = -math.asin(float(about[1])), math.atan2(float(about[0]), float(about[2]))
+    return dataclasses.replace(place, yaw=yaw, pitch=pitch)

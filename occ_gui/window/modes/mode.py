@@ -87,6 +87,7 @@ MODES: Mapping[str, Mode] = MappingProxyType(
             right=(("video",),),
             widths={"controls": 340},
         ),
+        "room": Mode(centre="", main="room", right=(("room",),)),
     }
 )
 """The modes, in the order shown."""

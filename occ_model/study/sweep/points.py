@@ -1,12 +1,12 @@
 """Points of a sweep: measured one after the other, in this process or as a worker's job."""
 
-from collections.abc import Generator, Iterable
+from collections.abc import Generator, Iterable, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import TypeAlias
 
 from occ_model.errors import OccError
-from occ_model.parallel.job import Heartbeat
+from occ_model.parallel.job import Heartbeat, Job
 from occ_model.results.sweep_csv import one_line
 from occ_model.results.sweep_request import RateSettings, SweepPoint, SweepRequest
 from occ_model.scene.parameter_kinds import ParameterValue
@@ -62,3 +62,23 @@ def measure_here(
     for index in indices:
         values = request.values(index)
         yield measure_point(request.scene, request.settings, index, values, heartbeat)
+
+
+class SweepWork:
+    """The points of a sweep as jobs of workers."""
+
+    what, module = "sweep", __name__
+
+    def __init__(self, request: SweepRequest) -> None:
+        self._request = request
+
+    def job(self, indices: Sequence[int]) -> Job:
+        """Make a job of some points."""
+        points = tuple((index, self._request.values(index)) for index in indices)
+        return Job(measure_points, (self._request.scene, self._request.settings, points))
+
+    def here(
+        self, indices: Iterable[int], heartbeat: Heartbeat
+    ) -> Generator[SweepPoint, None, None]:
+        """Measure points in this process."""
+        return measure_here(self._request, indices, heartbeat)

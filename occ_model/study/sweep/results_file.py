@@ -1,52 +1,81 @@
-"""The CSV file to which a sweep appends its results, and from which it can be continued.
+"""The CSV file to which a study appends its results, and from which it can be continued.
 
 Each point is written at once, in one piece, so that the file survives the end of the program. Only
-the sweep that began a file can continue it: the file's comment lines hold all that determines the
-numbers, and are compared with those that the sweep would write.
+the study that began a file can continue it: the file's comment lines hold all that determines the
+numbers, and are compared with those that the study would write.
 """
 
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from types import TracebackType
-from typing import BinaryIO, Self
+from typing import BinaryIO, Generic, Protocol, Self, TypeVar
 
 from occ_model.errors import OutputError, one_line, shown
 from occ_model.files.writing import check_replaceable, write_whole
-from occ_model.results.sweep import SweepTable
-from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_text
-from occ_model.results.sweep_request import SweepPoint, SweepRequest
 from occ_model.study.sweep.file_lock import is_locked_by_us
 
 _SYNC_SECONDS = 2.0
 """Seconds of work that a power cut may cost."""
 
-Intervals = Callable[[SweepPoint], list[tuple[float, float]]]
+
+class Indexed(Protocol):
+    """A point of a study."""
+
+    @property
+    def index(self) -> int:
+        """Its number, from 0."""
 
 
-class ResultsFile:
-    """A CSV file of one sweep, open and locked within its context.
+Point = TypeVar("Point", bound=Indexed)
+
+
+class TableText(Protocol[Point]):
+    """How the points of a study are written."""
+
+    what: str
+    """What the study is called: a sweep."""
+
+    title: str
+    """The beginning of the header of every such table."""
+
+    header: str
+    """All that determines the numbers, and the names of the columns."""
+
+    points: int
+    """Points of the whole study."""
+
+    lines_a_point: int
+
+    def read(self, lines: Sequence[str]) -> Point | None:
+        """Read a point, None where the lines are none of this study."""
+
+    def text(self, point: Point) -> str:
+        """Write a point."""
+
+
+class ResultsFile(Generic[Point]):
+    """A CSV file of one study, open and locked within its context.
 
     Parameters
     ----------
-    intervals
-        Function that gives the interval of each rate of a point, percent.
+    table
+        How the study is written.
 
     Raises
     ------
     OutputError
-        On entering the context: the path is no regular file or cannot be written, another sweep is
-        using it, or it holds something else than this sweep. The file is left unchanged then.
+        On entering the context: the path is no regular file or cannot be written, another study is
+        using it, or it holds something else than this one. The file is left unchanged then.
     """
 
-    def __init__(self, path: Path, request: SweepRequest, intervals: Intervals) -> None:
+    def __init__(self, path: Path, table: TableText[Point]) -> None:
         self._path = path
         self._name = one_line(str(path))
-        self._request = request
-        self._intervals = intervals
-        self._header = header_text(request).encode("utf-8")
+        self._table = table
+        self._header = table.header.encode("utf-8")
         self._in_order = True
         self._last = -1
         self._synced = monotonic()
@@ -80,8 +109,8 @@ class ResultsFile:
             if not is_locked_by_us(file):
                 file.close()
                 raise OutputError(
-                    f"{self._name} is being written by another sweep; wait for it, or name another "
-                    "file."
+                    f"{self._name} is being written by another {self._table.what}; wait for it, or "
+                    "name another file."
                 )
             with suppress(FileNotFoundError):
                 if os.path.samestat(os.fstat(file.fileno()), self._path.stat()):
@@ -97,28 +126,29 @@ class ResultsFile:
             self._file.seek(0)
             self._write(self._header, keep=0)
             return
-        if not there.startswith(TITLE.encode("utf-8")):
-            raise OutputError(f"{self._name} holds no results of a sweep; name another file.")
+        if not there.startswith(self._table.title.encode("utf-8")):
+            raise OutputError(
+                f"{self._name} holds no results of a {self._table.what}; name another file."
+            )
         wanted = self._header.decode("utf-8").splitlines()
         found = there.decode("utf-8", errors="replace").splitlines()
         last = len(found) - 1  # may be cut: only as many bytes as this header has were read
         for place, (mine, other) in enumerate(zip(wanted, found, strict=False)):
             if mine != other and not (place == last and mine.startswith(other)):
                 raise OutputError(
-                    f"{self._name} holds the results of another sweep: it says "
+                    f"{self._name} holds the results of another {self._table.what}: it says "
                     f"{shown(_short(other))} where this one has {shown(_short(mine))}; name "
                     "another file."
                 )
         raise OutputError(f"{self._name} was changed by another program; name another file.")
 
-    def points_there(self) -> Iterator[SweepPoint]:
+    def points_there(self) -> Iterator[Point]:
         """Read the points that the file holds already; an incomplete last point is cut off.
 
         The iterator must be exhausted before a point is appended.
         """
-        reader = PointReader(self._request)
-        height = len(self._request.settings.decoders)
-        seen = bytearray(self._request.points)
+        height = self._table.lines_a_point
+        seen = bytearray(self._table.points)
         whole, line_number = len(self._header), self._header.count(b"\n")
         with open(self._file.fileno(), "rb", closefd=False) as buffered:
             buffered.seek(whole)
@@ -127,11 +157,12 @@ class ResultsFile:
                 text = b"".join(lines)
                 if len(lines) < height or not text.endswith(b"\n"):
                     break
-                point = reader.read(text.decode("utf-8", errors="replace").splitlines())
+                point = self._table.read(text.decode("utf-8", errors="replace").splitlines())
                 if point is None or seen[point.index] or self._text(point) != text:
                     raise OutputError(
                         f"{self._name} holds something else in line {line_number + 1}: it is no "
-                        "new row of this sweep; mend or remove it, or name another file."
+                        f"new row of this {self._table.what}; mend or remove it, or name another "
+                        "file."
                     )
                 seen[point.index] = 1
                 whole, line_number = whole + len(text), line_number + height
@@ -143,12 +174,12 @@ class ResultsFile:
             raise self._unwritable(error) from None
         self._file.seek(whole)
 
-    def append(self, point: SweepPoint) -> None:
+    def append(self, point: Point) -> None:
         """Write a point at the end of the file."""
         self._note_order(point)
         self._write(self._text(point), keep=self._file.tell())
 
-    def finish(self, table: SweepTable) -> None:
+    def finish(self, lines: Iterable[str]) -> None:
         """Rewrite the complete table in the order of the axes, unless it is in that order."""
         try:
             os.fsync(self._file.fileno())
@@ -157,12 +188,12 @@ class ResultsFile:
         if not self._in_order:
             # Where there is no space for a second file the first stays: it is as complete.
             with suppress(OutputError):
-                write_whole(self._path, "".join(table.csv()).encode("utf-8"))
+                write_whole(self._path, "".join(lines).encode("utf-8"))
 
-    def _text(self, point: SweepPoint) -> bytes:
-        return point_text(self._request, point, self._intervals(point)).encode("utf-8")
+    def _text(self, point: Point) -> bytes:
+        return self._table.text(point).encode("utf-8")
 
-    def _note_order(self, point: SweepPoint) -> None:
+    def _note_order(self, point: Point) -> None:
         self._in_order &= point.index > self._last
         self._last = point.index
 

@@ -1,20 +1,18 @@
 """Measure success rates at all combinations of some parameters' values."""
 
 import math
-import warnings
 from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, closing
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
 
-from occ_model.errors import one_line
-from occ_model.parallel.job import NO_PROCESSES, Heartbeat
+from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_csv import TITLE, PointReader, header_text, point_text
 from occ_model.results.sweep_request import (
     MOST_JOBS,
     RateSettings,
@@ -27,10 +25,10 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.counts import Counts, rate_intervals
-from occ_model.study.sweep.points import measure_here
+from occ_model.study.sweep.points import SweepWork
 from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
 from occ_model.study.sweep.results_file import ResultsFile
-from occ_model.study.sweep.workers import PRELOAD, GivenExecutor, measure_by
+from occ_model.study.sweep.workers import measure_anywhere
 
 Progress: TypeAlias = Callable[[int, int, float], object]
 """Called with the number of points done, of all points, and of seconds left."""
@@ -129,21 +127,20 @@ def run_sweep(
     with ExitStack() as stack:
         file = None
         if results is not None:
-            intervals = partial(rate_intervals, images=request.settings.images)
-            file = stack.enter_context(ResultsFile(Path(results), request, intervals))
+            file = stack.enter_context(ResultsFile(Path(results), _SweepText(request)))
         return _measured_table(request, file, executor, jobs, progress)
 
 
 def _measured_table(
     request: SweepRequest,
-    file: ResultsFile | None,
+    file: ResultsFile[SweepPoint] | None,
     executor: Executor | None,
     jobs: int,
     progress: Progress | None,
 ) -> SweepTable:
     """Measure the points that the file does not hold yet, append them, and give all of them."""
     counts = Counts(request)
-    clock = _Clock(request.points, progress)
+    clock = Clock(request.points, progress)
     if file is not None:
         for point in file.points_there():
             counts.enter(point)
@@ -161,7 +158,7 @@ def _measured_table(
             clock.count()
     table = counts.table()
     if file is not None:
-        file.finish(table)
+        file.finish(table.csv())
     return table
 
 
@@ -184,25 +181,27 @@ def measure(
         Which points, by default all, in the order in which they take the least time.
     """
     todo = request.in_order_of_work() if indices is None else iter(indices)
-    if executor is not None:
-        return measure_by(GivenExecutor(executor), request, todo, heartbeat)
-    if jobs > 1:
-        # Importing what starts processes takes time.
-        from occ_model.parallel.process_pool import ProcessPool
-
-        try:
-            return measure_by(ProcessPool(jobs, PRELOAD), request, todo, heartbeat)
-        except NO_PROCESSES as error:
-            warnings.warn(
-                f"No processes can be started ({one_line(str(error))}); this one does the sweep "
-                "alone.",
-                RuntimeWarning,
-                stacklevel=2,
-            )
-    return measure_here(request, todo, heartbeat)
+    return measure_anywhere(SweepWork(request), todo, executor, jobs, heartbeat)
 
 
-class _Clock:
+class _SweepText:
+    """How a sweep's points are written."""
+
+    what, title = "sweep", TITLE
+
+    def __init__(self, request: SweepRequest) -> None:
+        self._request = request
+        self.header, self.points = header_text(request), request.points
+        self.lines_a_point = len(request.settings.decoders)
+        self.read = PointReader(request).read
+
+    def text(self, point: SweepPoint) -> str:
+        """Write a point with the intervals of its rates."""
+        intervals = rate_intervals(point, images=self._request.settings.images)
+        return point_text(self._request, point, intervals)
+
+
+class Clock:
     """Measures the progress of a sweep and its time left, and reports both."""
 
     def __init__(self, total: int, progress: Progress | None) -> None:

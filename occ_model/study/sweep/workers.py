@@ -1,12 +1,14 @@
-"""Workers of a sweep: they measure its points, and this process completes it where they die."""
+"""Workers of a study: they measure its points, and this process completes it where they die."""
 
 import warnings
-from collections.abc import Generator, Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Executor, Future, wait
 from itertools import chain, islice
-from typing import Any
+from typing import Any, Generic, Protocol, TypeVar
 
+from occ_model.errors import one_line
 from occ_model.parallel.job import (
+    NO_PROCESSES,
     Heartbeat,
     Job,
     JobResult,
@@ -17,11 +19,7 @@ from occ_model.parallel.job import (
 )
 from occ_model.parallel.request import Run
 from occ_model.parallel.scheduler import Scheduler
-from occ_model.results.sweep_request import SweepPoint, SweepRequest
-from occ_model.study.sweep.points import MeasuredPoints, measure_here, measure_points
-
-PRELOAD = "occ_model.study.sweep.points"
-"""The module that a worker process needs."""
+from occ_model.study.sweep.results_file import Indexed, Point
 
 _JOB_SECONDS = 0.1
 """Work in a job: long against the time to send it, short against the patience of who waits."""
@@ -31,6 +29,25 @@ _BEAT = 0.2
 
 _UNKNOWN_WORKERS = 32
 """Workers assumed of an executor that does not say how many it has."""
+
+
+Measured = TypeVar("Measured", bound=Indexed, covariant=True)
+
+
+class Work(Protocol[Measured]):
+    """The points of a study as jobs, whose results have ``points`` and ``seconds``."""
+
+    what: str
+    """What the study is called: a sweep."""
+
+    module: str
+    """What a worker process needs."""
+
+    def job(self, indices: Sequence[int]) -> Job:
+        """Make a job of some points."""
+
+    def here(self, indices: Iterable[int], heartbeat: Heartbeat) -> Generator[Measured, None, None]:
+        """Measure points in this process."""
 
 
 class GivenExecutor:
@@ -70,16 +87,42 @@ class GivenExecutor:
         """Leave the executor to its owner."""
 
 
+def measure_anywhere(
+    work: Work[Point],
+    todo: Iterator[int],
+    executor: Executor | None,
+    jobs: int,
+    heartbeat: Heartbeat,
+) -> Generator[Point, None, None]:
+    """Measure points by an executor, by so many processes, or here."""
+    if executor is not None:
+        return measure_by(GivenExecutor(executor), work, todo, heartbeat)
+    if jobs > 1:
+        # Importing what starts processes takes time.
+        from occ_model.parallel.process_pool import ProcessPool
+
+        try:
+            return measure_by(ProcessPool(jobs, work.module), work, todo, heartbeat)
+        except NO_PROCESSES as error:
+            warnings.warn(
+                f"No processes can be started ({one_line(str(error))}); this one does the "
+                f"{work.what} alone.",
+                RuntimeWarning,
+                stacklevel=3,
+            )
+    return work.here(todo, heartbeat)
+
+
 def measure_by(
-    workers: Workers, request: SweepRequest, indices: Iterator[int], heartbeat: Heartbeat
-) -> Generator[SweepPoint, None, None]:
+    workers: Workers, work: Work[Point], indices: Iterator[int], heartbeat: Heartbeat
+) -> Generator[Point, None, None]:
     """Measure points by workers, in the order in which they are ready.
 
     A bounded number of jobs is in flight at a time. When workers die the points that they had
     are measured again, by new ones, or here where there are none: a point depends on nothing but
     itself.
     """
-    progress = _Progress(request, indices)
+    progress = _Progress(work, indices)
     scheduler = Scheduler(lambda: workers, progress)
     scheduler.put(Run(0, 1, lambda: (Stage(0, progress.jobs()),)))
     try:
@@ -90,25 +133,25 @@ def measure_by(
         if isinstance(progress.error, WorkersLostError):
             reason = progress.error.reason
             warnings.warn(
-                f"The sweep's workers are gone ({reason}); this process finishes it alone.",
+                f"The {work.what}'s workers are gone ({reason}); this process finishes it alone.",
                 RuntimeWarning,
                 stacklevel=2,
             )
         elif progress.error is not None:
             raise progress.error
-        yield from measure_here(request, progress.left(), heartbeat)
+        yield from work.here(progress.left(), heartbeat)
     finally:
         scheduler.end_workers()
 
 
-class _Progress:
-    """The points of a sweep that are to be sent, that workers have, and that are measured."""
+class _Progress(Generic[Point]):
+    """The points of a study that are to be sent, that workers have, and that are measured."""
 
-    def __init__(self, request: SweepRequest, indices: Iterator[int]) -> None:
-        self._request = request
+    def __init__(self, work: Work[Point], indices: Iterator[int]) -> None:
+        self._work = work
         self._unsent = indices
         self._sent: dict[int, None] = {}
-        self._measured: list[SweepPoint] = []
+        self._measured: list[Point] = []
         self._seconds_a_point = 0.0
         self.is_ended = False
         self.error: Exception | None = None
@@ -117,15 +160,14 @@ class _Progress:
         """Make jobs of the points, each only when it is needed."""
         while chosen := tuple(islice(self._unsent, self._size())):
             self._sent.update(dict.fromkeys(chosen))
-            points = tuple((index, self._request.values(index)) for index in chosen)
-            yield Job(measure_points, (self._request.scene, self._request.settings, points))
+            yield self._work.job(chosen)
 
     def _size(self) -> int:
         """Give the number of points in a job: one until their time is known."""
         each = self._seconds_a_point
         return max(1, int(_JOB_SECONDS / each)) if each else 1
 
-    def newly_measured(self) -> list[SweepPoint]:
+    def newly_measured(self) -> list[Point]:
         """Give the points that were measured since the last call."""
         measured, self._measured = self._measured, []
         return measured
@@ -139,7 +181,7 @@ class _Progress:
         for result in results:
             self._take(result)
 
-    def _take(self, result: MeasuredPoints) -> None:
+    def _take(self, result: Any) -> None:
         self._seconds_a_point = result.seconds / len(result.points)
         for point in result.points:
             del self._sent[point.index]

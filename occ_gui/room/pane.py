@@ -1,0 +1,102 @@
+"""The pane of the room: pictures are taken and read on one thread, the map measured on another."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QSize
+from PySide6.QtWidgets import QFileDialog
+
+from occ_gui.background.task import Reporter, Task
+from occ_gui.room.jobs import FloorMap, ShownRoom, map_room, plan_of, show_room
+from occ_gui.room.room_view import RoomView
+from occ_gui.shell.feature import Pane
+from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_model.errors import OccError
+from occ_model.room.room import Room
+from occ_model.room.rooms import load_room, rooms
+from occ_model.room.view import aimed_at
+
+_LEAST = QSize(360, 240)
+_FIRST = "office"
+
+
+class RoomPane(Pane[None]):
+    """Shows a room from a place that the user drags."""
+
+    def __init__(self) -> None:
+        self.view = RoomView(rooms())
+        super().__init__(ScrollPane(self.view, _LEAST))
+        self.room = load_room(_FIRST)
+        self.shown: ShownRoom | None = None
+        """The last picture of the present place, once it is read."""
+        self._look: Task[Room, ShownRoom] = Task(show_room, "room")
+        self._look.reported.connect(self._show)
+        self._look.finished.connect(self._show)
+        self._look.failed.connect(self.view.show_failure)
+        self._map: Task[Room, FloorMap] = Task(_map, "room map", impatient=True)
+        self._map.reported.connect(self.view.show_progress)
+        self._map.finished.connect(self._show_map)
+        self._map.failed.connect(self.view.show_failure)
+        self.view.room_chosen.connect(lambda name: self.take(load_room(name)))
+        self.view.file_asked.connect(self._ask_for_file)
+        self.view.map_asked.connect(lambda: self._map.ask(self.room))
+        self.view.plan.camera_moved.connect(lambda x, y: self.move(self.room.replace(x=x, y=y)))
+        self.view.plan.aim_moved.connect(self._aim)
+        self.view.rooms.setCurrentText(_FIRST)
+        self.take(self.room)
+
+    def take(self, room: Room) -> None:
+        """Show another room."""
+        self._show_room(room, is_new=True)
+
+    def move(self, room: Room) -> None:
+        """Show the room from another place."""
+        self._show_room(room, is_new=False)
+
+    def open(self, path: Path) -> None:
+        """Show the room of a file; a sentence says why it cannot be read."""
+        try:
+            self.take(load_room(path))
+        except OccError as error:
+            self.view.show_failure(str(error))
+
+    def _aim(self, x: float, y: float) -> None:
+        height = plan_of(self.room).height
+        self.move(self.room.replace(camera=aimed_at(self.room.camera, x, y, height)))
+
+    def _show_room(self, room: Room, *, is_new: bool) -> None:
+        self.room, self.shown = room, None
+        self.view.show_plan(room, plan_of(room), is_new=is_new)
+        self._look.ask(room)
+
+    def _ask_for_file(self) -> None:
+        chosen, _ = QFileDialog.getOpenFileName(
+            self.widget, "Open a room file", "", "Room files (*.toml)"
+        )
+        if chosen:
+            self.open(Path(chosen))
+
+    def _show(self, shown: ShownRoom) -> None:
+        is_present = shown.room == self.room
+        self.view.show_picture(shown, is_present=is_present)
+        if is_present and shown.reading is not None:
+            self.shown = shown
+
+    def _show_map(self, found: FloorMap) -> None:
+        # Another place of the camera is no matter of a map, but its turn and height are.
+        now, then = self.room, found.request.room
+        if now.replace(x=then.camera.x, y=then.camera.y) == then:
+            self.view.show_map(found)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether the picture of the present place is read and no map is measured."""
+        return self._look.is_idle and self._map.is_idle
+
+    def stop(self) -> None:
+        """Take no more pictures."""
+        self._look.stop()
+        self._map.stop()
+
+
+def _map(room: Room, report: Reporter) -> FloorMap:
+    return map_room(room, report)

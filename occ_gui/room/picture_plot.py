@@ -1,0 +1,47 @@
+"""The camera's picture of a room, with the names of the lamps that were read."""
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QRectF
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from occ_gui.room.jobs import ShownRoom
+from occ_gui.widgets.pens import BAND, SIMULATION, thin
+from occ_gui.widgets.plot import new_plot
+
+
+class PicturePlot(QWidget):
+    """The picture, outlines of what was found in it, and names."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plot = new_plot("The camera's picture", "column", "row", self.palette())
+        self.plot.setAspectLocked(True)
+        self.plot.invertY(True)
+        self.plot.setMouseEnabled(False, False)
+        self.image = pg.ImageItem(axisOrder="row-major")
+        self.plot.addItem(self.image)
+        self._over: list[pg.GraphicsObject] = []
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.plot)
+
+    def show_room(self, shown: ShownRoom) -> None:
+        """Show a picture; its lamps have names once it is read."""
+        rows, columns = shown.frame.camera_image.shape
+        self.image.setImage(shown.picture, levels=(0, 255))
+        self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
+        self.plot.setXRange(0, columns, padding=0)
+        self.plot.setYRange(0, rows, padding=0)
+        for item in self._over:
+            self.plot.removeItem(item)
+        self._over = []
+        for read in shown.reading.lamps if shown.reading else ():
+            colour = SIMULATION if read.name else BAND
+            closed = np.vstack([read.hull, read.hull[:1]])
+            outline = pg.PlotCurveItem(closed[:, 0], closed[:, 1], pen=thin(colour))
+            name = pg.TextItem(read.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
+            name.setPos(*read.hull.mean(axis=0).tolist())
+            for item in (outline, name):
+                self.plot.addItem(item, ignoreBounds=True)
+                self._over.append(item)

@@ -1,0 +1,137 @@
+"""Plan of a room: lamps, camera and what it sees; both can be dragged."""
+
+import math
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from occ_gui.room.jobs import FloorMap, RoomPlan
+from occ_gui.widgets.contrast import pen_on
+from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, thin
+from occ_gui.widgets.plot import new_plot
+from occ_model.arrays import FloatArray
+from occ_model.room.locate import Located
+from occ_model.room.room import Place
+
+_DEVIATIONS = 2.0
+_ROUND = np.linspace(0.0, 2.0 * math.pi, 49)
+
+_SEEN_SIZE = 0.04
+"""Share of the plan's width from which an ellipse can be seen."""
+
+_MARGIN = 0.8
+"""Metres around the lamps."""
+
+_DASHES = Qt.PenStyle.DashLine
+
+
+class PlanPlot(QWidget):
+    """The room from above."""
+
+    camera_moved = Signal(float, float)
+    """The user has dragged the camera: x and y in metres."""
+
+    aim_moved = Signal(float, float)
+    """The user has dragged the middle of what the camera sees."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plot = new_plot("Plan of the room", "x (m)", "y (m)", self.palette())
+        self.plot.setAspectLocked(True)
+        self.plot.setMouseEnabled(False, False)
+        self.floor = pg.ScatterPlotItem(pen=None, symbol="s")
+        self.plot.addItem(self.floor)
+        self.lamps = self.plot.add_curve(thin(SIMULATION))
+        self.seen = self.plot.add_curve(thin(PHOTO, _DASHES))
+        self.ellipse = self.plot.add_curve(thin(BAND))
+        self.names: list[pg.TextItem] = []
+        self.found = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
+        self.camera = pg.TargetItem((0.0, 0.0), size=14, symbol="o", pen=pg.mkPen(PHOTO, width=2))
+        self.aim = pg.TargetItem((0.0, 0.0), size=12, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
+        for target, moved in ((self.camera, self.camera_moved), (self.aim, self.aim_moved)):
+            self.plot.addItem(target)
+            target.sigPositionChanged.connect(
+                lambda item, moved=moved: moved.emit(float(item.pos().x()), float(item.pos().y()))
+            )
+        self.plot.dress_with(self._dress)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.plot)
+
+    def _dress(self, palette: QPalette) -> None:
+        for name in self.names:
+            name.setColor(palette.color(QPalette.ColorRole.Text))
+        for target in (self.camera, self.aim):
+            target.setPen(pen_on(palette, pg.mkPen(PHOTO, width=2)))
+
+    def show_plan(self, plan: RoomPlan, place: Place, *, is_new: bool) -> None:
+        """Show lamps and camera; of another room the plan is fitted to the pane anew."""
+        loops = [np.vstack([outline, outline[:1]]) for outline in plan.outlines.values()]
+        ends = np.cumsum([len(loop) for loop in loops]) - 1
+        joined = np.vstack(loops)
+        connected = np.ones(len(joined), dtype=np.int32)
+        connected[ends] = 0
+        self.lamps.setData(joined[:, 0], joined[:, 1], connect=connected)
+        closed = np.vstack([plan.seen, plan.seen[:1]]) if len(plan.seen) else plan.seen
+        self.seen.setData(closed[:, 0], closed[:, 1])
+        for target, at in ((self.camera, (place.x, place.y)), (self.aim, plan.aim)):
+            target.blockSignals(True)
+            target.setPos(QPointF(*at))
+            target.blockSignals(False)
+        if is_new:
+            self._show_names(plan.outlines)
+            low, high = joined.min(axis=0) - _MARGIN, joined.max(axis=0) + _MARGIN
+            self.plot.setXRange(float(low[0]), float(high[0]), padding=0)
+            self.plot.setYRange(float(low[1]), float(high[1]), padding=0)
+        self.plot.setAccessibleDescription(
+            f"{len(plan.outlines)} lamps; the camera is at x {place.x:.2f} m, y {place.y:.2f} m"
+        )
+
+    def _show_names(self, outlines: dict[str, FloatArray]) -> None:
+        for name in self.names:
+            self.plot.removeItem(name)
+        self.names = []
+        for text, outline in outlines.items():
+            name = pg.TextItem(text, anchor=(0.5, 0.5))
+            name.setPos(*outline.mean(axis=0).tolist())
+            self.plot.addItem(name, ignoreBounds=True)
+            self.names.append(name)
+        self._dress(self.palette())
+
+    def show_located(self, located: Located | None, true: Place) -> float:
+        """Show a place with its error ellipse; return by how much both are enlarged."""
+        if located is None:
+            self.ellipse.setData([], [])
+            self.found.setData([], [])
+            return 1.0
+        values, axes = np.linalg.eigh(located.covariance[:2, :2])
+        lengths = _DEVIATIONS * np.sqrt(np.maximum(values, 0.0))
+        width = float(np.ptp(self.plot.getViewBox().viewRange()[0]))
+        needed = _SEEN_SIZE * width / max(float(lengths.max()), 1e-12)
+        enlarged = 10.0 ** max(0, math.ceil(math.log10(max(needed, 1.0))))
+        middle = np.array([true.x, true.y])
+        off = (np.array([located.place.x, located.place.y]) - middle) * enlarged
+        circle = np.stack([np.cos(_ROUND), np.sin(_ROUND)]) * lengths[:, None] * enlarged
+        x, y = (middle + off)[:, None] + axes @ circle
+        self.ellipse.setData(x, y)
+        self.found.setData([middle[0] + off[0]], [middle[1] + off[1]])
+        return float(enlarged)
+
+    def show_map(self, found: FloorMap | None) -> None:
+        """Show at each place of the floor whether it was told; none without a map."""
+        if found is None:
+            self.floor.setData([], [])
+            return
+        places = [found.request.place(point.index) for point in found.points]
+        spots = [
+            {"pos": place, "brush": pg.mkBrush(colour), "size": 9}
+            for place, colour in zip(
+                places,
+                [SIMULATION if point.sure else BAND for point in found.points],
+                strict=True,
+            )
+        ]
+        self.floor.setData(spots)

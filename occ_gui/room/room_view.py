@@ -1,0 +1,158 @@
+"""View of a room: its plan, the camera's picture, where the picture says that it was taken."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
+from occ_gui.room.picture_plot import PicturePlot
+from occ_gui.room.plan_plot import PlanPlot
+from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.room.locate import RoomReading
+from occ_model.room.room import Place, Room
+
+_LEAST_HEIGHT = 260
+
+_LEGEND = (
+    "Drag the ring (the camera) or the triangle (where it looks). Dashed: what it sees at the "
+    "lamps' height. Cross and ellipse: the place that was found, and two standard deviations."
+)
+
+
+class RoomView(QWidget):
+    """A choice of rooms, a headline, the plan beside the picture, and the floor's map."""
+
+    room_chosen = Signal(str)
+    """The user chooses a room of the program."""
+
+    file_asked = Signal()
+    """The user wants to choose a room file."""
+
+    map_asked = Signal()
+    """The user wants the map over the floor measured."""
+
+    def __init__(self, names: Sequence[str], parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.rooms = QComboBox()
+        self.rooms.setAccessibleName("Room")
+        self.rooms.addItems(names)
+        self.rooms.textActivated.connect(self.room_chosen)
+        self.open = QPushButton("&Open a room file…")
+        self.open.clicked.connect(self.file_asked)
+        self.measure = QPushButton("&Measure the floor")
+        self.measure.setToolTip(
+            "Take a picture at each of 25 places below the lamps, and see where the place is told."
+        )
+        self.measure.clicked.connect(self.map_asked)
+        self.headline, self.sentences, self.floor = QLabel(), QLabel(), QLabel()
+        self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+        self.plan, self.picture = PlanPlot(), PicturePlot()
+        for plot in (self.plan, self.picture):
+            plot.setMinimumHeight(_LEAST_HEIGHT)
+        legend = QLabel(_LEGEND)
+        for label in (self.headline, self.sentences, self.floor, legend):
+            label.setWordWrap(True)
+            label.setTextFormat(Qt.TextFormat.PlainText)
+        chosen, row, layout = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
+        for button in (self.rooms, self.open, self.measure):
+            chosen.addWidget(button)
+        chosen.addStretch()
+        row.addWidget(self.plan, 1)
+        row.addWidget(self.picture, 1)
+        layout.addLayout(chosen)
+        for label in (self.headline, self.sentences):
+            layout.addWidget(label)
+        layout.addLayout(row, 1)
+        for label in (legend, self.floor):
+            layout.addWidget(label)
+
+    def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
+        """Show where lamps and camera are; what the last picture told is out of date."""
+        self.plan.show_plan(plan, room.camera, is_new=is_new)
+        self.plan.show_located(None, room.camera)
+        self.headline.setText("Looking…")
+        self.sentences.setText("")
+        if is_new:
+            self.show_map(None)
+
+    def show_picture(self, shown: ShownRoom, *, is_present: bool) -> None:
+        """Show a picture, and what is read of it if that is of the present place."""
+        self.picture.show_room(shown)
+        if shown.reading is None or not is_present:
+            return
+        self.headline.setText(_headline(shown.reading))
+        enlarged = self.plan.show_located(shown.reading.located, shown.room.camera)
+        self.sentences.setText(_sentences(shown.room.camera, shown.reading, enlarged))
+
+    def show_failure(self, sentence: str) -> None:
+        """Show why there is no picture."""
+        self.headline.setText(sentence)
+        self.sentences.setText("")
+
+    def show_progress(self, share: float) -> None:
+        """Show how much of the map is measured."""
+        self.floor.setText(f"Measuring the floor: {100.0 * share:.0f} %")
+
+    def show_map(self, found: FloorMap | None) -> None:
+        """Show a map over the floor, or none."""
+        self.plan.show_map(found)
+        self.floor.setText(_floor(found) if found else "")
+
+
+def _headline(reading: RoomReading) -> str:
+    if reading.located is None:
+        return "The place is not told"
+    place, errors = reading.located.place, reading.located.errors
+    text = ", ".join(
+        f"{name} {getattr(place, name):.3f} m ± {_length(error)}"
+        for name, error in zip("xyz", errors[:3].tolist(), strict=True)
+    )
+    return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"
+
+
+def _length(metres: float) -> str:
+    return f"{100.0 * metres:.2g} cm" if metres >= 1e-2 else f"{1e3 * metres:.2g} mm"
+
+
+def _sentences(true: Place, reading: RoomReading, enlarged: float) -> str:
+    named = [read.name for read in reading.lamps if read.name]
+    lines = [f"{len(named)} of {len(reading.lamps)} lamps named: {', '.join(named) or 'none'}."]
+    lines += reading.reasons
+    if reading.located is not None:
+        place, errors = reading.located.place, reading.located.errors
+        off = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
+        angles = " ± ".join((
+            ", ".join(f"{math.degrees(getattr(place, name)):.2f}°" for name in _ANGLES),
+            f"{math.degrees(float(errors[3:].max())):.2g}°",
+        ))  # fmt: skip
+        times = f"; drawn {enlarged:g} times larger" if enlarged > 1.0 else ""
+        lines.append(f"{_length(off)} from the true place{times}. Yaw, pitch, roll: {angles}.")
+    return "\n".join(lines)
+
+
+_ANGLES = ("yaw", "pitch", "roll")
+
+
+def _floor(found: FloorMap) -> str:
+    points = found.points
+    sure = [point for point in points if point.sure]
+    named, shown, wrong = (
+        sum(getattr(point, count) for point in points) for count in ("named", "shown", "wrong")
+    )
+    text = (
+        f"Map of the floor: {len(sure)} of {len(points)} places told (blue; not orange), "
+        f"{named} lamps named of {shown} whole ones, {wrong} wrongly."
+    )
+    if sure:
+        text += f" In the median {_length(float(np.median([p.error for p in sure])))} off."
+    return text

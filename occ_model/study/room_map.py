@@ -1,0 +1,316 @@
+"""Measure over a room's floor how many lamps are read, and how well the place is known."""
+
+import csv
+import math
+from collections.abc import Generator, Iterable, Sequence
+from concurrent.futures import Executor
+from contextlib import ExitStack, closing
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+from occ_model.errors import OccError, ParameterError
+from occ_model.parallel.job import Heartbeat, Job
+from occ_model.results.sweep_csv import one_line
+from occ_model.results.sweep_request import MOST_JOBS
+from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.render import RoomFrame, render_room
+from occ_model.room.room import Room, check_room
+from occ_model.scene.argument_checks import check_count, check_seed
+from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study.sweep.results_file import ResultsFile
+from occ_model.study.sweep.sweep import Clock, Progress
+from occ_model.study.sweep.workers import measure_anywhere
+from occ_model.version import __version__
+
+MOST_PLACES = 10_000
+
+_TITLE = "# Lamps read and place found over the floor"
+_FORMAT = 1
+_START_TIMES = 0.1
+"""Seconds over which the start of each picture is drawn at random."""
+
+_BESIDE = 20.0
+"""Pixels beyond a lamp's rectangle within which what is read is that lamp."""
+
+
+@dataclass(frozen=True, slots=True)
+class RoomMapRequest:
+    """What a map over a floor measures: at each place the camera is as the room says otherwise.
+
+    Parameters
+    ----------
+    room
+        The room.
+    across, along
+        Places in x and y, in metres.
+    images
+        Pictures at each place, each with another start time and noise.
+    seed
+        Of start times and noise.
+    tolerance
+        As for :func:`occ_model.render_room`.
+
+    Raises
+    ------
+    ParameterError
+        There are too many places, or a value is out of range.
+    """
+
+    room: Room
+    across: tuple[float, ...]
+    along: tuple[float, ...]
+    images: int = 1
+    seed: int = 1
+    tolerance: float = TOLERANCE.default
+
+    def __post_init__(self) -> None:
+        check_room(self.room)
+        check_seed(self.seed)
+        check_count("images", self.images, 1, 10_000)
+        check_count("places", self.points, 1, MOST_PLACES)
+        if not self.tolerance >= 0.0:
+            raise ParameterError(f"tolerance is {self.tolerance:g}; allowed: 0 or more.")
+
+    @property
+    def points(self) -> int:
+        """How many places are measured."""
+        return len(self.across) * len(self.along)
+
+    def place(self, index: int) -> tuple[float, float]:
+        """Return x and y of a place."""
+        column, row = divmod(index, len(self.along))
+        return self.across[column], self.along[row]
+
+
+@dataclass(frozen=True, slots=True)
+class RoomPoint:
+    """What pictures at one place told.
+
+    Parameters
+    ----------
+    index
+        The place's number.
+    shown, named, wrong
+        Lamps whole in the pictures, lamps that were named, and those with another one's name, in
+        all pictures together.
+    sure
+        Pictures whose place was sure.
+    error, stated
+        Root mean square of the distances from the true place, and of the stated errors, of sure
+        places, in metres; not a number without one.
+    note
+        Why there is no picture, or no sure place; the first reason.
+    """
+
+    index: int
+    shown: int
+    named: int
+    wrong: int
+    sure: int
+    error: float
+    stated: float
+    note: str
+
+
+@dataclass(frozen=True, slots=True)
+class _MeasuredPlaces:
+    points: tuple[RoomPoint, ...]
+    seconds: float
+
+
+def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Return evenly spaced places in x and y below a room's lamps, so many on each side."""
+    check_count("places on a side", count, 1, MOST_PLACES)
+    sides = []
+    for places in ([lamp.x for lamp in room.lamps], [lamp.y for lamp in room.lamps]):
+        ends = np.linspace(min(places), max(places), count)
+        sides.append(tuple(float(round(end, 6)) for end in dict.fromkeys(ends.tolist())))
+    return sides[0], sides[1]
+
+
+def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> RoomPoint:
+    """Measure one place; an error of the model becomes its note."""
+    x, y = request.place(index)
+    counts = np.zeros(3, dtype=np.int64)
+    errors: list[tuple[float, float]] = []
+    note = ""
+    for number in range(request.images):
+        heartbeat()
+        random = np.random.default_rng([request.seed, index, number])
+        start = request.room.scene.model.start_time + float(random.uniform(0.0, _START_TIMES))
+        room = request.room.replace(x=x, y=y, start_time=start)
+        try:
+            frame = render_room(room, tolerance=request.tolerance, seed=int(random.integers(2**31)))
+            reading = read_room(frame.camera_image, room)
+        except OccError as refusal:
+            return RoomPoint(index, 0, 0, 0, 0, math.nan, math.nan, one_line(str(refusal)))
+        counts += _counts(frame, reading)
+        if reading.is_sure and reading.located is not None:
+            found, camera = reading.located.place, room.camera
+            apart = (found.x - camera.x, found.y - camera.y, found.z - camera.z)
+            errors.append((math.hypot(*apart), float(np.hypot.reduce(reading.located.errors[:3]))))
+        elif reading.reasons:
+            note = note or one_line(reading.reasons[0])
+    error, stated = (
+        np.sqrt(np.mean(np.square(errors), axis=0)).tolist() if errors else (math.nan, math.nan)
+    )
+    shown, named, wrong = counts.tolist()
+    return RoomPoint(index, shown, named, wrong, len(errors), error, stated, note)
+
+
+def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int]:
+    """Count the lamps whole in a picture, the named ones, and those named wrongly."""
+    regions = {one.lamp.name: one.region for one in frame.lamps}
+    named = wrong = 0
+    for read in reading.lamps:
+        if read.name is None:
+            continue
+        named += 1
+        column, row = read.hull.mean(axis=0)
+        own = regions.get(read.name)
+        wrong += own is None or not (
+            own.first_column - _BESIDE <= column <= own.last_column + _BESIDE
+            and own.first_row - _BESIDE <= row <= own.last_row + _BESIDE
+        )
+    return sum(not one.is_cut for one in frame.lamps), named, wrong
+
+
+def measure_places(
+    request: RoomMapRequest, indices: Iterable[int], heartbeat: Heartbeat
+) -> _MeasuredPlaces:
+    """Measure some places."""
+    start = perf_counter()
+    points = tuple(measure_place(request, index, heartbeat) for index in indices)
+    return _MeasuredPlaces(points, perf_counter() - start)
+
+
+class _Work:
+    """The places of a map as jobs of workers."""
+
+    what, module = "map", __name__
+
+    def __init__(self, request: RoomMapRequest) -> None:
+        self._request = request
+
+    def job(self, indices: Sequence[int]) -> Job:
+        """Make a job of some places."""
+        return Job(measure_places, (self._request, tuple(indices)))
+
+    def here(
+        self, indices: Iterable[int], heartbeat: Heartbeat
+    ) -> Generator[RoomPoint, None, None]:
+        """Measure places in this process."""
+        for index in indices:
+            yield measure_place(self._request, index, heartbeat)
+
+
+class RoomMapText:
+    """How the places of a map are written: one row each."""
+
+    what, title, lines_a_point = "map of a room", _TITLE, 1
+
+    def __init__(self, request: RoomMapRequest) -> None:
+        self._request = request
+        self.points = request.points
+        lines = [
+            _TITLE,
+            f"# occ_model {__version__}",
+            f"# format {_FORMAT} of a room's map",
+            f"# seed {request.seed}",
+            f"# images {request.images}, at every place",
+            f"# tolerance {request.tolerance!r} levels",
+            *(f"# {name} (m): {', '.join(map(repr, places))}"
+              for name, places in (("x", request.across), ("y", request.along))),
+            "#",
+            "# room at hand:",
+            *(f"# {line}".rstrip() for line in request.room.to_toml().splitlines()),
+        ]  # fmt: skip
+        columns = (
+            "x (m)", "y (m)", "images", "lamps in view", "lamps named", "named wrongly",
+            "sure places", "error (m)", "stated error (m)", "note",
+        )  # fmt: skip
+        self.header = "\n".join(lines) + "\n" + _row(columns)
+
+    def text(self, point: RoomPoint) -> str:
+        """Write a place."""
+        return _row((
+            *self._request.place(point.index), self._request.images, point.shown, point.named,
+            point.wrong, point.sure, point.error, point.stated, point.note,
+        ))  # fmt: skip
+
+    def read(self, lines: Sequence[str]) -> RoomPoint | None:
+        """Read a place; the caller checks that it is written alike."""
+        try:
+            (line,) = lines
+            x, y, _, *counts, error, stated, note = next(csv.reader([line], strict=True))
+            across = [repr(place) for place in self._request.across].index(x)
+            along = [repr(place) for place in self._request.along].index(y)
+            shown, named, wrong, sure = map(int, counts)
+        except (ValueError, StopIteration, csv.Error):
+            return None
+        index = across * len(self._request.along) + along
+        off, told = (float(text) if text else math.nan for text in (error, stated))
+        return RoomPoint(index, shown, named, wrong, sure, off, told, note)
+
+
+def _row(cells: Iterable[object]) -> str:
+    text = StringIO()
+    csv.writer(text, lineterminator="\n").writerow(
+        "" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells
+    )
+    return text.getvalue()
+
+
+def room_map(
+    request: RoomMapRequest,
+    *,
+    executor: Executor | None = None,
+    jobs: int = 1,
+    progress: Progress | None = None,
+    results: str | Path | None = None,
+) -> tuple[RoomPoint, ...]:
+    """Measure the places of a map.
+
+    Parameters
+    ----------
+    request
+        The map.
+    executor, jobs, progress, results
+        As for :func:`occ_model.sweep`: a file that was left half full is gone on with.
+
+    Returns
+    -------
+    tuple of RoomPoint
+        In the order of the places.
+
+    Raises
+    ------
+    ParameterError, OutputError
+        As for :func:`occ_model.sweep`.
+    """
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    found: dict[int, RoomPoint] = {}
+    clock = Clock(request.points, progress)
+    text = RoomMapText(request)
+    with ExitStack() as stack:
+        file = stack.enter_context(ResultsFile(Path(results), text)) if results else None
+        if file is not None:
+            found |= {point.index: point for point in file.points_there()}
+            clock.start(len(found))
+        todo = (index for index in range(request.points) if index not in found)
+        jobs = min(jobs, max(request.points - len(found), 1))
+        points = measure_anywhere(_Work(request), todo, executor, jobs, clock.show_life)
+        stack.enter_context(closing(points))
+        for point in points:
+            if file is not None:
+                file.append(point)
+            found[point.index] = point
+            clock.count()
+        whole = tuple(found[index] for index in range(request.points))
+        if file is not None:
+            file.finish([text.header, *map(text.text, whole)])
+    return whole

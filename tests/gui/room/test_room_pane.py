@@ -1,0 +1,129 @@
+"""The pane of the room shows the place that a picture tells, and follows what is dragged."""
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+import occ_model as occ
+from occ_gui.room import jobs
+from occ_gui.room import pane as room_pane
+from occ_gui.room.jobs import map_room, plan_of
+from occ_gui.room.pane import RoomPane
+from occ_model.figures.drawing import house_style
+from occ_model.figures.room import room_drawing
+from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.view import aim_of, aimed_at, rotation
+
+
+def small_room() -> Room:
+    """Return four lamps and a camera of few pixels."""
+    scene = occ.load_preset("phone-68us").replace(
+        rows=512, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
+        switching_frequency=8e3,
+    )  # fmt: skip
+    lamps = tuple(
+        RoomLamp(
+            name=f"L{n}", x=1.2 * (n % 2), y=1.2 * (n // 2), z=2.6, start_time=3e-4 * n,
+            transmitter=scene.transmitter.replaced(
+                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
+            ),
+        )
+        for n in range(4)
+    )  # fmt: skip
+    return Room(lamps=lamps, scene=scene, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
+
+
+@pytest.fixture
+def pane(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[RoomPane]:
+    monkeypatch.setattr(room_pane, "load_room", lambda _: small_room())
+    pane = RoomPane()
+    qtbot.addWidget(pane.widget)
+    pane.widget.resize(900, 600)
+    pane.widget.show()
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    yield pane
+    pane.stop()
+
+
+def test_the_place_is_told_with_its_errors_and_the_lamps_have_names(pane: RoomPane) -> None:
+    assert pane.view.headline.text().startswith("I am here: x 0.")
+    assert "4 of 4 lamps named" in pane.view.sentences.text()
+    assert "times larger" in pane.view.sentences.text()
+    assert pane.shown is not None
+    assert pane.shown.reading is not None
+    located = pane.shown.reading.located
+    assert located is not None
+    # The ellipse is that of the covariance, enlarged as is said, about the place that was found.
+    x, _ = pane.view.plan.ellipse.getData()
+    enlarged = float(pane.view.sentences.text().split("drawn ")[1].split(" times")[0])
+    assert np.ptp(x) == pytest.approx(4.0 * enlarged * located.errors[0], rel=0.02)
+    middle = pane.room.camera.x + enlarged * (located.place.x - pane.room.camera.x)
+    assert (x.min() + x.max()) / 2.0 == pytest.approx(middle, abs=1e-9)
+
+
+def test_a_dragged_camera_is_looked_from_and_the_old_place_goes(
+    pane: RoomPane, qtbot: QtBot
+) -> None:
+    pane.view.plan.camera.setPos(0.3, 0.5)
+    assert pane.view.headline.text() == "Looking…"
+    assert (pane.room.camera.x, pane.room.camera.y) == (0.3, 0.5)
+    assert pane.view.plan.ellipse.getData()[0] is None or not len(
+        pane.view.plan.ellipse.getData()[0]
+    )
+    qtbot.waitUntil(lambda: pane.shown is not None)
+    assert pane.shown is not None
+    assert pane.shown.room.camera.x == 0.3
+    pane.view.plan.aim.setPos(0.9, 0.9)
+    assert aim_of(pane.room.camera, plan_of(pane.room).height) == pytest.approx((0.9, 0.9))
+    assert pane.room.camera.roll == 0.4
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
+    random = np.random.default_rng([25, seed])
+    place = Place(z=0.5, roll=float(random.uniform(-3, 3)))
+    x, y = random.uniform(-2.0, 2.0, 2).tolist()
+    turned = aimed_at(place, x, y, 2.5)
+    axis = rotation(turned)[:, 2]
+    assert (axis[0] / axis[2] * 2.0, axis[1] / axis[2] * 2.0) == pytest.approx((x, y))
+    assert aim_of(turned, 2.5) == pytest.approx((x, y))
+    assert math.isclose(turned.roll, place.roll)
+
+
+def test_a_file_that_is_no_room_is_told_and_the_room_stays(
+    pane: RoomPane, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()
+    room = pane.room
+    pane.open(tmp_path / "none.toml")
+    assert "none.toml" in pane.view.headline.text()
+    assert pane.room is room
+
+
+def test_the_map_is_that_of_the_study(
+    pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(jobs, "SIDE", 2)
+    pane.view.measure.click()
+    qtbot.waitUntil(lambda: pane.is_idle and "Map of the floor" in pane.view.floor.text())
+    found = map_room(pane.room, lambda _: None)
+    sure = sum(bool(point.sure) for point in found.points)
+    assert f"{sure} of 4 places told" in pane.view.floor.text()
+    assert len(pane.view.plan.floor.points()) == 4
+
+
+def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane) -> None:
+    shown = pane.shown
+    assert shown is not None
+    assert shown.reading is not None
+    drawing = room_drawing(shown.frame, shown.reading)
+    rows = {row[0]: row for row in drawing.rows()}
+    assert rows["x"][1] == 0.6
+    assert rows["x"][2] == pytest.approx(0.6, abs=0.02)
+    assert "L3" in rows
+    with house_style():
+        assert len(drawing.draw().axes) == 2

@@ -1,0 +1,99 @@
+"""A map over a floor counts what each place's picture tells, and goes on where it was stopped."""
+
+import dataclasses
+import math
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.study import room_map as study
+from occ_model.study.room_map import RoomMapRequest, RoomMapText, floor_under, room_map
+
+
+def _room(panels: int = 4) -> Room:
+    scene = occ.load_preset("phone-68us").replace(
+        rows=512, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
+        switching_frequency=8e3,
+    )  # fmt: skip
+    lamps = tuple(
+        RoomLamp(
+            name=f"L{n}", x=1.2 * (n % 2), y=1.2 * (n // 2), z=2.6, start_time=3e-4 * n,
+            roll=0.1 * n,
+            transmitter=scene.transmitter.replaced(
+                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
+            ),
+        )
+        for n in range(panels)
+    )  # fmt: skip
+    return Room(lamps=lamps, scene=scene, camera=Place(z=-0.2, roll=0.4))
+
+
+def test_a_place_counts_what_its_picture_tells_and_far_away_there_is_nothing() -> None:
+    request = RoomMapRequest(_room(), (0.6, 40.0), (0.6,), images=2)
+    near, far = room_map(request)
+    assert near.shown == 8
+    assert near.named == 8
+    assert near.wrong == 0
+    assert near.sure == 2
+    assert near.error < 6.0 * near.stated < 0.2
+    assert (far.shown, far.named, far.sure) == (0, 0, 0)
+    assert math.isnan(far.error)
+    assert far.note.startswith("No lamp was found")
+
+
+def test_a_lamp_that_has_another_s_name_is_counted_as_wrong(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    room = _room()
+    swapped = room.replace(lamps=(*room.lamps[2:], *room.lamps[:2]))
+    codes = [lamp.transmitter for lamp in swapped.lamps]
+    other = room.replace(
+        lamps=tuple(
+            dataclasses.replace(lamp, transmitter=sent)
+            for lamp, sent in zip(room.lamps, codes, strict=True)
+        )
+    )
+    monkeypatch.setattr(study, "read_room", lambda image, _room: occ.read_room(image, other))
+    (point,) = room_map(RoomMapRequest(room, (0.6,), (0.6,)))
+    assert (point.named, point.wrong) == (4, 4)
+
+
+def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
+    request = RoomMapRequest(_room(2), (0.0, 0.6), (0.0, 0.3))
+    path = tmp_path / "map.csv"
+    whole = room_map(request, results=path)
+    text = path.read_bytes()
+    rows = text.splitlines(keepends=True)
+    path.write_bytes(b"".join(rows[:-2]) + rows[-2][:7])
+    done: list[int] = []
+    again = room_map(request, results=path, progress=lambda here, *_: done.append(here))
+    assert path.read_bytes() == text
+    assert RoomMapText(request).text(whole[3]) == RoomMapText(request).text(again[3])
+    assert done[0] == 2
+    path.write_bytes(text.replace(b"seed 1", b"seed 2"))
+    with pytest.raises(occ.OutputError, match="another map of a room"):
+        room_map(request, results=path)
+
+
+def test_the_command_measures_a_room_file_with_other_settings(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    room = tmp_path / "small.toml"
+    room.write_text(_room(1).to_toml())
+    out = tmp_path / "map.csv"
+    words = ("room", "map", "--room", str(room), "--side", "1", "--out", str(out))
+    assert main((*words, "--set", "switching_frequency=7kHz", "--set", "bits=12")) == 0
+    assert "1 places, 1 pictures: 1 lamps named, 0 wrongly, of 1 whole ones" in (
+        capsys.readouterr().out
+    )
+    assert "switching_frequency = 7000.0" in out.read_text()
+    assert main(words) == 2
+    assert "another map of a room" in capsys.readouterr().err
+
+
+def test_the_floor_is_that_below_the_lamps() -> None:
+    assert floor_under(_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
+    assert floor_under(_room(1), 3) == ((0.0,), (0.0,))

@@ -114,7 +114,7 @@ def _headline(reading: RoomReading) -> str:
         return "The place is not told"
     place, errors = reading.located.place, reading.located.errors
     text = ", ".join(
-        f"{name} {getattr(place, name):.3f} m ± {_length(error)}"
+        f"{name} {getattr(place, name):.4f} m ± {_length(error)}"
         for name, error in zip("xyz", errors[:3].tolist(), strict=True)
     )
     return f"I am here: {text}" if reading.is_sure else f"Perhaps here: {text}"
@@ -132,7 +132,7 @@ def _sentences(true: Place, reading: RoomReading, enlarged: float) -> str:
         place, errors = reading.located.place, reading.located.errors
         off = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
         angles = " ± ".join((
-            ", ".join(f"{math.degrees(getattr(place, name)):.2f}°" for name in _ANGLES),
+            ", ".join(_degrees(getattr(place, name)) for name in _ANGLES),
             f"{math.degrees(float(errors[3:].max())):.2g}°",
         ))  # fmt: skip
         times = f"; drawn {enlarged:g} times larger" if enlarged > 1.0 else ""
@@ -156,3 +156,7 @@ def _floor(found: FloorMap) -> str:
     if sure:
         text += f" In the median {_length(float(np.median([p.error for p in sure])))} off."
     return text
+
+
+def _degrees(angle: float) -> str:
+    return f"{round(math.degrees(angle), 2) + 0.0:g}°"  # no minus before 0

@@ -45,9 +45,11 @@ class RoomView(QWidget):
         super().__init__(parent)
         self.rooms = QComboBox()
         self.rooms.setAccessibleName("Room")
+        self.rooms.setToolTip("The room that is shown: one of those that come with the program.")
         self.rooms.addItems(names)
         self.rooms.textActivated.connect(self.room_chosen)
         self.open = QPushButton("&Open a room file…")
+        self.open.setToolTip("Show a room of your own: a file of its lamps and its camera.")
         self.open.clicked.connect(self.file_asked)
         self.measure = QPushButton("&Measure the floor")
         self.measure.setToolTip(

@@ -22,7 +22,7 @@ from occ_model.teaching.quantities import QUANTITIES
 USER_FOLDER = "OCC_LESSONS"
 """The environment variable that names another folder for a teacher's own lessons."""
 
-PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map")
+PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map", "room")
 """The panes that a step can show."""
 
 EQUATIONS = (

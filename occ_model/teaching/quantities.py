@@ -3,11 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+import numpy as np
+
+from occ_model.camera.projection import panel_corners
 from occ_model.errors import OccError
 from occ_model.files.resources import resource_path
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
-from occ_model.scene.units import HERTZ, NONE, SECOND, Unit
+from occ_model.scene.units import HERTZ, METRE, NONE, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
@@ -19,6 +22,7 @@ FRAME_RATE = 30.0
 _BITS_A_SECOND = Unit("bit/s", ("", "k", "M"), spellings=(("bits/s", 1.0), ("bps", 1.0)))
 _PERCENT = Unit("%", shown=("%", 0.01))
 COLUMN = Unit("columns", spellings=(("column", 1.0), ("px", 1.0)))
+_LAMP = Unit("lamps", spellings=(("lamp", 1.0),))
 _CHIP = Unit("chips", spellings=(("chip", 1.0),))
 
 
@@ -151,6 +155,24 @@ QUANTITIES: dict[str, LessonQuantity] = {
         SECOND,
         "ms",
         lambda scene, _: band_advice(scene).valley,
+    ),
+    "lamps-named": LessonQuantity(
+        "lamps that can have a code of their own, 2 to the power of the bits",
+        _LAMP,
+        "lamps",
+        lambda scene, _: 2.0**scene.transmitter.bits,
+    ),
+    "panel-columns": LessonQuantity(
+        "columns that the panel spans in the picture",
+        COLUMN,
+        "columns",
+        lambda scene, _: float(np.ptp(panel_corners(scene)[:, 0])),
+    ),
+    "place-a-pixel": LessonQuantity(
+        "distance that a camera moves to the side while the panel moves by a pixel",
+        METRE,
+        "mm",
+        lambda scene, _: scene.pose.distance / scene.camera.focal_length_pixels,
     ),
     "threshold-limit": LessonQuantity(
         "highest switching frequency that the threshold decoder reads",

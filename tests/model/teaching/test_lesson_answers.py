@@ -369,3 +369,26 @@ def test_the_bars_vanish_at_a_whole_period_and_at_the_speeds_named() -> None:
         cured = asked.scene.replace(exposure_time=exposure, iso=1.0)
         assert occ.band_depth(cured).peak_to_peak < 1e-9
     assert occ.band_depth(asked.scene).peak_to_peak > 0.1
+
+
+def test_codes_name_as_many_lamps_as_said_and_a_lamp_is_as_wide() -> None:
+    assert "1024" in step(9, 1).answer
+    assert QUANTITIES["lamps-named"].compute(step(9, 1).scene, "") == 1024.0
+    asked = step(9, 2)
+    assert "1038 columns" in asked.answer
+    corners = occ.panel_corners(asked.scene)
+    assert np.ptp(corners[:, 0]) == pytest.approx(1038, abs=0.5)
+    at_8_khz = asked.scene.replace(switching_frequency=8e3)
+    assert 2.0 * QUANTITIES["packet-columns"].compute(at_8_khz, "") < 1038
+
+
+def test_a_camera_moves_as_far_for_a_pixel_as_said() -> None:
+    asked = step(9, 3)
+    assert "0.578 mm" in asked.answer
+    moved = asked.scene.replace(offset_x=asked.scene.pose.offset_x + 0.578e-3)
+    apart = occ.panel_corners(moved) - occ.panel_corners(asked.scene)
+    assert apart[:, 0] == pytest.approx(1.0, abs=2e-3)
+    office = occ.load_room("office")
+    lamp = office.lamps[0]
+    assert lamp.z - office.camera.z == pytest.approx(asked.scene.pose.distance)
+    assert lamp.size[0] == asked.scene.transmitter.panel_width

@@ -51,7 +51,7 @@ def test_opening_the_lessons_lists_them_and_changes_nothing(
     application: Application, guide: LessonView, small_scene: Scene
 ) -> None:
     titles = [lesson.title for lesson in lessons().lessons]
-    assert len(titles) == 11
+    assert len(titles) == 12
     for button, title in zip(guide.list.choices, titles, strict=True):
         assert button.text().startswith(title)
         assert button.toolTip()

@@ -160,11 +160,11 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
         open_first(application.window, qt.primaryScreen().availableGeometry())
     begin.restore(application, with_photo=options.photo is None)
     if options.theme:
-        application.desktop.theme.choose(options.theme)
+        application.options.theme.choose(options.theme)
     if options.size:
         application.window.resize(*options.size)
     if options.photo:
-        application.show_mode(options.overlay)
+        application.options.choose_overlay(options.overlay)
         application.open_photo(options.photo, options.match, front=options.dock is None)
     if options.mode:
         application.window.modes.switch(options.mode)
@@ -179,7 +179,7 @@ def _run(options: argparse.Namespace, begin: Start) -> int:
     _close_on_interrupt(application)
     _draw_icon(application)
     if begin.is_new and not (options.files or options.photo or options.mode or options.dock):
-        application.welcome.show_once()
+        application.shell.pane("welcome").show_once()
     code = qt.exec()
     _leave_plugins(code, begin.preferences)
     return code

@@ -1,71 +1,155 @@
-"""The list of the panes that are declared, in the order of the view menu."""
+"""The features of the window, declared in the order of the view menu."""
 
-from typing import Any, Protocol
+from typing import Any
+
+from PySide6.QtWidgets import QWidget
 
 from occ_gui.accuracy.feature import accuracy
+from occ_gui.app.parts import Parts
+from occ_gui.app.photo_in_window import PhotoInWindow
 from occ_gui.bands.feature import bands
 from occ_gui.bench.feature import bench
 from occ_gui.decoding.feature import decoding
 from occ_gui.detection_map.feature import detection_map
-from occ_gui.detection_map.wiring import Measuring
 from occ_gui.explanation.feature import equations
-from occ_gui.files.preferences import Preferences
+from occ_gui.export.feature import animation, export
+from occ_gui.help.feature import manual
 from occ_gui.lessons.feature import lessons
 from occ_gui.photo.feature import photo
-from occ_gui.photo.photo_controller import PhotoController
+from occ_gui.picture.feature import picture
 from occ_gui.pins.feature import compare
-from occ_gui.pins.pin_controller import PinController
 from occ_gui.profile.feature import profile
 from occ_gui.room.feature import room
-from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.frame_rate import FrameRate
-from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature
-from occ_gui.shell.results import Board
-from occ_gui.shell.shell import Shell
-from occ_gui.simulation.controller import SimulationController
 from occ_gui.spectrum.feature import spectrum
+from occ_gui.story.feature import story
+from occ_gui.transmitter.feature import transmitter
 from occ_gui.video.feature import video
-from occ_gui.window.main_window import MainWindow
+from occ_gui.welcome.feature import welcome
+from occ_model.receiver.decoders import DECODERS
+from occ_model.scene.from_text import DEFAULT_PRESET
+from occ_model.scene.presets import load_preset
 
 
-class Parts(Protocol):
-    """The parts of the application that panes are connected with."""
-
-    window: MainWindow
-    store: SceneStore
-    frame_rate: FrameRate
-    pins: PinController
-    controls: ControlPanel
-    photos: PhotoController
-    board: Board
-    simulation: SimulationController
-    preferences: Preferences
-    measuring: Measuring
-    shell: Shell
-
-    def choose_decoder(self, name: str) -> None:
-        """Show what this decoder reads, everywhere."""
-
-    def about_photo(self) -> str:
-        """Return what stands under a figure with the photo; empty if none is open."""
+def middle(parts: Parts) -> QWidget:
+    """Give the story its place, with one for the whole picture in it."""
+    shell, scenes = parts.shell, parts.store
+    whole = shell.embed(picture(scenes.store, lambda: about_photo(parts)))
+    return shell.embed(story(scenes, parts.simulation, whole, [*DECODERS]))
 
 
-def features(parts: Parts) -> tuple[Feature[Any], ...]:
-    """Declare the panes, once there is an application to translate their titles."""
-    store, photos, shell = parts.store, parts.photos, parts.shell
+def about_photo(parts: Parts) -> str:
+    """Return the photo's name and what its match is worth; empty if none is open."""
+    pane = parts.shell.made_pane("photo")
+    return "" if pane is None else str(pane.verdict.about())
+
+
+def features(parts: Parts, photos: PhotoInWindow) -> tuple[Feature[Any], ...]:
+    """Declare what stands in docks, and what the menus offer besides."""
+    store, shell, window = parts.store, parts.shell, parts.window
+    preferences, workspace = parts.preferences, parts.store.store
+
+    # A method: a function that a signal holds would hold the shell beyond the window's end.
+    choose_decoder = shell.pane("story").choose_decoder
+
+    def current_pane() -> str:
+        return parts.current_pane.name
+
     return (
-        decoding(store.store),
-        photo(store, photos, lambda: shell.pane("picture").view, parts.board),
-        profile(store.store, parts.board, parts.about_photo),
+        decoding(workspace),
+        photo(store, parts.photos, lambda: shell.pane("picture").view, parts.board),
+        profile(workspace, parts.board, lambda: about_photo(parts)),
         accuracy(store, parts.simulation),
-        detection_map(store, parts.frame_rate, parts.measuring, parts.choose_decoder),
+        detection_map(store, parts.frame_rate, parts.measuring, choose_decoder),
         bands(store),
         equations(store, lambda: shell.pane("profile").view.plot),
         spectrum(),
         compare(parts.pins),
-        lessons(store, parts.board, parts.controls, parts.preferences),
+        lessons(store, parts.board, parts.controls, preferences),
         video(store, parts.board),
         room(),
-        bench(store, parts.frame_rate, parts.measuring.for_bench, parts.window.say),
+        bench(store, parts.frame_rate, lambda: parts.measuring.for_bench, window.say),
+        export(window, shell, parts.present, preferences, current_pane, store),
+        animation(window, store, preferences, window.filming),
+        transmitter(window, store, preferences),
+        manual(window, shell, current_pane),
+        welcome(window, shell, preferences, parts.files),
+        _entries(parts, photos),
+    )  # fmt: skip
+
+
+def _entries(parts: Parts, photos: PhotoInWindow) -> Feature[None]:
+    """Declare the entries of the menus that belong to no pane."""
+    files, options, window = parts.files, parts.options, parts.window
+    return Feature(
+        name="entries",
+        actions={
+            "open_photo": files.ask_for_photo,
+            "close_photo": parts.photos.close,
+            "open_film": files.ask_for_film,
+            "close_film": parts.video.close,
+            "open_scene": files.ask_for_scene,
+            "save_scene": parts.document.save,
+            "save_scene_as": files.ask_to_save_scene,
+            "save_picture": files.ask_to_save_picture,
+            "reset_scene": lambda: parts.store.put(
+                load_preset(DEFAULT_PRESET), "reset of the scene", force={}
+            ),
+            "match": photos.match,
+            "save_match": photos.save_match,
+            "delete_preset": parts.presets.ask_to_delete,
+            "fit": lambda: _fit(parts),
+            "text_larger": options.text_size.larger,
+            "text_smaller": options.text_size.smaller,
+            "text_normal": options.text_size.normal,
+            "reset_layout": window.modes.reset,
+            "lessons": lambda: window.bring_to_front("lessons"),
+            "report": lambda: _show_report(parts),
+            "about": lambda: _show_about(parts),
+            "shortcuts": lambda: _show_shortcuts(parts),
+            "palette": lambda: _show_palette(parts),
+        },
     )
+
+
+def _fit(parts: Parts) -> None:
+    parts.story.fit()
+    if (pane := parts.shell.made_pane("picture")) is not None:
+        pane.view.fit()
+
+
+# What is asked for rarely is imported when it is: it would take a part of the start.
+
+
+def _show_report(parts: Parts) -> None:
+    from occ_gui.app.report import report_text, show_report
+
+    last = parts.error_reports.last.lines
+    show_report(parts.window, report_text(parts.store.scene, parts.store.settings.settings, last))
+
+
+def _show_about(parts: Parts) -> None:
+    from occ_gui.app.about import show_about
+
+    show_about(parts.window)
+
+
+def _show_shortcuts(parts: Parts) -> None:
+    from occ_gui.window.command_palette import shortcuts_of
+    from occ_gui.window.shortcut_sheet import ShortcutSheet
+
+    sheet = ShortcutSheet(shortcuts_of(parts.window.menuBar()), parts.window)
+    sheet.exec()
+    sheet.deleteLater()
+
+
+def _show_palette(parts: Parts) -> None:
+    from occ_gui.window.command_palette import CommandPalette, commands_of
+
+    window = parts.window
+    found = commands_of(window.menuBar(), parts.controls, window.bring_to_front)
+    palette = CommandPalette(found, window)
+    chosen = palette.chosen if palette.exec() else None
+    palette.deleteLater()
+    if chosen is not None:
+        chosen.run()

@@ -15,7 +15,7 @@ _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match"
 class LessonsInWindow(QObject):
     """Connects the lessons with the window, once their pane is made."""
 
-    status_message = Signal(str)
+    noted = Signal(str)
     """The outcome of an action, shown until the scene changes."""
 
     begun = Signal()
@@ -37,7 +37,7 @@ class LessonsInWindow(QObject):
     def _connect(self, name: str, pane: Any) -> None:
         if name != "lessons":
             return
-        pane.status_message.connect(self.status_message)
+        pane.noted.connect(self.noted)
         lessons = pane.controller
         lessons.pane_wanted.connect(self._show_pane_of_step)
         lessons.begun.connect(self.begun)

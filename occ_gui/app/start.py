@@ -65,14 +65,14 @@ class Start:
         """Restore the session in a window before it is shown, and store it from now on."""
         if self.session_file is None:
             return
-        application.desktop.error_reports.install()
+        application.error_reports.install()
         wins = self.scene_asked or self.fresh
-        application.desktop.resume(self.session_file, self.session, wins, self.fresh)
+        application.kept.resume(self.session_file, self.session, wins, self.fresh)
         store = application.store.store
         if not wins:
             store.put(replace(store.workspace, film=self.session.film))
         if with_photo and not wins:
-            application.resume_photo(self.session.photo)
+            application.photo.resume(self.session.photo)
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:

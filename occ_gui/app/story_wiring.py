@@ -1,83 +1,57 @@
-"""Connections of the story: what feeds it, and what its choices change in other panes."""
+"""Connections of the story: what its choices change in other panes, and theirs in it."""
 
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, Qt
-from PySide6.QtWidgets import QMenu
+from PySide6.QtWidgets import QAbstractButton, QMenu
 
-from occ_gui.app.lessons_in_window import LessonsInWindow
-from occ_gui.core.store import Store
-from occ_gui.photo.photo_controller import PhotoController
-from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.outdated_marks import OutdatedMarks
-from occ_gui.shell.results import Board, of_picture, of_reading
+from occ_gui.app.parts import Parts
 from occ_gui.shell.shell import Shell
-from occ_gui.simulation.controller import SimulationController
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.copying import copy_text
-from occ_gui.window.main_window import MainWindow
 
 if TYPE_CHECKING:
     from occ_gui.explanation.exposure_controller import ExposureController
     from occ_gui.photo.photo_view import PhotoView
-
-
-class Parts(Protocol):
-    """The parts of the application that the story is connected with."""
-
-    window: MainWindow
-    simulation: SimulationController
-    outdated: OutdatedMarks
-    story: StoryView
-    store: SceneStore
-    board: Board
-    lessons: LessonsInWindow
-    shell: Shell
-    photos: PhotoController
-
-    def choose_decoder(self, name: str) -> None:
-        """Show what this decoder reads, everywhere."""
+    from occ_gui.picture.pane import PicturesPane
 
 
 def connect_story(parts: Parts) -> None:
-    """Connect the story with the simulation and with the panes that show the same in detail.
-
-    Readings come to it as to all other panes, by ``SimulationController.show_in``.
-    """
-    story, simulation, store = parts.story, parts.simulation, parts.store.store
-    simulation.picture_ready.connect(story.show_picture)
-    simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
-    simulation.failed.connect(story.verdict.show_failure)
-    simulation.submitted.connect(story.verdict.end_failure)
-    parts.outdated.mark_verdict(story.verdict)
-    parts.outdated.mark(story.rows, of_reading)
-    parts.outdated.mark(story.rows.stripes, of_picture)  # it comes later than the reading
-    store.select(lambda workspace: workspace.decoder).changed.connect(story.choose_decoder)
-    story.decoder_chosen.connect(parts.choose_decoder)
-    store.select(lambda workspace: workspace.whose).changed.connect(story.choose_picture)
-    _ProfileLink(story, store, parts.board)
+    """Connect the story with the menus, and with the panes that show the same in detail."""
+    story, menus = parts.story, parts.window.menus
+    parts.simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
     parts.lessons.columns_held.connect(story.hold_columns)
     _SimulationNaming(parts)
-    crosshair = story.rows.crosshair
+    crosshair, before = story.rows.crosshair, menus.actions["before"]
 
-    def share(name: str, pane: Any) -> None:
+    pointed = parts.window.pointed
+
+    def share(name: str, pane: Any) -> None:  # holds no part that holds the shell
         if name == "equations":
             _share_column(crosshair, pane.exposure)
+        elif name == "picture":
+            from occ_gui.window.cursor_readout import follow_pictures
+
+            follow_pictures(pane.view, pointed.set_full_text)
+            _before(pane).setChecked(before.isChecked())
+            _before(pane).toggled.connect(before.setChecked)
+        elif name == "profile":
+            from occ_gui.window.cursor_readout import follow_profile
+
+            follow_profile(pane.view, pointed.set_full_text)
 
     parts.shell.made.connect(share)
     # What is asked of the picture is seen in the whole one.
-    parts.window.menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
-    asked = _WholePictureWhileAsked(story)
-    parts.window.actions_by_name["before"].toggled.connect(asked.show)
-    parts.window.actions_by_name["fit"].triggered.connect(story.fit)
+    menus.overlays.triggered.connect(lambda: story.show_whole_picture(True))
+    before.toggled.connect(_WholePictureWhileAsked(story).show)
+    before.toggled.connect(lambda on: _before(parts.shell.pane("picture")).setChecked(on))
+    menus.actions["measure"].toggled.connect(story.switch_measuring)
     rows = story.rows
     rows.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
     rows.customContextMenuRequested.connect(
         lambda place: story_menu(parts).popup(rows.mapToGlobal(place))
     )
-    parts.window.actions_by_name["measure"].toggled.connect(story.switch_measuring)
 
 
 def story_menu(parts: Parts) -> QMenu:
@@ -95,24 +69,9 @@ def story_menu(parts: Parts) -> QMenu:
     return menu
 
 
-class _ProfileLink(QObject):
-    """Shows the same levels in both profiles, and a photo's in the story where they agree."""
-
-    def __init__(self, story: StoryView, store: Store, board: Board) -> None:
-        super().__init__(story)
-        self._story, self._store, self._board = story, store, board
-        story.picture_chosen.connect(self._choose)
-        profile = board.select(lambda results: results.photo_profile)
-        profile.changed.connect(self._show_photo)
-
-    def _choose(self, whose: str) -> None:
-        is_enhanced = whose == "receiver"
-        self._store.put(replace(self._store.workspace, whose=whose, is_enhanced=is_enhanced))
-
-    def _show_photo(self) -> None:
-        is_receivers = self._story.whose.key() == "receiver"
-        agree = self._store.workspace.is_enhanced == is_receivers
-        self._story.show_photo_profile(self._board.results.photo_profile if agree else None)
+def _before(pane: "PicturesPane") -> QAbstractButton:
+    """Return the button of the picture that shows it beside that of before."""
+    return pane.view.before.chosen
 
 
 class _SimulationNaming(QObject):

@@ -5,7 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 
 from occ_gui.core.store import Store
 from occ_gui.shell.shell import Shell
@@ -21,9 +21,6 @@ class VideoPane(QObject):
     ``ask_for_film`` lets the user choose a film, ``ask_to_save`` where to write the simulated one.
     """
 
-    status_message = Signal(str)
-    """The outcome of an action."""
-
     def __init__(
         self,
         window: MainWindow,
@@ -37,15 +34,12 @@ class VideoPane(QObject):
         self._ask_for_film, self._ask_to_save = ask_for_film, ask_to_save
         shell.made.connect(self._connect)
         store.select(lambda workspace: workspace.film.path).changed.connect(self._on_film)
-        window.actions_by_name["open_film"].triggered.connect(ask_for_film)
-        window.actions_by_name["close_film"].triggered.connect(self.close)
 
     def _connect(self, name: str, pane: Any) -> None:
         if name != "video":
             return
         pane.open_asked.connect(self._ask_for_film)
         pane.save_asked.connect(self._ask_to_save)
-        pane.status_message.connect(self.status_message)
 
     @property
     def wiring(self) -> "VideoWiring":

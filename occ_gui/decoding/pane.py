@@ -21,7 +21,7 @@ class DecodePane(Pane[tuple[Reading | None, str]]):
     def __init__(self, store: Store) -> None:
         self.view = view = DecodeView(decoders())
         super().__init__(ScrollPane(view, _LEAST))
-        self.made_of = {view: of_reading}
+        self.made_of, self.verdicts = {view: of_reading}, (view,)
         self._reading: Reading | None = None
         view.decoder_chosen.connect(lambda name: store.put(replace(store.workspace, decoder=name)))
 

@@ -49,6 +49,8 @@ class RestingController(QObject):
         channel.results_ready.connect(self._take)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
+        decoder = scenes.store.select(lambda workspace: workspace.decoder)
+        decoder.changed.connect(self._move_on)
 
     @property
     def is_idle(self) -> bool:
@@ -65,16 +67,12 @@ class RestingController(QObject):
             self._channel.cancel()
             self._forget()
 
-    def choose_decoder(self, decoder: str) -> None:
-        """Measure with another decoder."""
-        self._decoder = decoder
-        self._move_on()
-
     def _forget(self) -> None:
         self._asked = None
 
     def _present(self) -> RateRequest:
-        return RateRequest(self._scenes.scene, self._settings.settings, self._decoder)
+        decoder = self._scenes.store.workspace.decoder
+        return RateRequest(self._scenes.scene, self._settings.settings, decoder)
 
     def _move_on(self) -> None:
         raise NotImplementedError

@@ -1,19 +1,25 @@
 """Strips as tracks of the sliders: the share of bits that a decoder would read along each."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QSizePolicy, QSlider, QWidget
 
 from occ_gui.detection_map.colour_map import RATES, image_of, to_colours
-from occ_gui.detection_map.own_rate_controller import OwnRate
-from occ_gui.detection_map.slider_strip_controller import IMAGES
 from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_gui.scene.slider_travel import slider_handle, slider_travel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.parameters import PARAMETERS
+
+if TYPE_CHECKING:
+    from occ_gui.detection_map.own_rate_controller import OwnRate
+
+IMAGES = 5
+"""Pictures of a position: as many as a point of the map has in the end."""
 
 _HEIGHT = 6
 
@@ -71,7 +77,7 @@ class SliderStrip(QWidget):
         self._explain()
         self.update()
 
-    def show_present(self, rate: OwnRate | None) -> None:
+    def show_present(self, rate: "OwnRate | None") -> None:
         """Show the rate at the scene's own value, which the handle stands at; None if unknown."""
         if rate != self.present:
             self.present = rate
@@ -177,7 +183,7 @@ class SliderStrips(QObject):
         """Show the share of bits read correctly at positions along a slider, None if not known."""
         self.strips[name].show_shares(shares)
 
-    def show_present(self, rate: OwnRate | None) -> None:
+    def show_present(self, rate: "OwnRate | None") -> None:
         """Show at the handles the rate at the scene's own values; None if unknown."""
         for strip in self.strips.values():
             strip.show_present(rate)

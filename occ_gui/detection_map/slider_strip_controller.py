@@ -7,6 +7,7 @@ from typing import Protocol
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.resting_controller import RateRequest, RestingController
+from occ_gui.detection_map.slider_strip import IMAGES
 from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
@@ -18,9 +19,6 @@ POSITIONS = 29
 
 STRIDES = (4, 1)
 """Distances between measured positions: a coarse strip first, then all positions."""
-
-IMAGES = 5
-"""Images a position: as many as a point of the map has in the end."""
 
 RANKS = (3, 3)
 """After all points of a map that is seen, before further images of them."""

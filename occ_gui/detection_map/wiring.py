@@ -1,14 +1,19 @@
 """Measuring: the processes that map, strips, advice and bench share, and the strips themselves."""
 
-from PySide6.QtCore import QObject, QTimer
+from collections.abc import Callable
+from functools import cached_property
+from typing import TYPE_CHECKING
 
-from occ_gui.background.signals import WorkQueue
-from occ_gui.detection_map.own_rate_controller import OwnRateController
+from PySide6.QtCore import QObject, QTimer, Signal
+
 from occ_gui.detection_map.slider_strip import SliderStrips
-from occ_gui.detection_map.slider_strip_controller import SliderStripController
-from occ_gui.detection_map.worker import PRELOAD
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.parallel.job import Workers
+
+if TYPE_CHECKING:
+    from occ_gui.background.signals import JobChannel, WorkQueue
+    from occ_gui.detection_map.own_rate_controller import OwnRateController
+    from occ_gui.detection_map.slider_strip_controller import SliderStripController
+    from occ_model.parallel.job import Workers
 
 PROCESSES = 2
 
@@ -19,53 +24,111 @@ START_MS = 400
 """Milliseconds that the strips wait at first: the window and its first picture come before them."""
 
 
-def new_workers() -> Workers:
+def new_workers() -> "Workers":
     """Make the worker processes."""
     # Importing what starts processes takes time.
+    from occ_gui.detection_map.worker import PRELOAD
     from occ_model.parallel.process_pool import ProcessPool
 
     return ProcessPool(PROCESSES, PRELOAD, NICENESS)
 
 
 class Measuring(QObject):
-    """Channels of work in processes; the strips along the sliders use one from the start."""
+    """Channels of work in processes; the strips along the sliders use one from the start.
 
-    def __init__(self, scenes: SceneStore, strips: SliderStrips) -> None:
+    Nothing of it is made before it is needed: the window and its first picture come before.
+    """
+
+    rate_changed = Signal(object)
+    """The rate of the present scene, an :class:`OwnRate`; None where it is not known."""
+
+    def __init__(
+        self, scenes: SceneStore, strips: SliderStrips, may_begin: Callable[[], bool]
+    ) -> None:
         super().__init__()
-        # Looked up when it is called, so that another one can be put in its place.
-        self.queue = WorkQueue(6, lambda: new_workers())
-        self.for_map, for_strips, self.for_advice, self.for_bench, self.for_most, for_own = (
-            self.queue.channels
-        )
-        self.own_rate = OwnRateController(scenes, scenes.settings, for_own)
-        self.own_rate.changed.connect(strips.show_present)
-        self.slider_strips = SliderStripController(
-            scenes, scenes.settings, for_strips, strips, strips.strips
-        )
+        self._may_begin = may_begin
+        self._scenes, self._strips = scenes, strips
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
-        self._start.timeout.connect(self._begin_strips)
+        self._start.timeout.connect(self._begin)
         strips.seen.connect(self._see_strips)
+
+    @cached_property
+    def queue(self) -> "WorkQueue":
+        """The work of the processes."""
+        from occ_gui.background.signals import WorkQueue
+
+        # Looked up when it is called, so that another one can be put in its place.
+        return WorkQueue(6, lambda: new_workers())
+
+    @property
+    def for_map(self) -> "JobChannel":
+        """The channel of the map."""
+        return self.queue.channels[0]
+
+    @property
+    def for_advice(self) -> "JobChannel":
+        """The channel of the advice."""
+        return self.queue.channels[1]
+
+    @property
+    def for_bench(self) -> "JobChannel":
+        """The channel of the bench."""
+        return self.queue.channels[2]
+
+    @property
+    def for_most(self) -> "JobChannel":
+        """The channel of the most bits a second."""
+        return self.queue.channels[3]
+
+    @cached_property
+    def slider_strips(self) -> "SliderStripController":
+        """What measures along the sliders."""
+        from occ_gui.detection_map.slider_strip_controller import SliderStripController
+
+        scenes, strips = self._scenes, self._strips
+        channel = self.queue.channels[4]
+        return SliderStripController(scenes, scenes.settings, channel, strips, strips.strips)
+
+    @cached_property
+    def own_rate(self) -> "OwnRateController":
+        """What measures the rate of the present scene."""
+        from occ_gui.detection_map.own_rate_controller import OwnRateController
+
+        own = OwnRateController(self._scenes, self._scenes.settings, self.queue.channels[5])
+        own.changed.connect(self._strips.show_present)
+        own.changed.connect(self.rate_changed)
+        return own
 
     @property
     def is_idle(self) -> bool:
         """Whether all that is seen is measured, and nothing is about to be."""
-        parts = (self.slider_strips, self.own_rate)
-        return not self._start.isActive() and all(part.is_idle for part in parts)
+        if self._start.isActive():
+            return False
+        return "own_rate" not in vars(self) or (
+            self.slider_strips.is_idle and self.own_rate.is_idle
+        )
 
-    def _begin_strips(self) -> None:
-        self.slider_strips.set_seen(True)
-        self.own_rate.set_seen(True)
+    def _begin(self) -> None:
+        if self._may_begin():
+            self._set_seen(True)
+        else:
+            self._start.start()
+
+    def _set_seen(self, seen: bool) -> None:
+        self.slider_strips.set_seen(seen)
+        self.own_rate.set_seen(seen)
 
     def _see_strips(self, seen: bool) -> None:
         if seen:
             self._start.start()
-        else:
-            self._start.stop()
-            self.slider_strips.set_seen(False)
-            self.own_rate.set_seen(False)
+            return
+        self._start.stop()
+        if "own_rate" in vars(self):
+            self._set_seen(False)
 
     def stop(self) -> None:
         """Stop measuring and end the processes."""
         self._start.stop()
-        self.queue.stop()
+        if "queue" in vars(self):
+            self.queue.stop()

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.file_writer import FileWriter
@@ -11,6 +10,7 @@ from occ_gui.background.task import Report
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
+from occ_gui.shell.feature import Service
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -30,7 +30,7 @@ class _Film:
     values: tuple[float, ...]
 
 
-class AnimationExport(QObject):
+class AnimationExport(Service):
     """Writes animations on a thread, with a bar that shows how far it is and cancels it."""
 
     def __init__(
@@ -41,13 +41,23 @@ class AnimationExport(QObject):
         preferences: Preferences,
         bar: WorkBar,
     ) -> None:
-        super().__init__(window)
+        super().__init__()
         self._window, self._scenes, self._settings = window, scenes, settings
         self._preferences = preferences
         self.writer: FileWriter[_Film] = FileWriter(
             _write, "animation", bar, "The animation was given up."
         )
         self.writer.written.connect(preferences.visit_export)
+        self.writer.status_message.connect(self.status_message)
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being written."""
+        return self.writer.is_idle
+
+    def stop(self) -> None:
+        """Give up what is being written."""
+        self.writer.stop()
 
     def ask(self, name: str) -> None:
         """Let the user choose a file, and write the run of a parameter's slider into it."""

@@ -1,23 +1,23 @@
 """Export of figures of the window to files, into a folder or to the clipboard."""
 
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from datetime import datetime
 from functools import partial
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
-from PySide6.QtGui import QAction, QGuiApplication, QImage
+from PySide6.QtGui import QGuiApplication, QImage
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.task import Task
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Preferences
+from occ_gui.shell.feature import Service
 from occ_gui.shell.figures import NothingToDraw
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot
-from occ_gui.window.current_pane import PICTURE, CurrentPane
+from occ_gui.window.current_pane import PICTURE
 from occ_model.errors import one_line
 from occ_model.scene.provenance import ENDINGS
 
@@ -28,14 +28,11 @@ _ENDING = "export/ending"
 """Under this key the ending of the last exported file is stored."""
 
 
-class ExportController(QObject):
+class ExportController(Service):
     """Draws figures on a background thread, one job after another, and saves or copies them.
 
     A figure is drawn of the scene that the controls show, once its results are there.
     """
-
-    status_message = Signal(str)
-    """The outcome of an export."""
 
     def __init__(
         self,
@@ -43,15 +40,15 @@ class ExportController(QObject):
         shell: Shell,
         present: PresentResults,
         preferences: Preferences,
-        current_pane: CurrentPane,
+        current_pane: Callable[[], str],
         shown_decoder: Callable[[], str],
     ) -> None:
-        super().__init__(window)
+        super().__init__()
         self._window = window
         self._shell = shell
         self._present = present
         self._preferences = preferences
-        self.current_pane = current_pane
+        self._current_pane = current_pane
         self._shown_decoder = shown_decoder
         self._waiting: deque[ExportJob] = deque()
         self._left_out = ""
@@ -65,11 +62,6 @@ class ExportController(QObject):
     def is_idle(self) -> bool:
         """Whether all requested figures have been written."""
         return self.runner.is_idle and not self._waiting
-
-    def connect_actions(self, actions: Mapping[str, QAction]) -> None:
-        """Let menu entries, by the names of their figures, ask for a file and export to it."""
-        for name, action in actions.items():
-            action.triggered.connect(lambda _checked=False, name=name: self.ask(name))
 
     def ask(self, name: str) -> None:
         """Let the user choose the file that a figure is written to."""
@@ -135,7 +127,7 @@ class ExportController(QObject):
 
     def copy_current(self) -> None:
         """Copy the figure of the current pane."""
-        pane = self.current_pane.name
+        pane = self._current_pane()
         if pane == "decode":
             self.copy(f"decoding-{self._shown_decoder()}")
             return

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
@@ -15,10 +16,12 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.errors import OccError, one_line
 from occ_model.files.resources import resource_path
 from occ_model.files.writing import PICTURE_ENDINGS, write_image, write_whole
-from occ_model.photo.reading.load import Photo
-from occ_model.results.frame import PICTURES
 from occ_model.scene.from_text import SCENE_ENDING, read_scene_file, write_scene_file
 from occ_model.scene.provenance import ENDINGS, scene_inside
+
+if TYPE_CHECKING:
+    from occ_model.photo.reading.load import Photo
+
 
 _PICTURES = " ".join(f"*{ending}" for ending in PICTURE_ENDINGS)
 _FILMS = "*.mp4 *.mov *.m4v *.avi *.mkv *.webm *.gif *.png *.apng"
@@ -111,12 +114,7 @@ class FileController(QObject):
         self._photos = photos
         self._preferences = preferences
         self._when_present = when_present
-        self._whose = PICTURES[0]
         photos.opened.connect(self._remember)
-
-    def choose_picture(self, whose: str) -> None:
-        """Save the picture of the camera or of the receiver from now on."""
-        self._whose = whose
 
     def ask_for_photo(self) -> None:
         """Let the user choose a photo and open it, or several as a table."""
@@ -260,8 +258,9 @@ class FileController(QObject):
             "camera": "Save the camera's picture",
             "receiver": "Save the receiver's picture",
         }
+        whose = self._store.store.workspace.whose
         name, _ = QFileDialog.getSaveFileName(
-            self._window, titles[self._whose], self._in_folder(f"simulation-{self._whose}.png"),
+            self._window, titles[whose], self._in_folder(f"simulation-{whose}.png"),
             f"Pictures ({_PICTURES})",
         )  # fmt: skip
         if name:
@@ -282,7 +281,7 @@ class FileController(QObject):
 
         It is written as soon as it is there, as the one of the two that is shown now.
         """
-        self._when_present(partial(self._write_picture, path, self._whose))
+        self._when_present(partial(self._write_picture, path, self._store.store.workspace.whose))
 
     def _write_picture(self, path: Path, whose: str, shown: Snapshot) -> None:
         frame = shown.frame
@@ -306,6 +305,6 @@ class FileController(QObject):
         folder = self._preferences.folder
         return str(Path(folder, name)) if folder else name
 
-    def _remember(self, photo: Photo | None) -> None:
+    def _remember(self, photo: "Photo | None") -> None:
         if photo is not None and photo.path not in sample_photos():
             self._preferences.add(photo.path)

@@ -16,8 +16,7 @@ from occ_gui.simulation.snapshot import Pins, SimulationRequest
 from occ_gui.values.film_choice import FRAMES, FilmChoice
 from occ_gui.values.match_choice import KNOWN, SENT, MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
-from occ_model.photo.reading.channels import CHANNELS
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.results.decoding import Region
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity

@@ -1,4 +1,4 @@
-"""The pages of the manual: where they are, their order, and which one explains a pane."""
+"""The pages of the manual: where they are, their order."""
 
 import re
 from pathlib import Path
@@ -10,11 +10,6 @@ CONTENTS = "index.md"
 
 GUIDE = "guide.md"
 """The page to begin with."""
-
-PAGE_OF_PANE = {
-    "controls": "guide.md#set-up-a-scene",
-}
-"""Page and heading that explain a pane, by the pane's name; declared panes name theirs."""
 
 _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 

@@ -34,8 +34,8 @@ class LessonPane(Pane[None]):
         Stores the folder of a report and the student's name.
     """
 
-    status_message = Signal(str)
-    """The outcome of an action."""
+    noted = Signal(str)
+    """The outcome of an action, for as long as the scene stays."""
 
     def __init__(
         self,
@@ -61,7 +61,7 @@ class LessonPane(Pane[None]):
         pane.step.explained.connect(self._equations.set_seen)
         pane.list.folder_asked.connect(self.open_folder)
         for speaker in (self.controller, self.reports):
-            speaker.status_message.connect(self.status_message)
+            speaker.status_message.connect(self.noted)
 
     def set_seen(self, seen: bool) -> None:
         """Explain the step that is seen."""
@@ -72,10 +72,10 @@ class LessonPane(Pane[None]):
         try:
             folder = begin_lessons_folder()
         except OccError as error:
-            self.status_message.emit(str(error))
+            self.noted.emit(str(error))
             return
         if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(folder))):
-            self.status_message.emit(f"Your own lessons belong into {folder}")
+            self.noted.emit(f"Your own lessons belong into {folder}")
 
     def end(self) -> None:
         """Restore what the user was working on."""

@@ -36,4 +36,12 @@ def photo(
         make=make,
         part=part,
         goes_on_hidden=True,
+        commands={  # they are enabled once there is a photo
+            "match_all": lambda pane: pane.match_all(),
+            "find_lamps": lambda pane: pane.parts.find(),
+            "region_by_hand": lambda pane: pane.view.lamps.by_hand.toggle(),
+            "whole_photo": lambda pane: pane.parts.match_whole(),
+            "apply_match": lambda pane: pane.matching.apply(),
+            "use_settings": lambda pane: pane.matching.use_notes(),
+        },
     )

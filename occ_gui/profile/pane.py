@@ -25,6 +25,7 @@ class ProfilePane(Pane[ProfilePart]):
         super().__init__(view)
         self.made_of = {view: of_reading}
         self._shown: ProfilePart = (None, None, None, None, False)
+        view.chips.copied.connect(self.status_message)
         view.enhanced_chosen.connect(lambda on: store.put(replace(store.workspace, is_enhanced=on)))
 
     def show_part(self, part: ProfilePart) -> None:

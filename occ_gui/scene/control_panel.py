@@ -5,18 +5,11 @@ from types import MappingProxyType
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QStandardItemModel
-from PySide6.QtWidgets import (
-    QComboBox,
-    QFrame,
-    QLabel,
-    QScrollArea,
-    QTabWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QComboBox, QLabel, QTabWidget, QVBoxLayout, QWidget
 
 from occ_gui.scene.code_entry import CodeEntry
 from occ_gui.scene.forced_effects import ForcedEffects
+from occ_gui.scene.parameter_page import ParameterPage
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.scene.parameter_rows import CountRow, ParameterRow, QuantityRow
 from occ_gui.scene.player import Player
@@ -69,15 +62,37 @@ class ControlPanel(QWidget):
         self.forced = ForcedEffects()
         others = [n for n in PARAMETERS if n not in (*MAIN, *effects, "code")]
         model = [n for n in others if n in GROUPS["model"] or n in GROUPS["receiver"]]
-        self.panels = {
-            "Main": ParameterPanel(MAIN, with_scales=True),
-            "Panel and camera": ParameterPanel(n for n in others if n not in model),
-            "Effects": ParameterPanel(effects, self._headings(stages)),
-            "Model": ParameterPanel(model),
+        self._scene: Scene | None = None
+        self._editor: SceneEditor | None = None
+        self._pages = {
+            "Main": ParameterPage(MAIN, lambda: ParameterPanel(MAIN, with_scales=True)),
+            "Panel and camera": ParameterPage([n for n in others if n not in model]),
+            "Effects": ParameterPage(
+                effects, lambda: ParameterPanel(effects, self._headings(stages))
+            ),
+            "Model": ParameterPage(model),
         }
-        main = self.panels["Main"]
-        self.player = Player(self.main_rows(), main.play_buttons, self)
+        self._main = self._pages["Main"].panel()
+        for page in self._pages.values():
+            page.made.connect(self._on_made)
+        self.player = Player(self.main_rows(), self._main.play_buttons, self)
         self._lay_out()
+
+    @property
+    def panels(self) -> dict[str, ParameterPanel]:
+        """The controls of all pages, by title; they are made where they have never been seen."""
+        return {title: page.panel() for title, page in self._pages.items()}
+
+    @property
+    def _made(self) -> list[ParameterPanel]:
+        return [page.content for page in self._pages.values() if page.content is not None]
+
+    def _on_made(self, panel: ParameterPanel) -> None:
+        if self._editor is not None:
+            _connect(panel.rows.values(), self._editor)
+        if self._scene is not None:
+            panel.show_scene(self._scene)
+            self._show_bits(self._scene)
 
     def _headings(self, stages: Mapping[str, str]) -> dict[str, str]:
         """Return the headings of the stages, by the first parameter of each."""
@@ -94,9 +109,8 @@ class ControlPanel(QWidget):
 
     def connect_editor(self, editor: SceneEditor) -> None:
         """Connect every row and the code directly with the editor of the scene."""
-        for control in self._fields().values():
-            control.edited.connect(editor.edit)
-            control.refused.connect(editor.input_refused)
+        self._editor = editor
+        _connect(self._fields().values(), editor)
 
     def _lay_out(self) -> None:
         layout = QVBoxLayout(self)
@@ -106,14 +120,8 @@ class ControlPanel(QWidget):
         layout.addWidget(self.code.title)
         layout.addWidget(self.code)
         pages = QTabWidget()
-        for title, panel in self.panels.items():
-            scroll = QScrollArea()
-            scroll.setWidgetResizable(True)
-            scroll.setFrameShape(QFrame.Shape.NoFrame)
-            scroll.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-            scroll.setWidget(panel)
-            scroll.setMinimumWidth(panel.minimumSizeHint().width() + 20)
-            pages.addTab(scroll, title)
+        for title, page in self._pages.items():
+            pages.addTab(page, title)
         layout.addWidget(pages, 1)
 
     def list_presets(
@@ -153,24 +161,25 @@ class ControlPanel(QWidget):
 
     def add_foot(self, widget: QWidget) -> None:
         """Add a widget at the lower end of the first page."""
-        self.panels["Main"].add_foot(widget)
+        self._main.add_foot(widget)
 
     def main_rows(self) -> dict[str, QuantityRow]:
         """Return the rows of the first page, by the names of their parameters."""
-        rows = {name: row for panel in self.panels.values() for name, row in panel.rows.items()}
-        return {name: row for name in MAIN if isinstance(row := rows[name], QuantityRow)}
+        rows = self._main.rows.items()
+        return {name: row for name, row in rows if isinstance(row, QuantityRow)}
 
     def show_scene(self, scene: Scene) -> None:
         """Show the values of a scene without emitting a signal."""
+        self._scene = scene
         self.player.heed(scene)
         self.code.show_scene(scene)
-        for panel in self.panels.values():
+        for panel in self._made:
             panel.show_scene(scene)
         self._show_bits(scene)
 
     def _show_bits(self, scene: Scene) -> None:
         """Show how many bits are sent: those of the payload, where there is one."""
-        (row,) = (panel.rows["bits"] for panel in self.panels.values() if "bits" in panel.rows)
+        row = self._fields().get("bits")
         if isinstance(row, CountRow):
             sent = scene.transmitter
             reason = "Bits of the payload, which is sent in place of the code."
@@ -178,12 +187,11 @@ class ControlPanel(QWidget):
 
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
         """Show marks at values of a parameter, if its slider has a scale."""
-        for panel in self.panels.values():
-            panel.show_marks(name, marks)
+        self._main.show_marks(name, marks)
 
     def show_problem(self, sentence: str, names: Iterable[str]) -> None:
         """Show, at the fields of some parameters, what is wrong with their values."""
-        for field in self._fields_of(names):
+        for field in self._needed(names):
             field.show_problem(sentence)
 
     def end_refusals(self, names: Iterable[str] | None = None) -> None:
@@ -191,14 +199,23 @@ class ControlPanel(QWidget):
         for field in self._fields().values() if names is None else self._fields_of(names):
             field.end_refusal()
 
+    def _needed(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
+        """Return the controls of some parameters, which are made where they are not there yet."""
+        wanted = set(names)
+        for page in self._pages.values():
+            if wanted.intersection(page.names):
+                page.panel()
+        return self._fields_of(wanted)
+
     def _fields_of(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
+        """Return the controls of some parameters."""
         fields = self._fields()
         return [fields[name] for name in names if name in fields]
 
     def _fields(self) -> dict[str, CodeEntry | ParameterRow]:
-        """Return the controls of all parameters, by name."""
+        """Return the controls that have been made, by the names of their parameters."""
         fields: dict[str, CodeEntry | ParameterRow] = {"code": self.code}
-        for panel in self.panels.values():
+        for panel in self._made:
             fields.update(panel.rows)
         return fields
 
@@ -211,3 +228,9 @@ class ControlPanel(QWidget):
         if text != self.preset.placeholderText():
             self.preset.setPlaceholderText(text)
         self.preset.setCurrentIndex(-1 if name is None else self.preset.findData(name))
+
+
+def _connect(fields: Iterable[CodeEntry | ParameterRow], editor: SceneEditor) -> None:
+    for field in fields:
+        field.edited.connect(editor.edit)
+        field.refused.connect(editor.input_refused)

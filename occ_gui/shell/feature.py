@@ -3,9 +3,9 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.background.task import Task
@@ -16,27 +16,24 @@ from occ_gui.shell.results import MadeOf, Results
 Part = TypeVar("Part")
 
 
-class Pane(QObject, Generic[Part]):
-    """What is made of a feature when its pane is first seen: a widget, and its connections.
+class VerdictView(Protocol):
+    """A part of a pane that says whether the code was read."""
 
-    A pane that computes nothing in the background only has to show its part.
-    """
+    def show_outdated(self, outdated: bool) -> None:
+        """Show whether the verdict is of an earlier scene."""
 
-    made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
-    """What is marked while that of which it is made is of an earlier scene."""
+    def show_run(self, value: str, pictured: str) -> None:
+        """Say of which values of a slider that runs verdict and picture are; empty for none."""
+
+
+class Service(QObject):
+    """What is made of a feature when it is first wanted: what carries out its commands."""
+
+    status_message = Signal(str)
+    """A sentence for the status line."""
 
     tasks: tuple[Task[Any, Any], ...] = ()
-    """The work that the pane waits for, and that ends with it."""
-
-    def __init__(self, widget: QWidget) -> None:
-        super().__init__()
-        self.widget = widget
-
-    def show_part(self, part: Part) -> None:
-        """Show this part of workspace and results in place of the last one."""
-
-    def set_seen(self, seen: bool) -> None:
-        """Take note whether the pane is seen; parts are shown only while it is."""
+    """The work that is waited for, and that ends with it."""
 
     @property
     def is_idle(self) -> bool:
@@ -54,22 +51,50 @@ class Pane(QObject, Generic[Part]):
             task.stop()
 
 
+class Pane(Service, Generic[Part]):
+    """What is made of a feature when its pane is first seen: a widget, and its connections.
+
+    A pane that computes nothing in the background only has to show its part.
+    """
+
+    made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
+    """What is marked while that of which it is made is of an earlier scene."""
+
+    verdicts: tuple[VerdictView, ...] = ()
+    """What says whether the code was read."""
+
+    def __init__(self, widget: QWidget) -> None:
+        super().__init__()
+        self.widget = widget
+
+    def show_part(self, part: Part) -> None:
+        """Show this part of workspace and results in place of the last one."""
+
+    def set_seen(self, seen: bool) -> None:
+        """Take note whether the pane is seen; parts are shown only while it is."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Feature(Generic[Part]):
-    """A pane of the window.
+    """A pane of the window, or a service without one.
 
-    ``make`` is called when the pane is first seen: what is heavy is imported there.
+    ``make`` is called when the pane is first seen, or when one of ``commands`` is first given: what
+    is heavy is imported there.
     """
 
     name: str
-    title: str
-    help: str
+    title: str = ""
+    """The title of the pane; empty where there is none."""
+    help: str = ""
     """Page and heading of the manual that explain the pane."""
-    make: Callable[[], Pane[Part]]
+    make: Callable[[], Any] = Service
+    """Makes a Pane where there is a title, and else a Service."""
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
     """What of the window the pane shows; None for nothing that it could show."""
     goes_on_hidden: bool = False
     """Whether the pane shows its part while it is hidden, too: others look at what it shows."""
     actions: Mapping[str, Callable[[], object]] = field(default_factory=dict)
-    """What the entries of the menus do that belong to the pane, by name."""
+    """What the entries of the menus do that belong to it, by name."""
+    commands: Mapping[str, Callable[[Any], object]] = field(default_factory=dict)
+    """What further entries do with what has been made, which is made for them."""
     figures: tuple[Figure, ...] = ()

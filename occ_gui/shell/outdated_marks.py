@@ -1,11 +1,11 @@
 """Outdated marks: each result that is not of the present scene is marked in its pane."""
 
-from typing import Any, Protocol
+from typing import Any
 
 from PySide6.QtCore import QObject, Qt, QTimer
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.shell.feature import Pane
+from occ_gui.shell.feature import Pane, VerdictView
 from occ_gui.shell.results import Board, MadeOf, of_picture, of_reading, of_snapshot
 from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.preview import Picture
@@ -19,16 +19,6 @@ VERDICT_DELAY = 0.06
 
 _DIGITS = 4
 """Significant digits of a slider's value."""
-
-
-class VerdictPane(Protocol):
-    """A pane that says whether the code was read."""
-
-    def show_outdated(self, outdated: bool) -> None:
-        """Show whether the verdict is of an earlier scene."""
-
-    def show_run(self, value: str, pictured: str) -> None:
-        """Say of which values of a slider that runs verdict and picture are; empty for none."""
 
 
 class OutdatedMarks(QObject):
@@ -46,7 +36,7 @@ class OutdatedMarks(QObject):
     def __init__(self, board: Board, simulation: SimulationController, parent: QObject) -> None:
         super().__init__(parent)
         self._board, self._simulation, self._ages = board, simulation, simulation.ages
-        self._verdicts: list[VerdictPane] = []
+        self._verdicts: list[VerdictView] = []
         self._marks: list[tuple[OutdatedMark, MadeOf]] = []
         self._refused_after: tuple[Picture | None] | None = None
         """The picture that stays as the scene has none; None where no scene was refused."""
@@ -68,20 +58,21 @@ class OutdatedMarks(QObject):
         """Return the marks of what is made of these, by default all of them."""
         return [mark for mark, of in self._marks if of in made_of or not made_of]
 
-    def mark_verdict(self, pane: VerdictPane) -> None:
-        """Tell from now on another pane of the verdict whether it is of an earlier scene."""
-        self._verdicts.append(pane)
-        self._update()
-
     def mark(self, widget: QWidget, made_of: MadeOf) -> None:
         """Mark from now on a widget while what it is made of is of an earlier scene."""
         self._marks.append((OutdatedMark(widget), made_of))
         self._update()
 
+    def take(self, _name: str, pane: Pane[Any]) -> None:
+        """Mark from now on a pane that has been made."""
+        self.mark_pane(pane)
+
     def mark_pane(self, pane: Pane[Any]) -> None:
-        """Mark from now on the parts of a pane."""
+        """Mark from now on the parts of a pane, and tell its verdicts."""
+        self._verdicts += pane.verdicts
         for widget, made_of in pane.made_of.items():
             self.mark(widget, made_of)
+        self._update()
 
     def follow_run(self, parameter: str) -> None:
         """Mark as it is right while the slider of this parameter runs; empty for none."""

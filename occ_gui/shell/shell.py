@@ -1,4 +1,4 @@
-"""Shell: docks, menu entries, figures, idle and stop of all declared panes."""
+"""Shell: docks, menu entries, figures, idle and stop of all declared features."""
 
 from collections.abc import Mapping
 from typing import Any, Protocol
@@ -8,7 +8,7 @@ from PySide6.QtGui import QAction, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
-from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.feature import Feature, Pane, Service
 from occ_gui.shell.figures import Draw, Figure
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Snapshot
@@ -27,24 +27,36 @@ class DockWindow(Protocol):
 
 
 class Shell(QObject):
-    """The declared panes in docks of a window, each made when it is first seen."""
+    """The declared features, each made when it is first wanted, with their panes in docks."""
 
     made = Signal(str, object)
     """A pane has been made: its name, and the Pane."""
+
+    said = Signal(str)
+    """A sentence of one of the features for the status line."""
 
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()
         self._store, self._board = store, board
         self._places: dict[str, _Place] = {}
-        self._workspaces = store.select(lambda workspace: workspace)
+        self._unseen: dict[str, Feature[Any]] = {}
+        self._services: dict[str, Service] = {}
+        self._servicespaces = store.select(lambda workspace: workspace)
 
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
         """Give a feature its dock and its menu entries, before the window is shown."""
-        place = self._place(feature)
-        dock = window.add_pane(feature.name, feature.title, place)
-        dock.visibilityChanged.connect(place.set_seen)
+        if feature.title:
+            place = self._place(feature)
+            dock = window.add_pane(feature.name, feature.title, place)
+            dock.visibilityChanged.connect(place.set_seen)
+        else:
+            self._unseen[feature.name] = feature
         for name, do in feature.actions.items():
             window.actions_by_name[name].triggered.connect(lambda _=False, do=do: do())
+        for name, command in feature.commands.items():
+            window.actions_by_name[name].triggered.connect(
+                lambda _=False, command=command: command(self.pane(feature.name))
+            )
 
     def embed(self, feature: Feature[Any]) -> QWidget:
         """Give a feature a place in another pane, which shows and hides it."""
@@ -54,23 +66,29 @@ class Shell(QObject):
 
     def _place(self, feature: Feature[Any]) -> "_Place":
         place = self._places[feature.name] = _Place(feature, self)
-        self._workspaces.changed.connect(place.look)
+        self._servicespaces.changed.connect(place.look)
         self._board.changed.connect(place.look)
         return place
 
     def pane(self, name: str) -> Any:
-        """Give a pane, which is made if it has never been seen."""
-        return self._places[name].made()
+        """Give a pane or a service, which is made if it has never been seen or wanted."""
+        if name in self._places:
+            return self._places[name].made()
+        if name not in self._services:
+            self._services[name] = self._unseen[name].make()
+            self._services[name].status_message.connect(self.said)
+        return self._services[name]
 
     def made_pane(self, name: str) -> Any:
-        """Return a pane, None if it has never been seen, or is not added yet."""
+        """Return a pane or a service, None if it was never made, or is not added yet."""
         place = self._places.get(name)
-        return place and place.pane
+        return place.pane if place else self._services.get(name)
 
     @property
     def help_pages(self) -> dict[str, str]:
-        """Page and heading of the manual that explain each pane."""
-        return {name: place.feature.help for name, place in self._places.items()}
+        """Page and heading of the manual that explain the panes."""
+        features = (place.feature for place in self._places.values())
+        return {feature.name: feature.help for feature in features if feature.help}
 
     @property
     def _figures(self) -> "dict[str, tuple[Figure, _Place]]":
@@ -95,23 +113,24 @@ class Shell(QObject):
         return figure.draw(place.pane, shown)
 
     @property
-    def _panes(self) -> list[Pane[Any]]:
-        return [place.pane for place in self._places.values() if place.pane is not None]
+    def _made(self) -> list[Service]:
+        panes = (place.pane for place in self._places.values())
+        return [*(pane for pane in panes if pane is not None), *self._services.values()]
 
     @property
     def is_idle(self) -> bool:
-        """Whether no pane is at work."""
-        return all(pane.is_idle for pane in self._panes)
+        """Whether no feature is at work."""
+        return all(work.is_idle for work in self._made)
 
     @property
     def is_measured(self) -> bool:
         """Whether all panes have measured what they show."""
-        return all(pane.is_measured for pane in self._panes)
+        return all(work.is_measured for work in self._made)
 
     def stop(self) -> None:
-        """End the work of all panes."""
-        for pane in self._panes:
-            pane.stop()
+        """End the work of all features."""
+        for work in self._made:
+            work.stop()
 
 
 class _Place(QWidget):
@@ -131,10 +150,12 @@ class _Place(QWidget):
 
     def made(self) -> Pane[Any]:
         if self.pane is None:
-            self.pane = self.feature.make()
-            self._content.addWidget(self.pane.widget)
+            pane: Pane[Any] = self.feature.make()
+            self.pane = pane
+            self._content.addWidget(pane.widget)
+            pane.status_message.connect(self._shell.said)
             leave_drops_to_window(self)
-            self._shell.made.emit(self.feature.name, self.pane)
+            self._shell.made.emit(self.feature.name, pane)
             self.look()
         return self.pane
 

@@ -45,7 +45,6 @@ from occ_gui.simulation.snapshot import (
     Snapshot,
 )
 from occ_model.receiver.decoders import QUICK_DECODERS
-from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
@@ -125,7 +124,6 @@ class SimulationController(QObject):
         self._views: Sequence[SnapshotView] = ()
         self._readers: Sequence[ReadingView] = ()
         self._read: Reading | None = None
-        self._whose = PICTURES[0]
         self._rows_per_pixel: Callable[[], float] = lambda: float(LEAST_DRAFT_STEP)
         self._draft_rows = DraftRows()
         self._more: tuple[str, ...] = ()
@@ -137,6 +135,7 @@ class SimulationController(QObject):
         self.runner.failed_for.connect(self.failed_for)
         for store in (scenes, settings):
             store.changed.connect(self._submit)
+        scenes.store.select(lambda workspace: workspace.decoder).changed.connect(self.read_with)
         self.ages = ResultAges(self._request())
         # Only the picture: the panes are not there yet, and it is not late at the start.
         self.runner.ask(self.ages.present)
@@ -149,10 +148,6 @@ class SimulationController(QObject):
     def show_in(self, views: Sequence[SnapshotView], readers: Sequence[ReadingView] = ()) -> None:
         """Set the panes that show the results; none arrives before the event loop runs."""
         self._views, self._readers = views, readers
-
-    def choose_picture(self, whose: str) -> None:
-        """Prepare the picture of the camera or of the receiver for drawing from now on."""
-        self._whose = whose
 
     def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
         """Draft as many rows from now on as the screen shows, or fewer where drafts are late.
@@ -184,7 +179,8 @@ class SimulationController(QObject):
     def _request(self) -> SimulationRequest:
         scene = self._scenes.scene
         step = self._draft_rows.step(scene.camera.rows, self._rows_per_pixel())
-        return SimulationRequest(scene, self._settings.settings, self._whose, step, self._more)
+        whose = self._scenes.store.workspace.whose
+        return SimulationRequest(scene, self._settings.settings, whose, step, self._more)
 
     def _submit(self) -> None:
         request = self._request()

@@ -46,8 +46,9 @@ def lines_of(
     along = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(xs), np.diff(ys)))])
     period = sum(dash)
     starts = np.arange(0.0, along[-1], period)
-    cuts = np.union1d(along, np.concatenate([starts, starts + dash[0]]))
-    cuts = cuts[cuts <= along[-1]]
+    # Not by np.union1d: the first call of it imports much of numpy.
+    cuts = np.sort(np.concatenate([along, starts, starts + dash[0]]))
+    cuts = cuts[(cuts <= along[-1]) & (np.diff(cuts, prepend=-1.0) > 0.0)]
     x, y = np.interp(cuts, along, xs), np.interp(cuts, along, ys)
     drawn = np.mod((cuts[:-1] + cuts[1:]) / 2, period) < dash[0]
     ends = (x[:-1][drawn], y[:-1][drawn], x[1:][drawn], y[1:][drawn])

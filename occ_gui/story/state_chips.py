@@ -1,12 +1,16 @@
 """State chips: short labels of what holds for a result, such as where the band model ends."""
 
-from occ_gui.detection_map.own_rate_controller import OwnRate
+from typing import TYPE_CHECKING
+
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right
 from occ_gui.story.column_facts import READ_BY_ALL
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State
+
+if TYPE_CHECKING:
+    from occ_gui.detection_map.own_rate_controller import OwnRate
 
 _COMPUTING = "computing"
 """The chip of results that are still to come."""
@@ -35,7 +39,7 @@ def computing() -> Chip:
     return Chip(_COMPUTING, "computing", "The results are computed.", State.WAITING)
 
 
-def of_pictures(rate: OwnRate) -> Chip:
+def of_pictures(rate: "OwnRate") -> Chip:
     """Return what is read of pictures that begin at any time, beside the verdict on this one."""
     text = f"of {rate.images} pictures: {100.0 * rate.share:.3g} %"
     meaning = (

@@ -1,9 +1,10 @@
 """Verdict bar: whether the code was read, in words, colour and shape, and what holds beside."""
 
+from typing import TYPE_CHECKING
+
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
-from occ_gui.detection_map.own_rate_controller import OwnRate
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import Verdict, result_of, verdict_on
 from occ_gui.story.column_facts import Step, cause_of, chips_in_exposure
@@ -11,6 +12,9 @@ from occ_gui.story.state_chips import behind_run, chips_of, computing, of_pictur
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.scene.units import SECOND
+
+if TYPE_CHECKING:
+    from occ_gui.detection_map.own_rate_controller import OwnRate
 
 AVERAGES_LESSON = "2-past-the-shutter"
 """The lesson on codes that are read though no column sees one chip alone."""
@@ -79,7 +83,7 @@ class VerdictBar(StateBar):
             self._failure = ""
             self._write()
 
-    def show_rate(self, rate: OwnRate | None) -> None:
+    def show_rate(self, rate: "OwnRate | None") -> None:
         """Show beside the verdict on this picture what is read of others; None if not known."""
         self._rate = rate
         self._write()

@@ -2,12 +2,12 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from occ_gui.background.task import Task
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
+from occ_gui.shell.feature import Service
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_gui.transmitter.transmitter_jobs import (
     Drawn,
@@ -26,14 +26,11 @@ _BOARD = "transmitter/board"
 """Key of the preference that stores the board."""
 
 
-class TransmitterController(QObject):
+class TransmitterController(Service):
     """Fills the dialog, which follows the scene, and carries out what it asks for."""
 
-    status_message = Signal(str)
-    """What became of saving, where the dialog is closed."""
-
     def __init__(self, window: QWidget, store: SceneStore, preferences: Preferences) -> None:
-        super().__init__(window)
+        super().__init__()
         self._window = window
         self._store = store
         self._preferences = preferences

@@ -5,7 +5,7 @@ from itertools import count
 from pathlib import Path
 from typing import Self
 
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.scene.recording import Recording
 
 FIRST_FRAMES, FRAMES = 60, range(2, 100_001)

@@ -8,8 +8,7 @@ from typing import Self
 
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.placement import Placement
-from occ_model.photo.reading.channels import CHANNELS
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.scene.scene import Scene

@@ -14,7 +14,7 @@ from occ_gui.shell.work import Work
 from occ_gui.values.film_choice import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
 from occ_gui.video.player import FilmPlayer
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.results.video import Video, VideoFrame
 
 _DRAFT_STEP = 8

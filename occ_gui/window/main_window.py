@@ -48,6 +48,7 @@ class MainWindow(QMainWindow):
     def __init__(
         self,
         controls: ControlPanel,
+        centre: QWidget,
         story: StoryView,
         *,
         undo_stack: QUndoStack,
@@ -60,7 +61,7 @@ class MainWindow(QMainWindow):
         self.setFocus()  # on no control, until a key or the mouse chooses one
         self.setDockNestingEnabled(True)
         self.setAnimated(False)  # each step of an animation would redraw all plots
-        self.setCentralWidget(story)
+        self.setCentralWidget(centre)
         self.docks = {"controls": self._dock("controls", "Scene", controls)}
         self.menus = Menus(self, undo_stack, self.docks.values())
         self.actions_by_name = self.menus.actions
@@ -71,7 +72,7 @@ class MainWindow(QMainWindow):
         self.addToolBar(self.toolbar)
         self.setAcceptDrops(True)
         leave_drops_to_window(self)
-        self._story = story
+        self._centre, self._story = centre, story
         self._message_until = ""
         self._status_line = StatusLine()
         self.setStatusBar(self._status_line)
@@ -172,7 +173,7 @@ class MainWindow(QMainWindow):
 
     def _show_page(self, page: str) -> None:
         """Show the story in the middle, the whole picture in its place, or neither."""
-        self._story.setVisible(bool(page))
+        self._centre.setVisible(bool(page))
         if page:
             self._story.show_whole_picture(page == PICTURE)
 

@@ -16,7 +16,7 @@ from occ_gui.window.modes.mode import MODES
 from occ_gui.window.search_words import give_words
 from occ_gui.window.theme import THEMES
 from occ_model.errors import one_line
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import SCAN_AXES
 
 _WITH_PHOTO = (
     "close_photo", "match", "use_settings", "find_lamps", "region_by_hand", "whole_photo",
@@ -98,14 +98,15 @@ class Menus(QObject):
         keys = "Ctrl+Shift+E"
         self._add(self._export, "export_all", "A&ll figures…", keys)
 
-    def add_figures(self, titles: Mapping[str, str]) -> None:
-        """Add figures to the export menu."""
+    def add_figures(self, titles: Mapping[str, str], ask: Callable[[str], None]) -> None:
+        """Offer figures in the export menu."""
         for name, title in titles.items():
             action = QAction(f"{title}…", self._export)
             action.setToolTip("As PNG, SVG, PDF or CSV, with the scene inside.")
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
             action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
+            action.triggered.connect(partial(_ask_for, ask, name))
             give_words(f"export_{name}", action)
 
     def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
@@ -237,6 +238,8 @@ class Menus(QObject):
 
     def _make_help_menu(self) -> None:
         menu = self._top("help", "&Help")
+        self._add(menu, "guide", "&User's guide")
+        self._add(menu, "about_pane", "About this &pane", "Shift+F1")
         self._add(menu, "welcome", "&Welcome…")
         self._add(menu, "lessons", "&Lessons")
         self._add(menu, "report", "&Report…")

@@ -12,8 +12,8 @@ from occ_model.commands.options import (
     number,
     scene_of,
 )
-from occ_model.photo.reading.load import CHANNELS, load_photo
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER

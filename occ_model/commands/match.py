@@ -15,8 +15,8 @@ from occ_model.photo.chips.read import read_chips
 from occ_model.photo.lamps.match import match_lamps
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
 from occ_model.photo.match_facts import in_columns, known_of, match_facts
-from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match
 from occ_model.scene.from_text import write_scene_file
 from occ_model.scene.scene import Scene

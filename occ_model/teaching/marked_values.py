@@ -3,7 +3,6 @@
 from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
-from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.theory import band_model_frequency, null_frequency
 from occ_model.transmitter.packet import sent_chips
 
@@ -48,6 +47,9 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
 def _period(scene: Scene) -> float:
     """Return the chips after which what is sent repeats; 0 where no packet can be made."""
     if scene.transmitter.pattern:  # which can hold shorter ones; a packet's header comes once
+        # Imported only for it: no packet needs it.
+        from occ_model.study.bands.least_depth import DepthOver
+
         return float(DepthOver.of(scene).period)
     try:
         return float(len(sent_chips(scene.transmitter)))

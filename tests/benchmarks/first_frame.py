@@ -3,8 +3,6 @@
 import os
 import sys
 
-from PySide6.QtCore import QEventLoop
-
 import occ_model as occ
 from occ_gui.app.command_line import start
 
@@ -12,6 +10,9 @@ from occ_gui.app.command_line import start
 def main() -> None:
     """End once the picture pane has painted a frame; what it says is read a little later."""
     qt, application = start(occ.load_preset("phone-68us"), sys.argv[:1])
+    # Only now, as in the program: PySide reads the source of what is imported after it.
+    from PySide6.QtCore import QEventLoop
+
     pictures: list[object] = []
     application.simulation.picture_ready.connect(pictures.append)
     application.window.show()

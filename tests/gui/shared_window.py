@@ -106,7 +106,7 @@ def state_of(application: Application) -> list[object]:
         application.video.path,
         (application.pins.pinned.a, application.pins.pinned.b),
         application.view("picture").mode.key(),
-        application.desktop.theme.theme,
+        application.options.theme.theme,
         window.modes.mode,
         window.windowTitle(),
         window.size(),
@@ -236,10 +236,10 @@ class SharedWindow:
         first = replace(first, photo=PhotoChoice(), film=FilmChoice())
         kept.store.store.put(first, "first scene")
         kept.store.undo_stack.clear()
-        kept.desktop.document.path = None
-        kept.desktop.document.show_photo(None)  # writes the title
-        if kept.desktop.theme.theme != THEMES[0]:
-            kept.desktop.theme.choose(THEMES[0])
+        kept.document.path = None
+        kept.document.show_photo(None)  # writes the title
+        if kept.options.theme.theme != THEMES[0]:
+            kept.options.theme.choose(THEMES[0])
         is_moved = window.size() != home.size or bool(window.modes.layouts)
         window.resize(home.size)
         window.modes.layouts.clear()
@@ -255,10 +255,10 @@ class SharedWindow:
         for pages in kept.controls.findChildren(QTabWidget):
             pages.setCurrentIndex(0)
         kept.controls.end_refusals()
-        kept.show_mode(OVERLAYS[0])
+        kept.options.choose_overlay(OVERLAYS[0])
         kept.view("picture").choose_picture("camera")
         kept.view("decode").choose_decoder(next(iter(DECODERS)))
-        kept.desktop.brightness.switch(False)
+        kept.options.brightness.switch(False)
         window.actions_by_name["measure"].setChecked(False)
         qtbot.waitUntil(lambda: kept.is_idle)
         kept.story.rows.crosshair.choose(home.column)

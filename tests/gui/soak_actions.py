@@ -195,7 +195,7 @@ class Monkey:
         self._errands.come_home()
         self.clear_the_pins()
         self.leave_the_lesson()
-        self._application.desktop.theme.choose(THEMES[0])
+        self._application.options.theme.choose(THEMES[0])
         self.reset_the_layout()
         self._application.window.resize(*_FIRST_SIZE)
         QGuiApplication.clipboard().clear()
@@ -426,7 +426,7 @@ class Monkey:
             self._trigger("copy_figure")
         else:
             titles = self._application.shell.figures
-            self._application.desktop.export.copy(self._random.choice(list(titles)))
+            self._application.shell.pane("export").copy(self._random.choice(list(titles)))
 
     def export_all(self) -> None:
         self._dialogs.path = self._folder / "all"

@@ -196,7 +196,7 @@ class Errands:
 
     def write_for_a_board(self) -> None:
         self._trigger("transmitter")
-        transmitter = self._application.desktop.transmitter
+        transmitter = self._application.shell.made_pane("transmitter")
         assert transmitter is not None
         dialog = transmitter.dialog
         assert dialog is not None
@@ -210,6 +210,6 @@ class Errands:
         self._close_the_board()
 
     def _close_the_board(self) -> None:
-        transmitter = self._application.desktop.transmitter
+        transmitter = self._application.shell.made_pane("transmitter")
         if transmitter is not None and transmitter.dialog is not None:
             transmitter.dialog.reject()

@@ -102,7 +102,7 @@ def monkey(
     monkeypatch.setattr(lessons_room, "lessons", smaller_lessons)
     GarbageCollector(application.window)  # as a program that runs has one: figures are in cycles
     yield Monkey(application, qtbot, FileDialogs(monkeypatch), tmp_path, request.param)
-    application.desktop.theme.choose("system")
+    application.options.theme.choose("system")
     QGuiApplication.clipboard().clear()
 
 

@@ -12,8 +12,8 @@ from occ_model.photo.many.row import MatchSettings, row_of
 from occ_model.photo.many.table import table_of
 from occ_model.photo.many.workers import rows_by_workers
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
-from occ_model.photo.reading.load import CHANNELS, Photo
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.photo.reading.load import Photo
 from occ_model.results.photo_table import PhotoRow, PhotoTable
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene

@@ -6,8 +6,8 @@ from pathlib import Path
 from occ_model.errors import MatchError, PhotoError
 from occ_model.parallel.job import Heartbeat
 from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
-from occ_model.photo.reading.load import CHANNELS, Photo, load_photo
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow, known_beside
 from occ_model.scene.argument_checks import check_choice

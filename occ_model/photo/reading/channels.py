@@ -13,9 +13,6 @@ from occ_model.photo.reading.watched_file import Progress
 _Take: TypeAlias = Callable[[Samples], Samples]
 """Extracts a channel from some pixels."""
 
-CHANNELS = ("brightest", "luma", "red", "green", "blue")
-"""The channels of a coloured photo; ``"brightest"`` is the colour with the largest mean."""
-
 _COLOURS = ("red", "green", "blue")
 _GREEN = 1
 

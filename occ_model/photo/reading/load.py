@@ -11,12 +11,13 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.camera.projection import MAX_PIXELS
 from occ_model.errors import ParameterError, PhotoError, shown
-from occ_model.photo.reading.channels import CHANNELS, take_channel, white_of
+from occ_model.photo.reading.channels import take_channel, white_of
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.exif import CameraNotes, camera_notes, orientation_of, turns_of
 from occ_model.photo.reading.file import open_file, picture_opener
 from occ_model.photo.reading.image_decoding import DECODED, DecodedPicture, Samples
 from occ_model.photo.reading.raw import is_raw, read_mosaic
-from occ_model.photo.reading.scan_axis import SCAN_AXES, means_along, stripes_are_lines
+from occ_model.photo.reading.scan_axis import means_along, stripes_are_lines
 from occ_model.photo.reading.watched_file import Progress, Reporter, WatchedFile
 from occ_model.scene.argument_checks import check_choice, check_count
 

@@ -8,9 +8,6 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.image_decoding import Samples
 
-SCAN_AXES = ("auto", "columns", "lines")
-"""The axis of the file that the rolling shutter scanned; ``"auto"``: the one across the stripes."""
-
 _USUAL = 0.97
 """Share of the differences between neighbours that are not at a panel's edges."""
 

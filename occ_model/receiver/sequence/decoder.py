@@ -11,7 +11,6 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.light import PER_CHIP, Light, by_rank, expected_light, in_light
 from occ_model.receiver.read_payload import with_bits
 from occ_model.receiver.sequence.code_words import code_words
@@ -70,7 +69,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
         With the chips, the light of each column beside that of the chips' model, and the
         probability that each bit is right.
     """
-    result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
+    result = DecodeResult("sequence", signal=signal, failure=why_flat(signal))
     if result.failure is not None:
         return result
     transmitter, camera = scene.transmitter, scene.camera
@@ -196,13 +195,3 @@ def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...
     if failure is None:
         return read
     return replace(read, code=None, payload="", failure=failure)
-
-
-DECODER = Decoder(
-    "sequence",
-    "Sequence: the most likely chips",
-    read_signal,
-    is_quick=False,
-    # A picture takes 0.02 s up to 7 chips, 0.1 s at 10 and several at 14.
-    searched_chips=8.0,
-)

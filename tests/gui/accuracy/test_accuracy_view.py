@@ -86,8 +86,8 @@ def test_what_was_switched_is_news_for_a_while_only(
 ) -> None:
     user.enter("edge_time", "5 us")
     assert row(in_front, "led-edges").new
-    in_front.news._forgetting.setInterval(0)
-    in_front.news._forgetting.start()
+    in_front.scene._news._forgetting.setInterval(0)
+    in_front.scene._news._forgetting.start()
     qtbot.waitUntil(lambda: not row(in_front, "led-edges").new)
     assert "Switched" not in in_front.view("accuracy").summary.toolTip()
     tips = [label.toolTip() for label in in_front.window.statusBar().findChildren(QLabel)]

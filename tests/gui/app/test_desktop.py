@@ -67,7 +67,7 @@ def lightness_of_the_plots(application: Application) -> set[bool]:
 def test_the_theme_changes_everything_that_is_drawn(
     application: Application, user: User, grey_picture: Callable[[QWidget], NDArray[np.uint8]]
 ) -> None:
-    themes = application.desktop.theme
+    themes = application.options.theme
     for pane in ("spectrum", "equations"):
         application.window.bring_to_front(pane)
         user.wait_until_idle()
@@ -94,7 +94,7 @@ def test_the_theme_changes_everything_that_is_drawn(
 def test_text_can_be_read_on_what_it_stands_on(
     application: Application, user: User, theme: str
 ) -> None:
-    application.desktop.theme.choose(theme)
+    application.options.theme.choose(theme)
     palette, role = QApplication.palette(), QPalette.ColorRole
     pairs = (
         (role.WindowText, role.Window), (role.Text, role.Base), (role.Text, role.AlternateBase),
@@ -103,7 +103,7 @@ def test_text_can_be_read_on_what_it_stands_on(
     for front, back in pairs:
         assert contrast(palette.color(front), palette.color(back)) > 7
     assert contrast(palette.color(role.HighlightedText), palette.color(role.Highlight)) > 3
-    application.desktop.theme.choose("system")
+    application.options.theme.choose("system")
 
 
 def contrast(one: QColor, other: QColor) -> float:

@@ -28,7 +28,7 @@ STILL_THERE = "Your work is still there."
 @pytest.fixture
 def reports(application: Application) -> Iterator[ErrorReports]:
     """Let the window take all exceptions, in place of the tests' own hook."""
-    reports = application.desktop.error_reports
+    reports = application.error_reports
     with capture_exceptions():
         reports.install()
         yield reports

@@ -16,7 +16,8 @@ from occ_gui.detection_map.own_rate_controller import IMAGES as OWN_IMAGES
 from occ_gui.detection_map.own_rate_controller import own_rate, own_rate_stages
 from occ_gui.detection_map.rate_map import lattice
 from occ_gui.detection_map.resting_controller import RateRequest as Request
-from occ_gui.detection_map.slider_strip_controller import IMAGES, POSITIONS
+from occ_gui.detection_map.slider_strip import IMAGES
+from occ_gui.detection_map.slider_strip_controller import POSITIONS
 from occ_gui.detection_map.worker import SEED, UNSEEN, measure_along, rate_settings
 from occ_model.cli import main
 from occ_model.parallel.job import do_job

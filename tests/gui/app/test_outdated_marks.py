@@ -186,9 +186,8 @@ class Drag:
         self.simulation, self.verdict = Simulation(self.latest), Verdict()
         board = self.simulation.board
         self.outdated = OutdatedMarks(board, self.simulation, pane)  # type: ignore[arg-type]
-        self.outdated.mark_verdict(self.verdict)
         shown: Pane[None] = Pane(pane)
-        shown.made_of = {pane: of_snapshot}
+        shown.made_of, shown.verdicts = {pane: of_snapshot}, (self.verdict,)
         self.outdated.mark_pane(shown)
         self.outdated.mark(pane, of_picture)
         self.simulation.deliver(self.snapshots[0])

@@ -29,7 +29,7 @@ def test_it_hides_the_users_folder(application: Application) -> None:
 
 
 def test_it_has_what_was_logged_last(application: Application) -> None:
-    reports = application.desktop.error_reports
+    reports = application.error_reports
     reports.install()
     try:
         logging.getLogger("occ_gui").warning("the lamp is %s", "off")

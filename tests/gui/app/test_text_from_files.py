@@ -109,7 +109,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
 
 
 def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> None:
-    document: Document = application.desktop.document
+    document: Document = application.document
     document.resume(Path("/a[*]b.toml"), application.store.scene)
     assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
 

@@ -114,7 +114,7 @@ def test_both_figures_are_exported_of_the_scene(
     application: Application, qtbot: QtBot, tmp_path: Path
 ) -> None:
     application.store.put(_LAMP, "lamp")
-    export = application.desktop.export
+    export = application.shell.pane("export")
     for name in ("bands", "flicker"):
         path = tmp_path / f"{name}.csv"
         export.export(name, path)

@@ -185,9 +185,9 @@ def test_the_bench_is_exported_with_its_own_setting(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     said: list[str] = []
-    application.desktop.export.status_message.connect(said.append)
+    application.shell.pane("export").status_message.connect(said.append)
     path = tmp_path / "bench.csv"
-    application.desktop.export.export("bench", path)
+    application.shell.pane("export").export("bench", path)
     qtbot.waitUntil(lambda: bool(said))
     assert "not complete" in said[-1]
     application.window.bring_to_front("bench")
@@ -196,8 +196,8 @@ def test_the_bench_is_exported_with_its_own_setting(
     found = request, tuple(measure_bench_point(request, request.points[0]))
     full: Callable[[], object] = lambda: found  # noqa: E731
     monkeypatch.setattr(BenchController, "full", property(lambda _self: full()))
-    application.desktop.export.export("bench", path)
-    qtbot.waitUntil(lambda: application.desktop.export.is_idle and path.exists())
+    application.shell.pane("export").export("bench", path)
+    qtbot.waitUntil(lambda: application.shell.pane("export").is_idle and path.exists())
     lines = path.read_text("utf-8").splitlines()
     assert any("5 rows a symbol" in line for line in lines if line.startswith("#"))
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))

@@ -1,6 +1,7 @@
 """Behind each main slider lies what a decoder would read along it, in line with its handle."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from occ_gui.detection_map import slider_strip_controller as module
 from occ_gui.detection_map import wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import SliderStrip
+from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.files.preferences import Preferences
@@ -82,13 +83,14 @@ def bench(
 
 @pytest.mark.parametrize("decoder", ["threshold", "matched"])
 def test_a_strip_is_the_success_rate_along_its_slider(bench: Bench, decoder: str) -> None:
-    bench.controller.choose_decoder(decoder)
+    store = bench.scenes.store
+    store.put(replace(store.workspace, decoder=decoder))
     bench.controller.set_seen(True)
     shares = bench.wait_until_idle()
     scene = bench.scenes.scene
     for name in NAMES:
         rates = [
-            occ.success_rate(scene.replace(**{name: value}), module.IMAGES, decoder)
+            occ.success_rate(scene.replace(**{name: value}), IMAGES, decoder)
             for value in lattice(name, POSITIONS)
         ]
         assert shares[name] == pytest.approx([rate / 100 for rate in rates])

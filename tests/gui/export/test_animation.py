@@ -17,7 +17,7 @@ def test_the_run_of_a_slider_from_end_to_end_and_back_is_saved(
     monkeypatch.setattr("occ_gui.export.animation.STEPS", 2)
     chosen = (str(tmp_path / "run"), "Animated PNG (*.png)")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: chosen)
-    application.desktop.animation.ask("iso")
+    application.shell.pane("animation").ask("iso")
     user.wait_until_idle()
     with Image.open(tmp_path / "run.png") as pictures:
         assert getattr(pictures, "n_frames", 1) == 4
@@ -34,7 +34,7 @@ def test_the_run_of_a_slider_from_end_to_end_and_back_is_saved(
 def test_an_animation_is_given_up_at_once_and_leaves_nothing(
     application: Application, user: User, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    animation = application.desktop.animation
+    animation = application.shell.pane("animation")
     animation.write(tmp_path / "a.gif", "iso")
     with qtbot.waitSignal(animation.writer.runner.reported):
         pass
@@ -46,6 +46,6 @@ def test_an_animation_is_given_up_at_once_and_leaves_nothing(
 
 
 def test_a_file_that_cannot_be_written_is_told(application: Application, user: User) -> None:
-    application.desktop.animation.write(Path("/none/a.gif"), "iso")
+    application.shell.pane("animation").write(Path("/none/a.gif"), "iso")
     user.wait_until_idle()
     assert "/none" in user.message

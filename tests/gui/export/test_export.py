@@ -38,7 +38,7 @@ FIGURES = ("picture", "profile", "decoding-threshold", "decoding-matched")
 
 
 def export(application: Application, user: User, name: str, path: Path) -> str:
-    application.desktop.export.export(name, path)
+    application.shell.pane("export").export(name, path)
     user.wait_until_idle()
     return str(user.message)
 
@@ -109,7 +109,7 @@ def test_the_difference_is_exported_as_it_is_seen(
 ) -> None:
     application.open_photo(photo_file)
     user.wait_until_idle()
-    application.show_mode("difference")
+    application.options.choose_overlay("difference")
     path = tmp_path / "difference.csv"
     assert export(application, user, "picture", path) == f"Exported difference.csv into {tmp_path}"
     lines = [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
@@ -126,7 +126,7 @@ def test_all_figures_go_into_a_folder_in_all_formats_with_scene_settings_version
     application: Application, user: User, tmp_path: Path
 ) -> None:
     folder = tmp_path / "new" / "report"
-    application.desktop.export.export_all(folder)
+    application.shell.pane("export").export_all(folder)
     user.wait_until_idle()
     assert {path.name for path in folder.iterdir()} == {
         f"{name}{ending}" for name in FIGURES for ending in ENDINGS
@@ -152,7 +152,7 @@ def test_the_copied_figure_is_that_of_the_pane_in_front(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
     application.view("profile").enhanced.setFocus()
-    qtbot.waitUntil(lambda: application.desktop.export.current_pane.name == "profile")
+    qtbot.waitUntil(lambda: application.current_pane.name == "profile")
     user.choose("Copy fi&gure")
     assert "Column profile" in QGuiApplication.clipboard().image().text("Title")
     application.view("decode").decoders.setCurrentIndex(1)
@@ -218,12 +218,12 @@ def test_a_disk_full_midway_leaves_no_part_of_any_figure(
 
     monkeypatch.setattr(Path, "write_bytes", full)
     folder = tmp_path / "report"
-    application.desktop.export.export_all(folder)
+    application.shell.pane("export").export_all(folder)
     user.wait_until_idle()
     assert "No space left on device" in user.message
     assert len(written) > 5
     assert not folder.exists()
-    application.desktop.export.export("profile", tmp_path / "one.pdf")
+    application.shell.pane("export").export("profile", tmp_path / "one.pdf")
     user.wait_until_idle()
     assert "No space left on device" in user.message
     assert list(tmp_path.iterdir()) == []
@@ -238,7 +238,7 @@ def test_a_write_protected_figure_stops_the_export_of_all_before_any_is_drawn(
     for file in files:
         file.write_bytes(b"kept")
     files[-1].chmod(0o444)
-    application.desktop.export.export_all(tmp_path)
+    application.shell.pane("export").export_all(tmp_path)
     user.wait_until_idle()
     assert f"{files[-1].name} is write-protected" in user.message
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == dict.fromkeys(files, b"kept")
@@ -259,7 +259,7 @@ def test_a_figure_that_is_write_protected_meanwhile_stops_the_export_of_all(
         return written
 
     monkeypatch.setattr(drawing, "write_all", protect_and_write)
-    application.desktop.export.export_all(tmp_path)
+    application.shell.pane("export").export_all(tmp_path)
     user.wait_until_idle()
     assert f"{last.name} is write-protected" in user.message
     assert {file: file.read_bytes() for file in tmp_path.iterdir()} == {last: b"kept"}
@@ -286,7 +286,7 @@ def test_exports_that_come_quickly_are_all_written(
 ) -> None:
     paths = [tmp_path / f"{place}.csv" for place in range(4)]
     for path in paths:
-        application.desktop.export.export("profile", path)
+        application.shell.pane("export").export("profile", path)
     user.wait_until_idle()
     assert sorted(tmp_path.iterdir()) == paths
 
@@ -316,7 +316,7 @@ def test_the_ending_comes_from_the_name_or_the_chosen_format(
 def test_the_dialog_begins_with_the_format_of_the_last_export(
     application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    application.desktop.export.export("profile", tmp_path / "other.csv")  # not chosen there
+    application.shell.pane("export").export("profile", tmp_path / "other.csv")  # not chosen there
     user.wait_until_idle()
     begun: list[tuple[str, str]] = []
 
@@ -364,14 +364,14 @@ def test_the_picture_with_the_photo_has_an_entry_of_its_own(
     assert entry.isEnabled()
     files = []
     for mode in ("beside", "blend"):
-        application.show_mode(mode)
+        application.options.choose_overlay(mode)
         assert export(application, user, "overlay", path).startswith("Exported both.png")
         files.append(path.read_bytes())
         assert export(application, user, "picture", path).startswith("Exported both.png")
         files.append(path.read_bytes())
     over, beside, over_again, blended = (np.asarray(Image.open(BytesIO(f))) for f in files)
     assert over.shape == over_again.shape == blended.shape != beside.shape
-    application.show_mode("beside")
+    application.options.choose_overlay("beside")
 
 
 @pytest.mark.whole
@@ -389,11 +389,11 @@ def test_no_text_of_an_exported_figure_is_cut_off_however_the_photo_is_shown(
     application.open_photo(long)
     user.wait_until_idle()
     for mode in MODES:
-        application.show_mode(mode)
+        application.options.choose_overlay(mode)
         for name in ("picture", "overlay", "profile"):
             said = export(application, user, name, tmp_path / f"{name}.svg")
             assert said.startswith("Exported"), said
     mode = "decoding"
     export(application, user, "decoding-threshold", tmp_path / "decoding.svg")
     assert cut == {mode: [] for mode in (*MODES, "decoding")}
-    application.show_mode(MODES[0])
+    application.options.choose_overlay(MODES[0])

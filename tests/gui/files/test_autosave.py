@@ -29,8 +29,8 @@ def begin(application: Application) -> Begin:
     def resume(folder: Path) -> Autosave:
         autosave = Autosave(
             application.store,
-            application.desktop.document,
-            application.desktop.session,
+            application.document,
+            application.kept.session,
         )
         autosave.resume(SessionFile(folder, NAMES), Session(), scene_wins=True)
         return autosave

@@ -1,6 +1,7 @@
 """Scenes and pictures to files and back; what is refused changes nothing."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -154,9 +155,10 @@ def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
     bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
 ) -> None:
     path = tmp_path / "picture.png"
-    bench.files.choose_picture("receiver")
+    store = bench.store.store
+    store.put(replace(store.workspace, whose="receiver"))
     bench.files.save_picture(path)
-    bench.files.choose_picture("camera")
+    store.put(replace(store.workspace, whose="camera"))
     assert bench.status_message == []
     assert list(tmp_path.iterdir()) == []
     shown = snapshot_of()

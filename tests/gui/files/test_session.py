@@ -52,8 +52,8 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
         scene = asked or session.scene or small_scene
         application = Application(scene, session.settings or SimulationSettings(), kept)
         wins = asked is not None or fresh
-        application.desktop.resume(file, session, wins, fresh)
-        application.resume_photo(session.photo)
+        application.kept.resume(file, session, wins, fresh)
+        application.photo.resume(session.photo)
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)
         try:
@@ -115,8 +115,8 @@ def test_scene_settings_photo_and_options_are_there_again(
         application.open_photo(photo_file)
         qtbot.waitUntil(lambda: application.is_idle)
         application.window.actions_by_name["hold_brightness"].trigger()
-        application.desktop.theme.choose("dark")
-        application.show_mode("blend")
+        application.options.theme.choose("dark")
+        application.options.choose_overlay("blend")
         application.view("picture").choose_picture("receiver")
         scene, settings = application.store.scene, application.settings.settings
     with start() as application:
@@ -130,9 +130,9 @@ def test_scene_settings_photo_and_options_are_there_again(
             == "receiver"
         )
         assert not application.view("picture").photo.isVisible()  # it lies on the picture
-        assert application.desktop.brightness.is_on
-        assert application.desktop.theme.theme == "dark"
-        application.desktop.theme.choose("system")
+        assert application.options.brightness.is_on
+        assert application.options.theme.theme == "dark"
+        application.options.theme.choose("system")
 
 
 def test_the_layout_is_there_again_and_can_be_reset(start: Start, qtbot: QtBot) -> None:
@@ -181,7 +181,7 @@ def test_rubbish_in_what_was_kept_is_left_out(
         with start() as application:
             assert application.store.scene == small_scene, rubbish
             assert application.settings.settings == SimulationSettings(), rubbish
-            assert application.desktop.theme.theme == "system", rubbish
+            assert application.options.theme.theme == "system", rubbish
             application.store.change(iso=321.0)
 
 
@@ -300,7 +300,7 @@ def kill(
     qtbot: QtBot, application: Application, folder: Path, kept: QSettings
 ) -> Callable[[], None]:
     """Note what a window has stored; what is returned puts it back, as if it had not ended."""
-    qtbot.waitUntil(lambda: application.is_idle and not application.desktop.autosave.is_due)
+    qtbot.waitUntil(lambda: application.is_idle and not application.kept.autosave.is_due)
     files = {path: path.read_bytes() for path in folder.glob("*.json")}
     values = {key: kept.value(key) for key in kept.allKeys()}
 

@@ -14,7 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
-from occ_gui.help import help_menu, page_style
+from occ_gui.help import manual as manual_module
+from occ_gui.help import page_style
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import CONTENTS, GUIDE, docs_folder, heading_id, pages
@@ -77,7 +78,7 @@ def click(qtbot: QtBot, browser: QTextBrowser, target: str) -> None:
 def test_every_pane_has_a_page_and_its_heading(
     application: Application, manual: HelpWindow
 ) -> None:
-    pages = application.desktop.help.pages
+    pages = application.shell.pane("help").pages
     assert set(pages) == {*PANES, PICTURE}
     for page in pages.values():
         name, _, heading = page.partition("#")
@@ -193,14 +194,14 @@ def test_code_stands_on_a_ground_of_the_theme(manual: HelpWindow) -> None:
 
 
 def test_the_menu_opens_the_guide_and_the_page_of_the_pane(application: Application) -> None:
-    entries = application.desktop.help
-    entries.guide.trigger()
+    entries = application.window.actions_by_name
+    entries["guide"].trigger()
     (browser,) = application.window.findChildren(HelpBrowser)
     assert browser.window().isVisible()
     assert browser.source().fileName() == GUIDE
-    for pane, page in entries.pages.items():
-        application.desktop.export.current_pane.name = pane
-        entries.pane.trigger()
+    for pane, page in application.shell.pane("help").pages.items():
+        application.current_pane.name = pane
+        entries["about_pane"].trigger()
         assert browser.source().toString().endswith(f"/{page}")
     assert application.window.findChildren(HelpBrowser) == [browser]
 
@@ -208,8 +209,8 @@ def test_the_menu_opens_the_guide_and_the_page_of_the_pane(application: Applicat
 def test_a_missing_manual_is_answered_with_a_sentence(
     application: Application, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(help_menu, "docs_folder", lambda: tmp_path)
-    application.desktop.help.guide.trigger()
+    monkeypatch.setattr(manual_module, "docs_folder", lambda: tmp_path)
+    application.window.actions_by_name["guide"].trigger()
     message = application.window.statusBar().currentMessage()
     assert message == "The manual cannot be read: No such file or directory."
     assert not (tmp_path / CONTENTS).exists()
@@ -240,7 +241,7 @@ def run(program: str, folder: Path) -> str:
 def test_the_start_does_not_import_the_window_of_the_manual() -> None:
     program = "import sys, occ_gui.app.application; print(*sys.modules)"
     loaded = run(program, ROOT).split()
-    assert "occ_gui.help.help_menu" in loaded
+    assert "occ_gui.help.feature" in loaded
     assert {"occ_gui.help.help_window", "occ_gui.help.help_browser"}.isdisjoint(loaded)
 
 

@@ -293,7 +293,7 @@ def test_the_lessons_stand_at_the_right_of_what_they_explain(
 
 def test_the_list_follows_the_theme(application: Application, guide: LessonView) -> None:
     for theme, is_light in (("dark", False), ("light", True), ("dark", False), ("system", True)):
-        application.desktop.theme.choose(theme)
+        application.options.theme.choose(theme)
         QApplication.processEvents()
         picture = guide.list.choices[0].grab().toImage()
         back = picture.pixelColor(picture.width() - 12, picture.height() // 2)
@@ -428,7 +428,7 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     photo_file: Path,
     tmp_path: Path,
 ) -> None:
-    autosave = application.desktop.autosave
+    autosave = application.kept.autosave
     autosave.resume(SessionFile(tmp_path, NAMES), Session(), scene_wins=True)
     application.settings.set_tolerance(7.0)
     application.open_photo(photo_file)
@@ -461,7 +461,7 @@ def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     written: list[Scene] = []
-    autosave = application.desktop.autosave
+    autosave = application.kept.autosave
     monkeypatch.setattr(autosave, "end", lambda: written.append(application.store.scene))
     guide.list.choices[0].click()
     user.wait_until_idle()

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.values.placement import Placement
-from occ_model.photo.reading.load import CHANNELS, Photo
-from occ_model.photo.reading.scan_axis import SCAN_AXES
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 
 

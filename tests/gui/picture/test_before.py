@@ -217,7 +217,7 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     assert np.array_equal(then, start)
     assert application.view("picture").before.picture.isVisible()
     grey_picture(application.view("picture"))
-    assert application.before.before is not None
+    assert application.scene.before.before is not None
 
 
 def test_the_line_stays_in_the_picture(

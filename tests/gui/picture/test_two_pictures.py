@@ -167,7 +167,7 @@ def test_an_export_draws_and_names_the_one_that_is_shown(
     for whose in PICTURES:
         application.view("picture").choose_picture(whose)
         path = tmp_path / f"{whose}.csv"
-        application.desktop.export.export("picture", path)
+        application.shell.pane("export").export("picture", path)
         user.wait_until_idle()
         lines = path.read_text(encoding="utf-8").splitlines()
         assert f"{whose.title()}'s picture" in lines[0]
@@ -184,7 +184,7 @@ def test_an_exported_profile_is_the_one_that_is_shown(
     for enhanced in (False, True):
         application.view("profile").enhanced.setChecked(enhanced)
         path = tmp_path / f"{enhanced}.csv"
-        application.desktop.export.export("profile", path)
+        application.shell.pane("export").export("profile", path)
         user.wait_until_idle()
         lines = path.read_text(encoding="utf-8").splitlines()
         assert ("after the receiver's enhancement" in lines[0]) == enhanced

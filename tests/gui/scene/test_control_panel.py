@@ -53,6 +53,7 @@ def test_effects_parameters_have_a_page_of_their_own_in_order(
 
 
 def test_every_control_has_a_name_and_a_tooltip(panel: ControlPanel) -> None:
+    assert panel.panels  # all are made
     controls = entry_controls(panel)
     assert len(controls) > len(PARAMETERS)
     nameless = [c for c in controls if not c.accessibleName() or not c.toolTip()]

@@ -75,7 +75,7 @@ def test_a_run_goes_on_while_another_parameter_is_changed(
 @pytest.mark.own_window
 def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(application: Application) -> None:
     player, asked = application.controls.player, list[str]()
-    player.film_asked.disconnect(application.desktop.animation.ask)
+    player.film_asked.disconnect(application._animate)
     player.film_asked.connect(asked.append)
     entries = {action.text(): action for action in player.menu_of(NAME).actions()}
     entries["&Fast"].trigger()

@@ -189,11 +189,11 @@ def test_the_sentence_can_be_read_in_both_themes(application: Application, user:
     notice = user.row("distance").notice
     user.enter("distance", "0 m")
     for theme in ("dark", "light"):
-        application.desktop.theme.choose(theme)
+        application.options.theme.choose(theme)
         QApplication.processEvents()
         ink = notice.palette().color(notice.foregroundRole())
         assert contrast(ink, palette_of(theme).color(QPalette.ColorRole.Window)) >= 4.5
-    application.desktop.theme.choose("system")
+    application.options.theme.choose("system")
 
 
 @pytest.mark.parametrize("name", ["exposure_time", "distance"])

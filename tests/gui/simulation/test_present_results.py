@@ -53,7 +53,7 @@ def test_a_saved_picture_is_of_the_scene_just_chosen(
 def test_an_exported_figure_is_of_the_scene_just_chosen(
     application: Application, user: User, tmp_path: Path, where: str
 ) -> None:
-    export, path = application.desktop.export, tmp_path / "profile.png"
+    export, path = application.shell.pane("export"), tmp_path / "profile.png"
     application.store.change(distance=1.3)
     if where == "file":
         export.export("profile", path)
@@ -77,7 +77,7 @@ def test_of_a_scene_without_a_picture_nothing_is_written(
     application.present.ask(given.append)
     refused = "This scene has no picture: nothing has been written or copied."
     assert user.message == refused
-    application.desktop.export.copy("picture")
+    application.shell.pane("export").copy("picture")
     assert user.message == refused
     assert not path.exists()
     application.store.change(yaw=0.0, panel_width=0.6)

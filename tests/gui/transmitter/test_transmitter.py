@@ -81,8 +81,8 @@ def choose_board(dialog: TransmitterDialog, name: str) -> None:
 def test_the_menu_opens_it_on_the_scene_at_hand(application: Application, user: User) -> None:
     user.choose("&Transmitter…")
     user.wait_until_idle()
-    assert application.desktop.transmitter is not None
-    opened = application.desktop.transmitter.dialog
+    assert application.shell.made_pane("transmitter") is not None
+    opened = application.shell.made_pane("transmitter").dialog
     assert opened is not None
     assert opened.isVisible()
     assert opened.facts.text().startswith("Switching frequency: 10 kHz, as asked")

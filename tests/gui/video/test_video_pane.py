@@ -127,13 +127,13 @@ def test_the_session_keeps_the_film(
     application: Application, user: User, film_file: Path, tmp_path: Path
 ) -> None:
     file = SessionFile(tmp_path / "state", ())
-    application.desktop.autosave.resume(file, Session(), scene_wins=True)
+    application.kept.autosave.resume(file, Session(), scene_wins=True)
     application.video.open(film_file)
     user.wait_until_idle()
-    application.desktop.autosave.write()
+    application.kept.autosave.write()
     record = json.loads((tmp_path / "state" / "session-1.json").read_text())
     assert record["film"]["path"] == str(film_file)
-    application.desktop.autosave.end()
+    application.kept.autosave.end()
     assert SessionFile(tmp_path / "state", ()).last.film.path == film_file
 
 

@@ -18,7 +18,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 @pytest.fixture
 def doors(application: Application, user: User, qtbot: QtBot) -> WelcomeDialog:
     user.choose("&Welcome…")
-    dialog = application.welcome.dialog
+    dialog = application.shell.pane("welcome").dialog
     assert dialog is not None
     qtbot.waitUntil(dialog.isVisible)
     return dialog
@@ -32,7 +32,7 @@ def test_the_first_door_begins_the_first_lesson(
     assert application.window.modes.mode == "lessons"
     place = application.shell.pane("lessons").view.step.place.text()
     assert place == "What is a rolling shutter? · step 1 of 3"
-    assert application.welcome.dialog is None
+    assert application.shell.pane("welcome").dialog is None
 
 
 def test_the_second_door_asks_for_a_photo(
@@ -60,13 +60,13 @@ def test_the_page_comes_by_itself_only_once(
     preferences = application.preferences
     monkeypatch.setattr(preferences, "recall", lambda key: stored.get(key, ""))
     monkeypatch.setattr(preferences, "keep", stored.__setitem__)
-    application.welcome.show_once()
-    dialog = application.welcome.dialog
+    application.shell.pane("welcome").show_once()
+    dialog = application.shell.pane("welcome").dialog
     assert dialog is not None
     dialog.close()
-    assert application.welcome.dialog is None
-    application.welcome.show_once()
-    assert application.welcome.dialog is None
+    assert application.shell.pane("welcome").dialog is None
+    application.shell.pane("welcome").show_once()
+    assert application.shell.pane("welcome").dialog is None
 
 
 @pytest.mark.parametrize(("asked", "scene", "is_new"), [(False, None, True), (True, None, False)])

@@ -53,7 +53,7 @@ def test_only_the_colour_of_a_pen_changes() -> None:
 
 
 def test_curves_and_their_samples_follow_the_theme(application: Application) -> None:
-    themes, curve = application.desktop.theme, application.view("profile").simulation
+    themes, curve = application.options.theme, application.view("profile").simulation
     for theme in ("dark", "light"):
         themes.choose(theme)
         QApplication.processEvents()

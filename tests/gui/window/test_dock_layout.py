@@ -166,7 +166,7 @@ def test_no_control_is_cut_off_squeezed_or_overlapped(
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "photo beside")
     for mode in MODES:
-        application.show_mode(mode)
+        application.options.choose_overlay(mode)
         assert_faultless(qtbot, application.window, mode)
     show_everything_about_the_photo(application)
     assert_faultless(qtbot, application.window, "photo matched")

@@ -267,7 +267,7 @@ def looks(application: Application, dialogs: Dialogs) -> list[Any]:
         window.modes.mode,
         image.simulation.box.viewRange(),
         application.photos.choice.reading,
-        application.desktop.theme.theme,
+        application.options.theme.theme,
         not application.shell.pane("photo").matching.work.task.is_idle,
         window.windowTitle(),
         window.saveState().toBase64().data(),
@@ -316,7 +316,7 @@ def test_each_entry_of_the_menus_does_something(
         else:
             idle.discard(name)
     assert not idle, "\n".join(idle)
-    application.desktop.theme.choose("system")
+    application.options.theme.choose("system")
 
 
 def test_each_entry_is_connected(application: Application) -> None:

@@ -137,7 +137,7 @@ def test_each_icon_of_the_sheet_is_a_file() -> None:
 
 
 def test_another_theme_has_a_sheet_of_its_colours(application: Application) -> None:
-    themes, window = application.desktop.theme, application.window
+    themes, window = application.options.theme, application.window
     for theme in ("dark", "light"):
         themes.choose(theme)
         assert window.styleSheet() == style_sheet(palette_of(theme))

@@ -218,11 +218,11 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path) -> Start:
     def begin() -> Iterator[Application]:
         kept = QSettings(str(tmp_path / "kept.ini"), QSettings.Format.IniFormat)
         application = Application(small_scene, preferences=kept)
-        application.desktop.layout.restore()
+        application.options.layout.restore()
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)
         yield application
-        application.desktop.layout.keep()
+        application.options.layout.keep()
         application.window.close()
         application.stop()
         application.window.deleteLater()

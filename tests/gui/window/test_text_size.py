@@ -14,7 +14,7 @@ from occ_gui.window.text_size import SIZES
 @pytest.fixture(autouse=True)
 def normal_again(application: Application) -> Iterator[None]:
     yield
-    application.desktop.text_size.normal()
+    application.options.text_size.normal()
 
 
 def sizes(application: Application) -> list[float]:
@@ -57,7 +57,7 @@ def test_larger_text_is_not_cut_in_bars_and_buttons(
 ) -> None:
     window = application.window
     window.resize(1280, 800)
-    application.desktop.text_size.choose(percent)
+    application.options.text_size.choose(percent)
     user.wait_until_idle()
     story, bar = application.story, application.story.verdict
     legend, buttons = story.rows.legend, [story.whole, *story.ranges.values()]

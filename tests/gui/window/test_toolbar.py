@@ -115,14 +115,14 @@ def test_another_theme_draws_the_icons_anew(application: Application, qtbot: QtB
     button = application.window.toolbar.buttons["theme"]
     qtbot.waitUntil(lambda: not button.icon().isNull())
     for theme, is_light in (("dark", True), ("light", False)):
-        application.desktop.theme.choose(theme)
+        application.options.theme.choose(theme)
 
         def check(is_light: bool = is_light) -> None:
             colour = button.icon().pixmap(20).toImage().pixelColor(14, 10)
             assert (colour.lightness() > 128) == is_light
 
         qtbot.waitUntil(check)
-    application.desktop.theme.choose("system")
+    application.options.theme.choose("system")
 
 
 def test_every_icon_comes_with_the_package() -> None:

@@ -14,7 +14,8 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import ParameterError, PhotoError
-from occ_model.photo.reading.load import CHANNELS, column_means, load_photo
+from occ_model.photo.reading.choices import CHANNELS
+from occ_model.photo.reading.load import column_means, load_photo
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
 PICTURE = Image.fromarray(STRIPES)

@@ -12,9 +12,8 @@ import raw_files
 
 import occ_model as occ
 from hard_cases.attack.promise import Door, check_sentence
-from occ_model.photo.reading.channels import CHANNELS
+from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
-from occ_model.photo.reading.scan_axis import SCAN_AXES
 from occ_model.scene.scene import Scene
 
 _FEW_PIXELS = 100_000

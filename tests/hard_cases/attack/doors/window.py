@@ -75,7 +75,7 @@ def _window(folder: Path) -> Iterator[_Opened]:
         application = Application(begin.scene, begin.settings, begin.preferences)
         opened = _Opened(application)
         application.window.statusBar().messageChanged.connect(opened.said.append)
-        application.desktop.error_reports.reported.connect(opened.faults.append)
+        application.error_reports.reported.connect(opened.faults.append)
         try:
             begin.restore(application, with_photo=True)
             application.window.show()

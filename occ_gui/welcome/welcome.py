@@ -1,33 +1,27 @@
 """Shows the welcome page, and leads through the door that the user chooses."""
 
-from typing import TYPE_CHECKING
-
-from PySide6.QtCore import QObject
-
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
+from occ_gui.shell.feature import Service
 from occ_gui.shell.shell import Shell
+from occ_gui.welcome.welcome_dialog import WelcomeDialog
 from occ_gui.window.main_window import MainWindow
-
-if TYPE_CHECKING:
-    from occ_gui.welcome.welcome_dialog import WelcomeDialog
 
 _SEEN = "welcome/seen"
 _MODES = {"learn": "lessons", "photo": "photo", "explore": "explore"}
 
 
-class Welcome(QObject):
+class Welcome(Service):
     """The welcome page of a window."""
 
     def __init__(
         self, window: MainWindow, shell: Shell, preferences: Preferences, files: FileController
     ) -> None:
-        super().__init__(window)
+        super().__init__()
         self._window, self._shell = window, shell
         self._preferences, self._files = preferences, files
         self.dialog: WelcomeDialog | None = None
         """The page, while it is shown."""
-        window.actions_by_name["welcome"].triggered.connect(self.show)
 
     def show_once(self) -> None:
         """Show the page if it has never been shown to this user."""
@@ -37,9 +31,6 @@ class Welcome(QObject):
 
     def show(self) -> None:
         """Show the page in front of the window."""
-        # Made when it is wanted, not with the program.
-        from occ_gui.welcome.welcome_dialog import WelcomeDialog
-
         if self.dialog is None:
             self.dialog = WelcomeDialog(self._window)
             self.dialog.chosen.connect(self.enter)

@@ -1,0 +1,105 @@
+"""The scene in the window: its controls, presets and refusals, and the results that are shown."""
+
+from typing import Any
+
+from PySide6.QtCore import QObject
+
+from occ_gui.accuracy.plan_changes import PlanNews
+from occ_gui.app.parts import Parts
+from occ_gui.picture.before_controller import BeforeController
+from occ_gui.scene.forced_effects import forced_text
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.results.plan import Decision
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+
+
+class SceneInWindow(QObject):
+    """Connects store, controls and simulation with the window."""
+
+    def __init__(self, parts: Parts) -> None:
+        super().__init__(parts.window)
+        self._parts = parts
+        self.before = BeforeController(parts.store.store, [parts.board])
+        self._news = PlanNews(self)
+        self._connect_scene()
+        self._connect_simulation()
+        parts.shell.made.connect(self._on_made)
+        self._list_presets()
+        self._list_recent()
+        self._show_scene(parts.store.scene)
+        self._show_settings(parts.store.settings.settings)
+
+    def _connect_scene(self) -> None:
+        parts, messages = self._parts, self._parts.messages
+        controls, editor, store = parts.controls, parts.editor, parts.store
+        controls.connect_editor(editor)
+        controls.preset_chosen.connect(parts.presets.load)
+        controls.forced.released.connect(store.release_effects)
+        editor.edit_started.connect(messages.end_refusal)
+        editor.input_refused.connect(messages.show_refusal)
+        store.changed.connect(self._show_scene)
+        store.refused.connect(self._refuse)
+        store.refused_for.connect(messages.show_refusal_for)
+        store.settings.changed.connect(self._show_settings)
+        store.settings.refused.connect(messages.show_refusal)
+        parts.presets.changed.connect(self._list_presets)
+        parts.lessons.begun.connect(parts.presets.keep_base)
+        parts.preferences.changed.connect(self._list_recent)
+
+    def _connect_simulation(self) -> None:
+        parts, simulation = self._parts, self._parts.simulation
+        self._news.changed.connect(parts.board.show_switched)
+        self._news.changed.connect(self._tell_switched)
+        # What the pictures are compared with comes before them.
+        simulation.show_in((self.before, parts.pins, self._news, parts.board), (parts.board,))
+        simulation.picture_ready.connect(parts.board.show_picture)
+        simulation.snapshot_shown.connect(self._on_snapshot)
+        simulation.failed_for.connect(parts.messages.show_failure)
+        simulation.failed.connect(parts.pins.give_up)
+        simulation.defer_while(self._is_map_awaited)
+
+    def _on_made(self, name: str, pane: Any) -> None:
+        if name == "accuracy":
+            self._parts.messages.follow(pane.view)
+
+    def _is_map_awaited(self) -> bool:
+        pane = self._parts.shell.made_pane("map")
+        return pane is not None and pane.map.is_first_answer_awaited
+
+    def _tell_switched(self, switched: tuple[Decision, ...]) -> None:
+        # Not at the start: it imports all of the accuracy study's results.
+        from occ_gui.accuracy.cost_sentences import switch_sentence
+
+        self._parts.window.show_plan_change(switch_sentence(switched) if switched else "")
+
+    def _on_snapshot(self, snapshot: Snapshot) -> None:
+        self._parts.messages.end_failure()
+        self._parts.window.show_timing(snapshot.simulation_seconds, snapshot.reading_seconds)
+
+    def _show_scene(self, scene: Scene) -> None:
+        parts = self._parts
+        parts.messages.end_refusal()
+        parts.controls.show_scene(scene)
+        parts.controls.show_preset(*parts.presets.follow(scene))
+
+    def _show_settings(self, settings: SimulationSettings) -> None:
+        parts = self._parts
+        parts.messages.end_refusal()
+        labels = parts.store.settings.effect_labels
+        parts.controls.forced.show_list(forced_text(settings.force, labels))
+
+    def _refuse(self, sentence: str) -> None:
+        # The control still shows the refused value.
+        self._parts.controls.show_scene(self._parts.store.scene)
+        self._parts.messages.show_refusal(sentence)
+
+    def _list_presets(self) -> None:
+        presets, controls = self._parts.presets, self._parts.controls
+        controls.list_presets(presets.titles, presets.unreadable, presets.own)
+        controls.show_preset(*presets.follow(self._parts.store.scene))
+
+    def _list_recent(self) -> None:
+        preferences, files = self._parts.preferences, self._parts.files
+        menus = self._parts.window.menus
+        menus.show_recent(preferences.files, files.open_recent, preferences.clear)

@@ -1,14 +1,7 @@
 """The pane of the room, declared."""
 
-from typing import TYPE_CHECKING
-
+from occ_gui.room.figures import room_figure
 from occ_gui.shell.feature import Feature, Pane
-from occ_gui.shell.figures import Draw, Figure, NothingToDraw
-from occ_gui.simulation.snapshot import Snapshot
-
-if TYPE_CHECKING:
-    from occ_gui.room.pane import RoomPane
-    from occ_model.figures.drawing import Drawing
 
 
 def room() -> Feature[None]:
@@ -18,7 +11,7 @@ def room() -> Feature[None]:
         title="Room",
         help="room.md",
         make=_make,
-        figures=(Figure(name="room", title="Room", draw=_figure),),
+        figures=(room_figure(),),
     )
 
 
@@ -26,17 +19,3 @@ def _make() -> Pane[None]:
     from occ_gui.room.pane import RoomPane
 
     return RoomPane()
-
-
-def _figure(pane: "RoomPane | None", _shown: Snapshot) -> Draw:
-    there = None if pane is None else pane.shown
-    if there is None or there.reading is None:
-        raise NothingToDraw("The room's picture is not read yet: open its pane and wait a moment.")
-    frame, reading = there.frame, there.reading
-
-    def draw() -> "Drawing":
-        from occ_model.figures.room import room_drawing
-
-        return room_drawing(frame, reading)
-
-    return draw

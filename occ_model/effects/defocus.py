@@ -11,9 +11,6 @@ from occ_model.camera.optics import Optics
 from occ_model.effects.effect import Cost, OpticsEffect
 from occ_model.scene.scene import Scene
 
-_REACH = 4.0
-"""Standard deviations from the rim beyond which the blur is negligible."""
-
 _WIDEST = 1e12
 """Largest point spread in pixels: any larger one leaves nothing of any panel either."""
 

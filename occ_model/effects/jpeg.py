@@ -31,8 +31,8 @@ class Jpeg(FileEffect):
     """Each block of 8 x 8 pixels is written as cosine coefficients, rounded to steps.
 
     The cosine transform is orthonormal, so that the pixels' mean square error is that of the
-    coefficients (Parseval): at most half a step of each. The contrast enhancement is applied to
-    the picture read back from the file.
+    coefficients (Parseval). The contrast enhancement is applied to the picture read back from the
+    file.
     """
 
     name = "jpeg"

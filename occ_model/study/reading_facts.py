@@ -76,7 +76,7 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
         "Packet error rate",
         *error_rate(counts.packets_lost, counts.packets, "packets"),
         f"Share of the packets sent that were lost: {reading.cut_off} were cut off by the edge of "
-        "a frame or fell in the gap, and the frames can all be read all the same.",
+        "a frame or fell in the gap, which happens even where every frame is read.",
     )
     if counts.bits:
         yield Fact(
@@ -136,5 +136,12 @@ def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
     low, high = wilson_interval(count, total)
     return (
         f"{_PERCENT * share:.{decimals}f} % of {total} {what}",
-        f"{_PERCENT * low:.2g} to {_PERCENT * high:.2g} % at 95 %",
+        f"{_percent(low)} to {_percent(high)} % at 95 %",
     )
+
+
+def _percent(share: float) -> str:
+    """Write a share in percent, to two digits of its distance from the nearer of 0 and 100 %."""
+    nearest = _PERCENT * min(share, 1.0 - share)
+    decimals = max(0, 1 - math.floor(math.log10(nearest))) if nearest > 0.0 else 0
+    return f"{_PERCENT * share:.{decimals}f}"

@@ -6,7 +6,7 @@ import pytest
 from occ_gui.video.reading_words import sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
-from occ_model.study.reading_facts import film_facts
+from occ_model.study.reading_facts import error_rate, film_facts
 
 _BITS = np.zeros(10, dtype=np.uint8)
 
@@ -52,6 +52,22 @@ def test_rates_name_what_they_count_and_have_no_digit_that_chance_has_made(
     figures = said(whole)
     assert figures["Packet error rate"] == packets
     assert figures.get("Bit error rate") == bits
+
+
+@pytest.mark.parametrize(
+    ("count", "total", "interval"),
+    [
+        (0, 10, "0 to 28 %"),
+        (10, 10, "72 to 100 %"),
+        (9, 10, "60 to 98.2 %"),
+        (999, 1000, "99.44 to 99.982 %"),
+        (1, 1_000_000, "0.000018 to 0.00057 %"),
+    ],
+)
+def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
+    count: int, total: int, interval: str
+) -> None:
+    assert error_rate(count, total, "packets")[1] == f"{interval} at 95 %"
 
 
 def test_lost_packets_are_told_from_wrong_bits() -> None:

@@ -129,7 +129,7 @@ class Unit:
             start = self.smallest_plain if prefix == "" else _PREFIXES[prefix]
             if prefix == self.prefixes[0] or size >= start * (1 - 1e-12):
                 chosen = prefix
-        if size == 0.0:
+        if size == 0.0 or math.isnan(size):
             chosen = ""
         return chosen + self.symbol, _PREFIXES[chosen]
 

@@ -194,6 +194,7 @@ def test_any_text_is_a_number_or_not_understood(text: str, unit: Unit) -> None:
         (METRE, 0.6, "0.6 m"),
         (METRE, 0.026, "26 mm"),
         (METRE, 2000.0, "2 km"),
+        (METRE, math.nan, "nan m"),  # no prefix suits what has no size
         (RADIAN, math.radians(30), "30°"),
         (RADIAN, 0.0, "0°"),
         (RADIAN, 1.5e308, "1.5e+308 rad"),  # in degrees it would be infinite

@@ -12,7 +12,7 @@ from time import perf_counter
 
 import numpy as np
 
-from occ_model.errors import OccError, ParameterError
+from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat, Job
 from occ_model.results.sweep_csv import one_line
 from occ_model.results.sweep_request import MOST_JOBS
@@ -72,8 +72,7 @@ class RoomMapRequest:
         check_seed(self.seed)
         check_count("images", self.images, 1, 10_000)
         check_count("places", self.points, 1, MOST_PLACES)
-        if not self.tolerance >= 0.0:
-            raise ParameterError(f"tolerance is {self.tolerance:g}; allowed: 0 or more.")
+        TOLERANCE.check(self.tolerance)
 
     @property
     def points(self) -> int:
@@ -123,11 +122,15 @@ class _MeasuredPlaces:
 
 
 def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return evenly spaced places in x and y below a room's lamps, so many on each side."""
+    """Return evenly spaced places in x and y below a room's lamps, so many on each side.
+
+    A single one is in the middle.
+    """
     check_count("places on a side", count, 1, MOST_PLACES)
     sides = []
     for places in ([lamp.x for lamp in room.lamps], [lamp.y for lamp in room.lamps]):
-        ends = np.linspace(min(places), max(places), count)
+        low, high = min(places), max(places)
+        ends = np.linspace(low, high, count) if count > 1 else np.array([(low + high) / 2.0])
         sides.append(tuple(float(round(end, 6)) for end in dict.fromkeys(ends.tolist())))
     return sides[0], sides[1]
 

@@ -97,3 +97,12 @@ def test_the_command_measures_a_room_file_with_other_settings(
 def test_the_floor_is_that_below_the_lamps() -> None:
     assert floor_under(_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
     assert floor_under(_room(1), 3) == ((0.0,), (0.0,))
+
+
+def test_a_single_place_is_in_the_middle_of_the_floor() -> None:
+    assert floor_under(_room(), 1) == ((0.6,), (0.6,))
+
+
+def test_a_tolerance_is_refused_in_the_words_of_every_other_one() -> None:
+    with pytest.raises(occ.ParameterError, match=r"tolerance is nan levels; allowed: from 0"):
+        RoomMapRequest(_room(1), (0.0,), (0.0,), tolerance=math.nan)

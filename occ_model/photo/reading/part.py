@@ -1,7 +1,7 @@
 """A rectangle of a photo: check that it lies within the photo, and cut it out."""
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import astuple, replace
 from typing import TypeAlias
 
 from occ_model.camera.photometry import WHITE
@@ -25,7 +25,7 @@ def region_within(photo: Photo, corners: Corners) -> Region:
             return region
     raise ParameterError.of(
         "region",
-        shown(corners),
+        shown(astuple(corners) if isinstance(corners, Region) else corners),
         "first row, row after the last, first column, column after the last, of at least one row "
         f"and column, up to {rows} and {columns}",
     )

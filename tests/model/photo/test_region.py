@@ -7,6 +7,7 @@ import pytest
 from simulated_photos import photo_of, random_scene, take
 
 import occ_model as occ
+from occ_model.results.decoding import Region
 
 SCENE = random_scene(3)
 KNOWN = SCENE.replace(readout_time=1e-6)
@@ -56,3 +57,8 @@ def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
     late = occ.match_photo(photo, KNOWN, region=part).start_time - whole.start_time
     period = 24.0 / SCENE.transmitter.switching_frequency
     assert abs((late + period / 2) % period - period / 2) < 0.01 * period
+
+
+def test_a_region_that_is_none_is_quoted_by_its_four_numbers() -> None:
+    with pytest.raises(occ.ParameterError, match=r"^region is \(5, 1, 0, 10\); allowed: first row"):
+        occ.find_stripes(take(SCENE), Region(5, 1, 0, 10))

@@ -73,15 +73,20 @@ def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     FRAME_RATE.check(options.fps)
     decoders = tuple(dict.fromkeys(options.decoder or DECODERS))
-    for line in _heading(scene, options):
-        print(line)
+    heading = _heading(scene, options)
     with progress_bar(total=100, unit="%", bar_format=_BAR, leave=False, delay=0.5) as bar:
 
+        def show_heading() -> None:
+            while heading:  # not before the search has begun: a refused one shows none
+                bar.write(heading.pop(0))
+
         def show(share: float, what: str) -> None:
+            show_heading()
             bar.set_description_str(what, refresh=False)
             bar.update(round(100.0 * share) - bar.n)
 
         def show_row(found: Limits) -> None:
+            show_heading()
             bar.write(row(found, options.fps))
             sys.stdout.flush()
 

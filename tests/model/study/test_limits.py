@@ -471,6 +471,13 @@ def test_the_command_answers_with_one_table_of_all_decoders(
     assert lines[-1].endswith("; from 1.17 ms what is lit throughout is white.")
 
 
+def test_a_search_that_is_refused_prints_no_table(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["limits", "--rate", "101"]) == 2
+    printed = capsys.readouterr()
+    assert printed.out == ""
+    assert "rate is 101.0 %" in printed.err
+
+
 def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[str]) -> None:
     dark = ["--set", "luminance=0", "--set", "illuminance=0"]
     assert main(["limits", "--decoder", "matched", "--images", "1", *dark]) == 1

@@ -17,7 +17,7 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.commands.sweep import add_work_options, run_with_bar
-from occ_model.errors import one_line
+from occ_model.errors import ParameterError, one_line
 from occ_model.files.writing import check_replaceable, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
@@ -26,6 +26,7 @@ from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import with_settings
+from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.room_map import (
     RoomMapRequest,
@@ -94,6 +95,13 @@ def _room_of(options: argparse.Namespace) -> Room:
     room = load_room(options.room)
     changed = with_settings(room.scene, options.settings)
     names = [text.split("=", 1)[0].strip() for text in options.settings]
+    for name in names:
+        if name in GROUPS["pose"] and name not in _AXES:
+            raise ParameterError(
+                f"A room has no {name}: each lamp has its place, and the camera "
+                f"{', '.join(f'--{axis}' for axis in _AXES)}.",
+                parameters=(name,),
+            )
     room = room.with_sent(**{name: changed.value(name) for name in names})
     given = {name: getattr(options, name) for name in _AXES if getattr(options, name) is not None}
     return room.replace(

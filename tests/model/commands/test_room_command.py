@@ -42,3 +42,10 @@ def test_a_picture_without_a_named_lamp_fails_with_the_reason(
 def test_an_unknown_room_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["room", "locate", "--room", "cellar"]) != 0
     assert "There is no room 'cellar'" in capsys.readouterr().err
+
+
+def test_a_setting_that_a_room_does_not_have_is_refused_not_ignored(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["room", "locate", "--set", "distance=2m"]) == 2
+    assert "A room has no distance: " in capsys.readouterr().err

@@ -25,6 +25,9 @@ _FEWEST_PACKETS = 50
 
 def read_film(options: argparse.Namespace, scene: Scene) -> int:
     """Read the film that a command line names, and print what it says."""
+    percent = options.readout_tolerance
+    if not 0.0 < percent <= 50.0:
+        raise ParameterError.of("--readout-tolerance", f"{percent:g} %", "above 0 % up to 50 %")
     video = load_video(options.file, options.scan_axis, channel=_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
@@ -38,7 +41,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             video,
             scene,
             options.decoder,
-            readout_tolerance=options.readout_tolerance / 100.0,
+            readout_tolerance=percent / 100.0,
             progress=told,
         )
     for line in _report(reading, video):

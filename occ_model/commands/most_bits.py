@@ -77,8 +77,13 @@ def _sentence(found: MostBits) -> str:
         return f"{found.decoder}: {found.failure}"
     sent = found.scene.transmitter
     frequency = HERTZ.format(sent.switching_frequency, 3)
+    rest = (
+        f"none of {found.tried} combinations that carry as much or more"
+        if found.tried
+        else "no combination carries more"
+    )
     return (
         f"{found.decoder}: {found.bits_a_second:,.0f} bits a second, {sent.payload_length} bits a "
         f"picture in {sent.line_code} at {frequency}; every bit of {found.pictures} pictures was "
-        f"read, and none of {found.tried} combinations that carry as much or more."
+        f"read, and {rest}."
     )

@@ -6,7 +6,7 @@ about x (pitch), then y (yaw), then z (roll), as those of a scene's pose do.
 """
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Self
 
@@ -17,7 +17,7 @@ from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
-from occ_model.scene.scene import GROUPS, Scene, Transmitter
+from occ_model.scene.scene import GROUPS, Scene, Transmitter, check_scene
 from occ_model.scene.units import METRE, SECOND
 
 MOST_LAMPS = 200
@@ -153,7 +153,7 @@ class Room:
     Raises
     ------
     ParameterError
-        There is no lamp or more than 200, or two have the same name.
+        There is no lamp or more than 200, two have the same name, or a value is not of its kind.
     """
 
     lamps: tuple[RoomLamp, ...]
@@ -161,7 +161,13 @@ class Room:
     camera: Place = field(default_factory=Place)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "lamps", tuple(self.lamps))
+        check_scene(self.scene)
+        if not isinstance(self.camera, Place):
+            raise ParameterError.of("camera", shown(self.camera), "a Place")
+        lamps = tuple(self.lamps) if isinstance(self.lamps, Iterable) else (self.lamps,)
+        if not all(isinstance(lamp, RoomLamp) for lamp in lamps):
+            raise ParameterError.of("lamps", shown(self.lamps), "a sequence of RoomLamps")
+        object.__setattr__(self, "lamps", lamps)
         if not 1 <= len(self.lamps) <= MOST_LAMPS:
             raise ParameterError(f"A room has {len(self.lamps)} lamps; allowed: 1 to {MOST_LAMPS}.")
         names = [lamp.name for lamp in self.lamps]
@@ -175,6 +181,7 @@ class Room:
     @classmethod
     def of_scene(cls, scene: Scene, name: str = "lamp") -> Self:
         """Return the room whose only lamp is a scene's panel, seen from the origin."""
+        check_scene(scene)
         pose = scene.pose
         lamp = RoomLamp(
             name=name, x=pose.offset_x, y=pose.offset_y, z=pose.distance,

@@ -173,6 +173,21 @@ ROWS: list[Row] = [
         ({"seed": -1}, "seed", "-1", WHOLE),
     ),
     *calls(
+        lambda duty=0.5, periods=1.0: occ.pulse_depth(duty, periods),
+        *(({"duty": duty}, "duty", str(duty), "above 0, up to 1") for duty in (0.0, 1.5, math.nan)),
+        *(
+            ({"periods": periods}, "periods", str(periods), "above 0")
+            for periods in (0.0, -1.0, math.inf, math.nan)
+        ),
+    ),
+    *calls(
+        occ.load_room("office").replace,
+        ({"lamps": 3}, "lamps", "3", "a sequence of RoomLamps"),
+        ({"lamps": (3,)}, "lamps", "(3,)", "a sequence of RoomLamps"),
+        ({"camera": None}, "camera", "None", "a Place"),
+        ({"scene": None}, "scene", "None", "a Scene"),
+    ),
+    *calls(
         swept,
         ({"axes": {}}, "axes", "{}", "one parameter or more"),
         ({"axes": [1.0]}, "axes", "[1.0]", "one parameter or more"),

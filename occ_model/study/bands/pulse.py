@@ -3,6 +3,7 @@
 import math
 from fractions import Fraction
 
+from occ_model.errors import ParameterError, shown
 from occ_model.results.bands import Depth
 
 
@@ -19,8 +20,17 @@ def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
     duty
         Share D of a period in which the lamp is lit, above 0 and at most 1.
     periods
-        Length a of the exposure in periods, exact as a fraction.
+        Length a of the exposure in periods, above 0, exact as a fraction.
+
+    Raises
+    ------
+    ParameterError
+        One of both is out of range.
     """
+    if not 0.0 < duty <= 1.0:
+        raise ParameterError.of("duty", shown(duty), "above 0, up to 1")
+    if not 0.0 < periods < math.inf:
+        raise ParameterError.of("periods", shown(periods), "above 0")
     exact, lit = Fraction(periods), Fraction(duty)
     rest = exact % 1
     short = sorted([min(rest, 1 - rest), min(lit, 1 - lit)])

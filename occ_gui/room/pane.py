@@ -15,7 +15,7 @@ from occ_model.room.room import Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.room.view import aimed_at
 
-_LEAST = QSize(360, 240)
+_LEAST = QSize(360, 180)
 _FIRST = "office"
 
 

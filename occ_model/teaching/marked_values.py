@@ -4,6 +4,8 @@ from occ_model.errors import OccError
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.theory import band_model_frequency, null_frequency
+from occ_model.transmitter.framings.registry import FRAMINGS
+from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.packet import sent_chips
 
 
@@ -45,13 +47,16 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
 
 
 def _period(scene: Scene) -> float:
-    """Return the chips after which what is sent repeats; 0 where no packet can be made."""
+    """Return the chips after which what is sent repeats; 0 where no packet can be made at once."""
     if scene.transmitter.pattern:  # which can hold shorter ones; a packet's header comes once
         # Imported only for it: no packet needs it.
         from occ_model.study.bands.least_depth import DepthOver
 
         return float(DepthOver.of(scene).period)
+    built_in = {**LINE_CODES.files, **FRAMINGS.files}
+    if not {scene.transmitter.line_code, scene.transmitter.framing} <= built_in.keys():
+        return 0.0  # marks are asked for while a slider moves: a plug-in may take any time
     try:
         return float(len(sent_chips(scene.transmitter)))
-    except OccError:  # such as of a plug-in, which the picture's failure names
+    except OccError:  # which the picture's failure names
         return 0.0

@@ -48,9 +48,10 @@ def start(*arguments):
     qt, application = begin(*arguments)
     looks = QTimer(application)
     def look():
-        if not application.view("decode").decoders.count() > 4:
-            return
+        # Decoders are looked for after the first picture, which a code that hangs never makes.
         if {decoder!r}:
+            if not application.view("decode").decoders.count() > 4:
+                return
             application.view("decode").choose_decoder({decoder!r})
         if Path({folder!r}, "begun").exists():
             looks.stop()

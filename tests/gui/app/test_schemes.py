@@ -147,12 +147,13 @@ def plugins_of_decoders(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iter
 @pytest.mark.usefixtures("plugins_of_decoders")
 @pytest.mark.own_window
 def test_decoders_of_plugins_have_tabs_and_say_why_they_fail(
-    application: Application, user: User
+    application: Application, user: User, qtbot: QtBot
 ) -> None:
     view = application.view("decode")
     tabs = [view.decoders.tabText(place) for place in range(view.decoders.count())]
     assert tabs[-2:] == ["nothing", "gone"]
-    assert application.story.decoder.findData("nothing") >= 0
+    # Plug-ins are looked for once the first picture is there.
+    qtbot.waitUntil(lambda: application.story.decoder.findData("nothing") >= 0)
     for place, said in ((-2, "Nothing is looked for."), (-1, "The plug-in 'gone' of the package")):
         view.decoders.setCurrentIndex(len(tabs) + place)
         user.wait_until_idle()

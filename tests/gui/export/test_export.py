@@ -129,14 +129,14 @@ def test_all_figures_go_into_a_folder_in_all_formats_with_scene_settings_version
     application.shell.pane("export").export_all(folder)
     user.wait_until_idle()
     assert {path.name for path in folder.iterdir()} == {
-        f"{name}{ending}" for name in FIGURES for ending in ENDINGS
+        f"{name}{ending}" for name in (*FIGURES, "bands", "flicker") for ending in ENDINGS
     }
     assert {scene_inside(path) for path in folder.iterdir()} == {application.store.scene}
     for table in folder.glob("*.csv"):
         text = table.read_text(encoding="utf-8")
         for noted in (f"occ_model {occ.__version__}", "seed 1", "tolerance 0.5", "date 20"):
             assert noted in text
-    assert "Exported 16 files" in user.message
+    assert "Exported 24 files" in user.message
     assert "Left out: Accuracy and time" in user.message
 
 

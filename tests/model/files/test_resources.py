@@ -62,7 +62,7 @@ def test_lessons_are_loaded_out_of_an_archive(archive: Path) -> None:
         "for each in lessons().lessons: print(each.name, len(each.steps))\n"
     )
     here = [f"{each.name} {len(each.steps)}" for each in lessons().lessons]
-    assert len(here) == 11
+    assert len(here) == 12
     assert run(archive, program) == here
 
 

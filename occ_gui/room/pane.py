@@ -34,11 +34,13 @@ class RoomPane(Pane[None]):
         self._look.failed.connect(self.view.show_failure)
         self._map: Task[Room, FloorMap] = Task(_map, "room map", impatient=True)
         self._map.reported.connect(self.view.show_progress)
-        self._map.finished.connect(self._show_map)
-        self._map.failed.connect(self.view.show_failure)
+        self._map.finished.connect(self.view.show_map)
+        self._map.failed.connect(self.view.show_no_map)
+        self._mapped: Room | None = None
+        """The room whose map is shown or measured."""
         self.view.room_chosen.connect(lambda name: self.take(load_room(name)))
         self.view.file_asked.connect(self._ask_for_file)
-        self.view.map_asked.connect(lambda: self._map.ask(self.room))
+        self.view.map_asked.connect(self._measure)
         self.view.plan.camera_moved.connect(lambda x, y: self.move(self.room.replace(x=x, y=y)))
         self.view.plan.aim_moved.connect(self._aim)
         self.view.rooms.setCurrentText(_FIRST)
@@ -66,7 +68,15 @@ class RoomPane(Pane[None]):
     def _show_room(self, room: Room, *, is_new: bool) -> None:
         self.room, self.shown = room, None
         self.view.show_plan(room, plan_of(room), is_new=is_new)
+        if self._mapped is not None and not _have_one_map(room, self._mapped):
+            self._map.cancel()
+            self._mapped = None
+            self.view.show_map(None)
         self._look.ask(room)
+
+    def _measure(self) -> None:
+        self._mapped = self.room
+        self._map.ask(self.room)
 
     def _ask_for_file(self) -> None:
         chosen, _ = QFileDialog.getOpenFileName(
@@ -81,12 +91,6 @@ class RoomPane(Pane[None]):
         if is_present and shown.reading is not None:
             self.shown = shown
 
-    def _show_map(self, found: FloorMap) -> None:
-        # Another place of the camera is no matter of a map, but its turn and height are.
-        now, then = self.room, found.request.room
-        if now.replace(x=then.camera.x, y=then.camera.y) == then:
-            self.view.show_map(found)
-
     @property
     def is_idle(self) -> bool:
         """Whether the picture of the present place is read and no map is measured."""
@@ -96,6 +100,11 @@ class RoomPane(Pane[None]):
         """Take no more pictures."""
         self._look.stop()
         self._map.stop()
+
+
+def _have_one_map(now: Room, then: Room) -> bool:
+    """Compare rooms: another place of the camera is no matter of a map, its turn and height are."""
+    return now.replace(x=then.camera.x, y=then.camera.y) == then
 
 
 def _map(room: Room, report: Reporter) -> FloorMap:

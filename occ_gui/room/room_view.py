@@ -84,8 +84,6 @@ class RoomView(QWidget):
         self.plan.show_located(None, room.camera)
         self.headline.setText("Looking…")
         self.sentences.setText("")
-        if is_new:
-            self.show_map(None)
 
     def show_picture(self, shown: ShownRoom, *, is_present: bool) -> None:
         """Show a picture, and what is read of it if that is of the present place."""
@@ -104,6 +102,11 @@ class RoomView(QWidget):
     def show_progress(self, share: float) -> None:
         """Show how much of the map is measured."""
         self.floor.setText(f"Measuring the floor: {100.0 * share:.0f} %")
+
+    def show_no_map(self, sentence: str) -> None:
+        """Show why there is no map."""
+        self.plan.show_map(None)
+        self.floor.setText(sentence)
 
     def show_map(self, found: FloorMap | None) -> None:
         """Show a map over the floor, or none."""

@@ -127,3 +127,22 @@ def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane) -> None
     assert "L3" in rows
     with house_style():
         assert len(drawing.draw().axes) == 2
+
+
+def test_a_map_goes_with_the_turn_that_it_is_of(
+    pane: RoomPane, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(jobs, "SIDE", 2)
+    view, aim = pane.view, pane.view.plan.aim
+    for is_measured in (False, True):
+        view.measure.click()
+        qtbot.waitUntil(lambda: "Measuring" in view.floor.text())
+        if is_measured:
+            qtbot.waitUntil(lambda: "Map of the floor" in view.floor.text())
+            view.plan.camera.setPos(0.5, 0.5)
+            assert len(view.plan.floor.points()) == 4
+        aim.setPos(aim.pos().x() + 0.1, aim.pos().y())
+        assert view.floor.text() == ""
+        assert len(view.plan.floor.points()) == 0
+        qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+        assert view.floor.text() == ""

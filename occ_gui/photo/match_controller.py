@@ -78,12 +78,15 @@ class MatchController(QObject):
         self._scenes, self._store, self._board = scenes, scenes.store, board
         self.work = match_work(scenes.store, board)
         self.work.failed.connect(self.failed)
-        self.work.found.connect(self._settle)
+        self.work.found.connect(self._tell_refusal)
         self._settled: MatchAsked | None = None
-        """The match that is shown."""
+        """The match that is shown, which may have come back with its photo."""
+        board.select(lambda results: results.match).changed.connect(self._settle)
 
-    def _settle(self, found: FoundMatch) -> None:
+    def _settle(self) -> None:
         self._settled = self._store.workspace.photo.match_asked
+
+    def _tell_refusal(self, found: FoundMatch) -> None:
         if found.refusal:
             self.failed.emit(" ".join(found.refusal))
 

@@ -229,6 +229,22 @@ def test_a_match_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
     assert len(bench.asked) == 1
 
 
+def test_a_match_that_came_back_with_its_photo_stays_where_another_is_cancelled(
+    bench: Bench, photo: Photo
+) -> None:
+    bench.start()
+    users, opened, found = bench.store.workspace, bench.board.results.opened, bench.part.found
+    bench.show_photo(replace(photo))
+    bench.start()
+    bench.store.put(users)
+    bench.board.put(replace(bench.board.results, opened=opened))
+    bench.go_on.clear()
+    bench.controller.start(MatchChoice())
+    bench.controller.cancel()
+    bench.go_on.set()
+    assert bench.part.found == found
+
+
 def test_without_a_photo_nothing_is_matched(bench: Bench) -> None:
     bench.show_photo(None)
     bench.start()

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.app.parts import Parts
 from occ_gui.files.file_controller import sample_photos
-from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.photo_choice import MatchAsked, PhotoChoice
 from occ_gui.window.menus import words_of
 
 if TYPE_CHECKING:
@@ -24,6 +24,8 @@ class PhotoInWindow(QObject):
         super().__init__(parts.window)
         self._parts = parts
         self._match_next, self._front_next = False, True
+        self._applied: MatchAsked | None = None
+        """The match whose result is applied as soon as it is found."""
         self._path: Path | None = None
         window, photos, reading = parts.window, parts.photos, parts.photos.work
         reading.begun.connect(self._begin)
@@ -95,15 +97,17 @@ class PhotoInWindow(QObject):
         if photo is None:
             self._path = None
         if self._match_next:
+            self._match_next = False
             self.pane.match()
+            self._applied = self._parts.photos.choice.match_asked
 
     def _on_match(self, match: "Match | None") -> None:
         self._parts.window.menus.show_match_found(match is not None)
         if match is None:
             return
         self._parts.messages.end_match_failure()
-        if self._match_next:
-            self._match_next = False
+        applied, self._applied = self._applied, None
+        if applied is not None and applied is self._parts.photos.choice.match_asked:
             self.pane.matching.apply()
 
     def _on_failure(self, sentence: str) -> None:

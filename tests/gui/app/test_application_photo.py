@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.values.placement import Placement
+from occ_model.errors import MatchError
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
@@ -195,6 +196,29 @@ def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
     user.wait_until_idle()
     readout = application.store.scene.camera.readout_time
     assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
+
+
+def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
+    application: Application, user: User, taken: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*_asked: object, **_how: object) -> None:
+        raise MatchError("No scene explains these stripes.")
+
+    monkeypatch.setattr(occ, "match_photo", refuse)
+    application.open_photo(taken, match=True)
+    user.wait_until_idle()
+    user.wait_until_idle()
+    assert "No scene explains" in user.message
+    monkeypatch.undo()
+    scene = application.store.scene
+    application.photos.open(taken)
+    user.wait_until_idle()
+    assert application.shell.pane("photo").matching.match is None
+    application.view("photo").form.sent.show_key("square")
+    application.view("photo").form.square.set_value(SENT["switching_frequency"] / 2)
+    user.choose("&Match photo")
+    assert application.shell.pane("photo").matching.match is not None
+    assert application.store.scene == scene
 
 
 @pytest.mark.whole

@@ -72,7 +72,10 @@ class VideoPane(QObject):
 
     def close(self) -> None:
         """Close the film."""
-        if self._made is not None:
+        if self._made is None:
+            workspace = self._store.workspace
+            self._store.put(replace(workspace, film=workspace.film.opened(None)))
+        else:
             self._made.close()
 
     def _on_film(self, path: Path | None) -> None:

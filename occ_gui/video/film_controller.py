@@ -48,7 +48,8 @@ class FilmController(QObject):
     def __init__(self, scenes: SceneStore, board: Board) -> None:
         super().__init__()
         self._scenes, self._store = scenes, scenes.store
-        self._settled = self.choice
+        self._settled = replace(self.choice, path=None)
+        """What belongs to the film that is shown: one that was chosen before is not yet."""
         self.film: Video | None = None
         """The film that is open; None where there is only the simulated one."""
         self.is_live = False

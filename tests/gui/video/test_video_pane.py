@@ -110,6 +110,18 @@ def test_the_menu_opens_and_closes_a_film(
     assert application.video.wiring.view.pictures.shown == (False, True)
 
 
+@pytest.mark.own_window
+def test_a_film_that_was_never_seen_can_be_closed(
+    application: Application, user: User, film_file: Path
+) -> None:
+    """As one of the last session, whose pane is not in front."""
+    store = application.store.store
+    store.put(replace(store.workspace, film=FilmChoice().opened(film_file)))
+    user.choose("C&lose film")
+    assert application.video.path is None
+    assert not application.window.actions_by_name["close_film"].isEnabled()
+
+
 def test_what_is_no_film_is_a_sentence_and_the_film_stays(
     pane: VideoWiring, application: Application, user: User, film_file: Path, tmp_path: Path
 ) -> None:
@@ -148,6 +160,19 @@ def test_a_kept_film_is_opened_when_the_mode_is_first_shown(
     application.window.modes.switch("video")
     user.wait_until_idle()
     assert application.video.wiring.path == film_file
+
+
+@pytest.mark.own_window
+def test_a_kept_film_that_cannot_be_opened_is_kept_no_longer(
+    application: Application, user: User, tmp_path: Path
+) -> None:
+    damaged = tmp_path / "damaged.mp4"
+    damaged.write_bytes(b"no film")
+    application.files.open_film(damaged)
+    user.wait_until_idle()
+    assert "damaged.mp4 is no film that can be read" in user.message
+    assert application.video.path is None
+    assert not application.window.actions_by_name["close_film"].isEnabled()
 
 
 def test_the_window_closes_while_a_film_plays_and_is_read(

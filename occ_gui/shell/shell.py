@@ -41,7 +41,7 @@ class Shell(QObject):
         self._places: dict[str, _Place] = {}
         self._unseen: dict[str, Feature[Any]] = {}
         self._services: dict[str, Service] = {}
-        self._servicespaces = store.select(lambda workspace: workspace)
+        self._workspaces = store.select(lambda workspace: workspace)
 
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
         """Give a feature its dock and its menu entries, before the window is shown."""
@@ -66,7 +66,7 @@ class Shell(QObject):
 
     def _place(self, feature: Feature[Any]) -> "_Place":
         place = self._places[feature.name] = _Place(feature, self)
-        self._servicespaces.changed.connect(place.look)
+        self._workspaces.changed.connect(place.look)
         self._board.changed.connect(place.look)
         return place
 

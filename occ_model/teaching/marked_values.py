@@ -21,7 +21,7 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     """
     check_scene(scene)
     exposure, transmitter = scene.camera.exposure_time, scene.transmitter
-    if exposure <= 0.0:
+    if exposure <= 0.0 or parameter not in ("switching_frequency", "exposure_time"):
         return ()
     is_raw = bool(transmitter.pattern)
     period = _period(scene)
@@ -30,10 +30,8 @@ def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
             band_model_frequency(scene), null_frequency(scene), period / exposure
         ),
         "exposure_time": tuple(k * transmitter.switching_period for k in (1.0, 2.0, period)),
-    }.get(parameter)  # fmt: skip
-    if ends is None:
-        return ()
-    equal, null, barless = ends
+    }  # fmt: skip
+    equal, null, barless = ends[parameter]
     ends_there = "Exposure and switching period are equal: the band model ends."
     what = "pattern" if is_raw else "packet"
     why = f"The exposure is a whole {what}: no bars, here and at its whole multiples."

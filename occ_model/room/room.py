@@ -17,7 +17,7 @@ from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import load_preset
-from occ_model.scene.scene import GROUPS, Scene, Transmitter, check_scene
+from occ_model.scene.scene import GROUPS, Pose, Scene, Transmitter, check_scene
 from occ_model.scene.units import METRE, SECOND
 
 MOST_LAMPS = 200
@@ -162,6 +162,8 @@ class Room:
 
     def __post_init__(self) -> None:
         check_scene(self.scene)
+        # A pose that is not used is no difference between two rooms.
+        object.__setattr__(self, "scene", dataclasses.replace(self.scene, pose=Pose()))
         if not isinstance(self.camera, Place):
             raise ParameterError.of("camera", shown(self.camera), "a Place")
         lamps = tuple(self.lamps) if isinstance(self.lamps, Iterable) else (self.lamps,)

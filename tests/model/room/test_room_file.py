@@ -14,6 +14,8 @@ def test_a_room_is_read_as_it_was_written(name: str) -> None:
     room = load_room(name)
     assert Room.from_toml(room.to_toml()) == room
     assert len({lamp.transmitter.code for lamp in room.lamps}) == len(room.lamps)
+    turned = Room(lamps=room.lamps, scene=room.scene.replace(yaw=0.3, distance=2.0))
+    assert Room.from_toml(turned.to_toml()) == turned
 
 
 @pytest.mark.parametrize(

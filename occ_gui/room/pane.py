@@ -36,6 +36,7 @@ class RoomPane(Pane[None]):
         self._map.reported.connect(self.view.show_progress)
         self._map.finished.connect(self.view.show_map)
         self._map.failed.connect(self.view.show_no_map)
+        self.tasks = (self._look, self._map)
         self._mapped: Room | None = None
         """The room whose map is shown or measured."""
         self.view.room_chosen.connect(lambda name: self.take(load_room(name)))
@@ -60,6 +61,8 @@ class RoomPane(Pane[None]):
             self.take(load_room(path))
         except OccError as error:
             self.view.show_failure(str(error))
+        else:
+            self.view.show_file(path.name)
 
     def _aim(self, x: float, y: float) -> None:
         height = plan_of(self.room).height
@@ -90,16 +93,6 @@ class RoomPane(Pane[None]):
         self.view.show_picture(shown, is_present=is_present)
         if is_present and shown.reading is not None:
             self.shown = shown
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether the picture of the present place is read and no map is measured."""
-        return self._look.is_idle and self._map.is_idle
-
-    def stop(self) -> None:
-        """Take no more pictures."""
-        self._look.stop()
-        self._map.stop()
 
 
 def _have_one_map(now: Room, then: Room) -> bool:

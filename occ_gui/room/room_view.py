@@ -18,6 +18,7 @@ from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.picture_plot import PicturePlot
 from occ_gui.room.plan_plot import PlanPlot
 from occ_gui.widgets.text_scale import TextSize, scaled
+from occ_model.errors import one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Place, Room
 
@@ -77,6 +78,11 @@ class RoomView(QWidget):
         layout.addLayout(row, 1)
         for label in (legend, self.floor):
             layout.addWidget(label)
+
+    def show_file(self, name: str) -> None:
+        """Name the file of the room in place of a room of the program."""
+        self.rooms.setPlaceholderText(one_line(name))
+        self.rooms.setCurrentIndex(-1)
 
     def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
         """Show where lamps and camera are; what the last picture told is out of date."""

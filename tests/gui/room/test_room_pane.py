@@ -94,14 +94,19 @@ def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
     assert math.isclose(turned.roll, place.roll)
 
 
-def test_a_file_that_is_no_room_is_told_and_the_room_stays(
+def test_a_file_is_named_in_place_of_the_room_and_one_that_is_no_room_is_told(
     pane: RoomPane, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.undo()
     room = pane.room
     pane.open(tmp_path / "none.toml")
     assert "none.toml" in pane.view.headline.text()
-    assert pane.room is room
+    assert (pane.room is room, pane.view.rooms.currentText()) == (True, "office")
+    path = tmp_path / "mine.toml"
+    path.write_text(room.to_toml(), encoding="utf-8")
+    pane.open(path)
+    assert pane.room == room
+    assert (pane.view.rooms.currentText(), pane.view.rooms.placeholderText()) == ("", "mine.toml")
 
 
 def test_the_map_is_that_of_the_study(

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 from occ_gui.bands.depth_plot import DepthPlot
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.bands.risk_plot import RiskPlot
+from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth
 from occ_model.scene.units import HERTZ, SECOND
@@ -63,6 +64,7 @@ class BandsView(QWidget):
         layout.addWidget(self.headline)
         layout.addWidget(self.sentences)
         layout.addLayout(self._row, 1)
+        self.outdated = OutdatedMark(self)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         """Place map and table one below the other where they are too narrow side by side."""

@@ -2,6 +2,7 @@
 
 from PySide6.QtCore import QSize
 
+from occ_gui.background.result_age import ResultAges
 from occ_gui.background.task import Reporter, Task
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.jobs import ShownBands, shown_bands
@@ -21,18 +22,30 @@ class BandsPane(Pane[Scene]):
         self.view = BandsView()
         super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
+        self._ages, self._shown = ResultAges(scenes.scene), scenes.scene
         self._task: Task[Scene, ShownBands] = Task(_work, "bars")
         self.tasks = (self._task,)
         self._task.finished.connect(self._show)
-        self._task.failed.connect(self.view.show_failure)
+        self._task.failed.connect(self._fail)
         self.view.exposure_chosen.connect(self._take)
 
     def show_part(self, part: Scene) -> None:
         """Count the bars of this scene."""
+        self._ages.begin(part)
+        self._mark("computing…")
         self._task.ask(part)
 
     def _show(self, found: ShownBands) -> None:
+        self._shown = found.scene
         self.view.show_bands(found)
+        self._mark("computing…")
+
+    def _fail(self, sentence: str) -> None:
+        self.view.show_failure(sentence)
+        self._mark("of an earlier scene")
+
+    def _mark(self, text: str) -> None:
+        self.view.outdated.show_age(self._ages.age(self._shown), text)
 
     def _take(self, exposure: float) -> None:
         scene = as_bright(self._scenes.scene, exposure)

@@ -1,17 +1,19 @@
 """The pane of the bars shows what the model counts, and sets speeds without bars."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from gui.user import User
+from gui.pane_bench import PaneBench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.app.application import Application
 from occ_gui.bands.bands_view import BandsView
+from occ_gui.bands.feature import bands
 from occ_gui.bands.jobs import shown_bands
+from occ_gui.widgets.outdated_mark import DELAY
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.cure import as_bright, cure_of
 
@@ -64,22 +66,32 @@ def test_the_map_is_dark_along_the_valleys() -> None:
     assert depths.least[:, 0].max() > 0.5
 
 
+@pytest.fixture
+def bench(qtbot: QtBot) -> Iterator[PaneBench]:
+    bench = PaneBench(qtbot, _LAMP.replace(exposure_time=136e-6))
+    yield bench
+    bench.shell.stop()
+
+
 def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(
-    application: Application, user: User, qtbot: QtBot
+    bench: PaneBench, qtbot: QtBot
 ) -> None:
-    application.store.put(_LAMP.replace(exposure_time=136e-6), "lamp")
-    application.window.bring_to_front("bands")
-    qtbot.waitUntil(lambda: application.shell.made_pane("bands") is not None)
-    pane = application.shell.pane("bands")
-    qtbot.waitUntil(lambda: pane.is_idle and pane.view.table.rowCount() > 0)
-    assert pane.view.headline.text().startswith("Bars of")
-    row = list(_rows(pane.view)).index("1/60 s")
-    pane.view.table.itemActivated.emit(pane.view.table.item(row, 0))
-    assert application.store.scene.camera.exposure_time == pytest.approx(1 / 60)
-    qtbot.waitUntil(lambda: pane.view.headline.text().startswith("No bars"))
-    user.wait_until_idle()
-    application.store.undo_stack.undo()
-    assert application.store.scene.camera.exposure_time == pytest.approx(136e-6)
+    view, scenes = bench.add(bands(bench.scenes)).view, bench.scenes
+    bench.wait_until_idle()
+    assert view.headline.text().startswith("Bars of")
+    row = list(_rows(view)).index("1/60 s")
+    view.table.itemActivated.emit(view.table.item(row, 0))
+    assert scenes.scene.camera.exposure_time == pytest.approx(1 / 60)
+    assert view.outdated.isHidden()
+    qtbot.waitUntil(view.outdated.isVisible)
+    qtbot.waitUntil(lambda: view.headline.text().startswith("No bars"))
+    assert view.outdated.isHidden()
+    scenes.undo_stack.undo()
+    assert scenes.scene.camera.exposure_time == pytest.approx(136e-6)
+    bench.wait_until_idle()
+    scenes.settings.set_tolerance(3.0)  # which the bars do not depend on
+    qtbot.wait(round(1e3 * DELAY))
+    assert view.outdated.isHidden()
 
 
 def test_the_table_shows_all_of_its_columns_in_a_narrow_pane(view: BandsView) -> None:
@@ -110,15 +122,11 @@ def test_the_chart_shows_each_sine_beside_the_lines(view: BandsView) -> None:
     assert "not checked" in view.risk.source.text()
 
 
-def test_both_figures_are_exported_of_the_scene(
-    application: Application, qtbot: QtBot, tmp_path: Path
-) -> None:
-    application.store.put(_LAMP, "lamp")
-    export = application.shell.pane("export")
+def test_both_figures_are_exported_of_the_scene(bench: PaneBench, tmp_path: Path) -> None:
+    bench.shell.add(bands(bench.scenes), bench.window)
+    bench.simulate(exposure_time=1 / 500)
     for name in ("bands", "flicker"):
-        path = tmp_path / f"{name}.csv"
-        export.export(name, path)
-        qtbot.waitUntil(path.exists)
+        bench.export(name, tmp_path / f"{name}.csv")
     rows = [
         line.split(",") for line in (tmp_path / "flicker.csv").read_text().splitlines()
         if line[0] != "#"

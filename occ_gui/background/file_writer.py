@@ -37,11 +37,6 @@ class FileWriter(QObject, Generic[Request]):
         self.runner.failed.connect(self._fail)
         bar.cancelled.connect(self.cancel)
 
-    @property
-    def is_idle(self) -> bool:
-        """Whether nothing is being written."""
-        return self.runner.is_idle
-
     def start(self, request: Request) -> None:
         """Begin to write."""
         self._bar.begin()
@@ -53,10 +48,6 @@ class FileWriter(QObject, Generic[Request]):
             self.runner.cancel()
             self._bar.end()
             self.status_message.emit(self._given_up)
-
-    def stop(self) -> None:
-        """Give up and stop the thread."""
-        self.runner.stop()
 
     def _finish(self, path: Path) -> None:
         self._bar.end()

@@ -47,17 +47,9 @@ class AnimationExport(Service):
         self.writer: FileWriter[_Film] = FileWriter(
             _write, "animation", bar, "The animation was given up."
         )
+        self.tasks = (self.writer.runner,)
         self.writer.written.connect(preferences.visit_export)
         self.writer.status_message.connect(self.status_message)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether nothing is being written."""
-        return self.writer.is_idle
-
-    def stop(self) -> None:
-        """Give up what is being written."""
-        self.writer.stop()
 
     def ask(self, name: str) -> None:
         """Let the user choose a file, and write the run of a parameter's slider into it."""

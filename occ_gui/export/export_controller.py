@@ -54,6 +54,7 @@ class ExportController(Service):
         self._left_out = ""
         # A function that looks export up at each call: tests replace it.
         self.runner: Task[ExportJob, Exported] = Task(lambda request, _: export(request), "export")
+        self.tasks = (self.runner,)
         self.runner.finished.connect(self._report)
         self.runner.failed.connect(self.status_message)
         self.runner.idle.connect(self._go_on)
@@ -61,7 +62,7 @@ class ExportController(Service):
     @property
     def is_idle(self) -> bool:
         """Whether all requested figures have been written."""
-        return self.runner.is_idle and not self._waiting
+        return super().is_idle and not self._waiting
 
     def ask(self, name: str) -> None:
         """Let the user choose the file that a figure is written to."""
@@ -184,4 +185,4 @@ class ExportController(Service):
     def stop(self) -> None:
         """Drop the waiting jobs and stop after the one being written."""
         self._waiting.clear()
-        self.runner.stop()
+        super().stop()

@@ -44,16 +44,12 @@ class TransmitterController(Service):
         self.saving: Task[SaveJob, Saved] = Task(
             lambda request, _: save_files(request), "transmitter files"
         )
+        self.tasks = (self.drawing, self.saving)
         self.drawing.finished.connect(self._show_wiring)
         self.drawing.failed.connect(self._show_drawing_failure)
         self.saving.finished.connect(self._report)
         self.saving.failed.connect(self._say)
         store.changed.connect(self._follow)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether all that was asked for is drawn and written."""
-        return self.drawing.is_idle and self.saving.is_idle
 
     def show(self) -> None:
         """Open the dialog, or bring it to the front."""
@@ -129,8 +125,3 @@ class TransmitterController(Service):
             self.dialog.show_note(text)
         else:
             self.status_message.emit(text)
-
-    def stop(self) -> None:
-        """Stop all work in the background."""
-        self.drawing.stop()
-        self.saving.stop()

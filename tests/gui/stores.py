@@ -3,9 +3,11 @@
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
+from occ_model.effects.registry import EFFECTS
 from occ_model.scene.scene import Scene
 
 
 def store_of(scene: Scene | None = None) -> SceneStore:
     """Make a store of a scene, with the first settings."""
-    return SceneStore(Store(Workspace(Scene() if scene is None else scene)))
+    workspace = Workspace(Scene() if scene is None else scene)
+    return SceneStore(Store(workspace), {effect.name: effect.label for effect in EFFECTS})

@@ -3,10 +3,13 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 from gui.user import User
+from PySide6.QtGui import QGuiApplication
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_model.scene.provenance import scene_inside
 
 TITLE = "Optical Camera Communication"
 
@@ -73,3 +76,49 @@ def test_a_saved_scene_is_opened_again_with_its_controls(
     application.files.open_scene(tmp_path / "scene.toml")
     user.wait_until_idle()
     assert user.row("distance").field.value() == 2.0
+
+
+def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "scene.toml"
+    application.files.save_scene(path)
+    old = path.read_bytes()
+    user.enter("distance", "2 m")
+    assert application.window.isWindowModified()
+    write = Path.write_bytes
+
+    def full(place: Path, content: bytes) -> int:
+        write(place, content[:9])
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_bytes", full)
+        application.window.actions_by_name["save_scene"].trigger()
+        assert "No space left on device" in user.message
+    assert path.read_bytes() == old
+    assert list(tmp_path.iterdir()) == [path]
+    assert application.window.isWindowModified()
+    application.window.actions_by_name["save_scene"].trigger()
+    assert not application.window.isWindowModified()
+    assert path.read_bytes() != old
+
+
+@pytest.mark.parametrize(
+    "where", ["file", pytest.param("folder", marks=pytest.mark.whole), "clipboard"]
+)
+def test_an_exported_figure_is_of_the_scene_just_chosen(
+    application: Application, user: User, tmp_path: Path, where: str
+) -> None:
+    export, path = application.shell.pane("export"), tmp_path / "profile.png"
+    application.store.change(distance=1.3)
+    if where == "file":
+        export.export("profile", path)
+    elif where == "folder":
+        export.export_all(tmp_path)
+    else:
+        export.copy("profile")
+    user.wait_until_idle()
+    if where == "clipboard":
+        QGuiApplication.clipboard().image().save(str(path))
+    assert scene_inside(path) == application.store.scene

@@ -1,14 +1,14 @@
 """Invalid input is answered in the status line until the sentence no longer applies."""
 
-from collections.abc import Callable
+import logging
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from gui.user import User
-from numpy.typing import NDArray
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication, QLabel
+from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -37,16 +37,13 @@ def test_a_bad_value_gives_a_sentence_and_the_picture_stays(
 
 
 def test_a_scene_without_a_picture_says_why_and_the_last_stays(
-    application: Application,
-    user: User,
-    grey_picture: Callable[[QWidget], NDArray[np.uint8]],
+    application: Application, user: User
 ) -> None:
-    application.story.show_whole_picture(True)
-    before = grey_picture(application.view("picture"))
+    shown = application.view("picture")._frame
     application.store.change(**BEHIND_THE_CAMERA)
     user.wait_until_idle()
     assert "behind the camera" in user.message
-    assert np.array_equal(grey_picture(application.view("picture")), before)
+    assert application.view("picture")._frame is shown
 
 
 def test_the_sentence_goes_once_the_scene_has_a_picture_again(
@@ -137,3 +134,46 @@ def test_no_sentence_stands_in_the_status_line_beside_the_one_in_view(
     application.store.undo_stack.undo()
     user.wait_until_idle()
     assert not window.statusBar().currentMessage()
+
+
+@pytest.mark.own_window
+def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_works_on(
+    application: Application, user: User, caplog: pytest.LogCaptureFixture
+) -> None:
+    def broken() -> None:
+        raise ZeroDivisionError("a mistake")
+
+    with capture_exceptions(), caplog.at_level(logging.ERROR):
+        application.error_reports.install()
+        QTimer.singleShot(0, broken)
+        QApplication.processEvents()
+        QApplication.processEvents()
+        application.error_reports.remove()
+    assert "ZeroDivisionError: a mistake" in user.message
+    assert "Your work is still there." in user.message
+    assert "Traceback" in caplog.text
+    application.window.statusBar().clearMessage()
+    user.enter("iso", "456")
+    assert (application.store.scene.camera.iso, user.message) == (456.0, "")
+
+
+@pytest.mark.own_window
+def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    def tips() -> list[str]:
+        labels = application.window.statusBar().findChildren(QLabel)
+        return [label.toolTip() for label in labels if label.toolTip().startswith("Switched in: ")]
+
+    user.enter("edge_time", "5 us")
+    assert any(tip.startswith("Switched in: LED rise and fall") for tip in tips())
+    news = application.scene._news._forgetting
+    news.setInterval(0)
+    news.start()
+    qtbot.waitUntil(lambda: not tips())
+    view = application.view("accuracy")
+    assert view.table.effects.rows == ()  # nothing is drawn that nobody sees
+    view.tolerance.refused.emit("Tolerance cannot be little.")
+    assert user.message == "Tolerance cannot be little."
+    application.settings.set_tolerance(-1.0)
+    assert user.message.startswith("Tolerance cannot be -1")

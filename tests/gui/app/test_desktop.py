@@ -10,17 +10,22 @@ import pytest
 from gui.stores import store_of
 from gui.user import User
 from numpy.typing import NDArray
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QSettings, Qt
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.app.command_line import PANES
+from occ_gui.files.preferences import Preferences
+from occ_gui.help.help_window import HelpWindow
+from occ_gui.help.pages import docs_folder, heading_id
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plot import Plot
 from occ_gui.window.command_palette import Command, CommandPalette, commands_of, shortcuts_of
+from occ_gui.window.current_pane import PICTURE
 from occ_gui.window.shortcut_sheet import ShortcutSheet
 from occ_model.scene.scene import Scene
 
@@ -278,3 +283,71 @@ def test_the_menu_holds_the_brightness_of_the_window(application: Application, u
     user.enter("exposure_time", "50 us")
     assert product(application.store) == pytest.approx(light)
     assert user.row("iso").field.value() == application.store.scene.camera.iso
+
+
+def test_the_view_menu_hides_the_strips_and_it_is_remembered(
+    qtbot: QtBot, small_scene: Scene, tmp_path: Path
+) -> None:
+    def settings() -> QSettings:
+        return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
+
+    kept = settings()
+    application = Application(small_scene, preferences=kept)
+    application.window.show()
+    strips = application.slider_strips.strips.values()
+    assert all(strip.isVisible() for strip in strips)
+    application.window.actions_by_name["slider_strips"].trigger()
+    QApplication.processEvents()
+    assert not any(strip.isVisible() for strip in strips)
+    assert application.measuring.slider_strips.is_idle
+    application.window.close()
+    application.window.deleteLater()
+    kept.sync()
+    assert not Preferences(settings()).slider_strips
+    assert Preferences(None).slider_strips
+
+
+def test_every_pane_has_a_page_and_its_heading(application: Application, qtbot: QtBot) -> None:
+    manual = HelpWindow(docs_folder())
+    qtbot.addWidget(manual)
+    pages = application.shell.pane("help").pages
+    assert set(pages) == {*PANES, PICTURE}
+    for page in pages.values():
+        name, _, heading = page.partition("#")
+        text = (docs_folder() / name).read_text(encoding="utf-8")
+        titles = [heading_id(line.lstrip("#")) for line in text.splitlines() if line[:1] == "#"]
+        assert not heading or heading in titles, page
+        manual.show_page(page)
+        assert manual.browser.source().fileName() == name
+
+
+def test_each_door_of_the_welcome_page_leads_to_its_mode(
+    application: Application, user: User, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[object] = []
+    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: asked.append(a) or ("", ""))
+    page = application.shell.pane("welcome")
+    for door, mode in (("photo", "photo"), ("explore", "explore"), ("learn", "lessons")):
+        assert application.store.scene == small_scene
+        user.choose("&Welcome…")
+        page.dialog.doors[door].click()
+        user.wait_until_idle()
+        assert application.window.modes.mode == mode
+        assert page.dialog is None
+    assert len(asked) == 1
+    place = application.shell.pane("lessons").view.step.place.text()
+    assert place == "What is a rolling shutter? · step 1 of 3"
+
+
+def test_the_pane_opens_by_itself_once_there_are_two_states(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    user.choose("Pin as &A")
+    assert "pin B, too" in user.message
+    assert window.docks["compare"].isHidden()
+    user.enter("iso", "200")
+    user.choose("Pin as &B")
+    compare = window.docks["compare"]
+    qtbot.waitUntil(lambda: compare.isVisible() and compare.height() > 0.3 * 800)

@@ -1,6 +1,5 @@
 """Unhandled errors and full disks: the window works on, reports them, and keeps the work."""
 
-import logging
 import sys
 import threading
 from collections.abc import Iterator
@@ -8,134 +7,96 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from gui.user import User
-from PySide6.QtCore import QTimer
+from gui.pane_bench import PaneBench
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.decoding.bit_strip import BitStrip
+from occ_gui.decoding.feature import decoding
 from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.picture.feature import picture
 from occ_gui.widgets.guarded_paint import guarded
-
-pytestmark = pytest.mark.own_window
+from occ_model.scene.scene import Scene
 
 STILL_THERE = "Your work is still there."
 
 
 @pytest.fixture
-def reports(application: Application) -> Iterator[ErrorReports]:
-    """Let the window take all exceptions, in place of the tests' own hook."""
-    reports = application.error_reports
+def said() -> list[str]:
+    """List what is reported."""
+    return []
+
+
+@pytest.fixture
+def reports(qapp: QApplication, said: list[str]) -> Iterator[ErrorReports]:
+    """Take all exceptions, in place of the tests' own hook."""
+    reports = ErrorReports()
+    reports.reported.connect(said.append)
     with capture_exceptions():
         reports.install()
         yield reports
         reports.remove()
 
 
-def works(application: Application, user: User) -> bool:
-    user.enter("iso", "456")
-    return application.store.scene.camera.iso == 456.0 and not user.message
-
-
 def test_a_sentence_names_the_mistake_and_not_what_it_passed_through(
-    application: Application, user: User, reports: ErrorReports
+    reports: ErrorReports, said: list[str]
 ) -> None:
     passed = "Error calling Python override of QObject::eventFilter(): " * 2
     reports.report(ZeroDivisionError, ZeroDivisionError(f"{passed}a mistake"), None)
-    assert "Something went wrong: ZeroDivisionError: a mistake." in user.message
+    assert "Something went wrong: ZeroDivisionError: a mistake." in said[-1]
 
 
 def broken(*_arguments: object, **_named: object) -> None:
     raise ZeroDivisionError("a mistake")
 
 
-def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log(
-    application: Application, user: User, reports: ErrorReports, caplog: pytest.LogCaptureFixture
-) -> None:
-    with caplog.at_level(logging.ERROR):
-        QTimer.singleShot(0, broken)
-        QApplication.processEvents()
-        QApplication.processEvents()
-    assert "ZeroDivisionError: a mistake" in user.message
-    assert STILL_THERE in user.message
-    assert "Traceback" in caplog.text
-    application.window.statusBar().clearMessage()
-    assert works(application, user)
-
-
-def test_the_report_of_an_exception_is_one_line(reports: ErrorReports) -> None:
-    messages: list[str] = []
-    reports.reported.connect(messages.append)
+def test_the_report_of_an_exception_is_one_line(reports: ErrorReports, said: list[str]) -> None:
     reports.report(ValueError, ValueError("two\nlines\x1b" + "x" * 5000), None)
-    (message,) = messages
+    (message,) = said
     assert message.isprintable()
     assert len(message) < 400
 
 
-def test_a_repeated_exception_is_reported_once(reports: ErrorReports) -> None:
-    messages: list[str] = []
-    reports.reported.connect(messages.append)
+def test_a_repeated_exception_is_reported_once(reports: ErrorReports, said: list[str]) -> None:
     for _ in range(50):
         try:
             broken()
         except ZeroDivisionError as error:
             sys.excepthook(type(error), error, error.__traceback__)
-    assert len(messages) == 1
+    assert len(said) == 1
 
 
 def test_an_exception_in_a_thread_is_a_sentence(
-    application: Application, user: User, reports: ErrorReports, qtbot: QtBot
+    reports: ErrorReports, said: list[str], qtbot: QtBot
 ) -> None:
     thread = threading.Thread(target=broken)
     thread.start()
     thread.join()
-    qtbot.waitUntil(lambda: STILL_THERE in user.message)
-    application.window.statusBar().clearMessage()
-    assert works(application, user)
+    qtbot.waitUntil(lambda: bool(said))
+    assert STILL_THERE in said[-1]
 
 
-def test_an_exception_in_the_simulation_keeps_the_last_picture(
-    application: Application, user: User, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    shown = application.view("picture").simulation.level_at(10, 10)
+@pytest.mark.parametrize(
+    ("painted", "fails"), [(AveragedImage, "_averaged"), (BitStrip, "_draw_bit")]
+)
+def test_an_exception_while_something_is_painted_is_a_sentence(
+    qtbot: QtBot, small_scene: Scene, reports: ErrorReports, said: list[str],
+    monkeypatch: pytest.MonkeyPatch, painted: type, fails: str,
+) -> None:  # fmt: skip
+    bench = PaneBench(qtbot, small_scene)
+    image = bench.add(picture(bench.store, str)).view
+    bench.add(decoding(bench.store))
     with monkeypatch.context() as patched:
-        patched.setattr("occ_gui.simulation.controller.render_with", broken)
-        application.store.change(iso=333.0)
-        user.wait_until_idle()
-        assert user.message == "The simulation failed: ZeroDivisionError: a mistake."
-    assert application.store.scene.camera.iso == 333.0
-    assert application.view("picture").simulation.level_at(10, 10) == shown
-    assert works(application, user)
-
-
-def test_an_exception_while_a_picture_is_painted_is_a_sentence(
-    application: Application, user: User, reports: ErrorReports, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with monkeypatch.context() as patched:
-        patched.setattr(AveragedImage, "_averaged", broken)
-        application.story.show_whole_picture(True)
-        application.view("picture").simulation.fit()
-        application.store.change(iso=222.0)
-        user.wait_until_idle()
-        application.window.grab()
-        assert STILL_THERE in user.message
-    application.window.statusBar().clearMessage()
-    assert works(application, user)
-    application.window.grab()
-
-
-def test_an_exception_while_a_widget_is_painted_is_a_sentence(
-    application: Application, user: User, reports: ErrorReports, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with monkeypatch.context() as patched:
-        patched.setattr(BitStrip, "_draw_bit", broken)
-        application.window.bring_to_front("decode")
-        application.view("decode").grab()
-        assert STILL_THERE in user.message
-    application.window.grab()
+        patched.setattr(painted, fails, broken)
+        bench.simulate()
+        QApplication.processEvents()
+        image.simulation.fit()
+        bench.window.grab()
+        assert STILL_THERE in said[-1]
+    bench.window.grab()
+    assert len(said) == 1
 
 
 def test_all_our_own_painting_is_guarded() -> None:
@@ -165,46 +126,6 @@ def test_the_previous_hook_is_restored_when_the_window_closes(
     reports.install()
     reports.remove()
     assert (sys.excepthook, threading.excepthook) == before
-
-
-@pytest.mark.parametrize("content", ["format = 99\n", "format = 'new'\n[camera]\nlens = 3\n"])
-def test_a_scene_file_of_a_newer_version_is_refused(
-    application: Application, user: User, tmp_path: Path, content: str
-) -> None:
-    path = tmp_path / "newer.toml"
-    path.write_text(content, encoding="utf-8")
-    before = application.store.scene
-    application.files.open_scene(path)
-    assert "this version reads format 1" in user.message
-    assert application.store.scene == before
-    application.window.statusBar().clearMessage()
-    assert works(application, user)
-
-
-def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
-    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    path = tmp_path / "scene.toml"
-    application.files.save_scene(path)
-    old = path.read_bytes()
-    user.enter("distance", "2 m")
-    assert application.window.isWindowModified()
-    write = Path.write_bytes
-
-    def full(place: Path, content: bytes) -> int:
-        write(place, content[:9])
-        raise OSError(28, "No space left on device")
-
-    with monkeypatch.context() as patched:
-        patched.setattr(Path, "write_bytes", full)
-        application.window.actions_by_name["save_scene"].trigger()
-        assert "No space left on device" in user.message
-    assert path.read_bytes() == old
-    assert list(tmp_path.iterdir()) == [path]
-    assert application.window.isWindowModified()
-    application.window.actions_by_name["save_scene"].trigger()
-    assert not application.window.isWindowModified()
-    assert path.read_bytes() != old
 
 
 def test_a_widget_that_fails_once_is_drawn_the_next_time(

@@ -7,10 +7,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.conftest import InlineWorkers
+from gui.pane_bench import handle_middle
 from gui.user import User
+from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.detection_map import wiring
+from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.map_schedule import map_request
 from occ_gui.detection_map.own_rate_controller import IMAGES as OWN_IMAGES
 from occ_gui.detection_map.own_rate_controller import own_rate, own_rate_stages
@@ -217,3 +222,36 @@ def test_where_the_advice_leads_the_code_is_read(preset: str) -> None:
                 for start in (0.0, 1.1e-3, 2.3e-3)
             ]
             assert read == [scene.transmitter.code] * 3, (parameter, end)
+
+
+@pytest.fixture
+def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: InlineWorkers) -> None:
+    """Have workers of the window, whichever of its parts begins to measure first."""
+    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
+
+
+@pytest.mark.own_window
+def test_strip_and_banner_state_the_rate_of_the_study(
+    workers: None, application: Application, user: User, qtbot: QtBot
+) -> None:
+    """At the handle as anywhere: the picture shown is another fact, which the banner states."""
+    application.store.put(
+        application.store.scene.replace(rows=300, switching_frequency=3.4e3), "an edge"
+    )
+    user.wait_until_idle()
+    scene, strips = application.store.scene, application.slider_strips.strips
+    own = application.measuring.own_rate
+    qtbot.waitUntil(lambda: own.rate is not None)
+    rate = occ.success_rate(scene, 20)
+    assert 5.0 < rate < 99.0
+    assert {round(100.0 * s.present.share, 9) for s in strips.values() if s.present} == {rate}
+    shown = {chip.key: chip.text for chip in application.story.verdict.chips.chips}
+    assert shown["rate"] == f"of 20 pictures: {rate:.3g} %"
+    strip = strips["iso"]
+    assert f"{rate:.3g} % of 20 pictures" in strip.toolTip()
+    strip.show_shares((0.0,) * 9)
+    wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
+    seen = strip.grab().toImage().pixelColor(round(handle_middle(strip._slider) - strip.x() + 9), 3)
+    assert [seen.red(), seen.green(), seen.blue()] == wanted
+    application.store.change(switching_frequency=14e3)
+    assert {s.present for s in strips.values()} == {None}

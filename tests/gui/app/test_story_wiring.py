@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.app.story_wiring import story_menu
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.story.verdict_bar import AVERAGES_LESSON
 from occ_gui.widgets.state_look import State
@@ -188,3 +190,17 @@ def test_the_bar_leads_to_the_lesson_on_long_exposures(application: Application)
     pane = application.shell.pane("lessons")
     assert not application.window.is_put_away("lessons")
     assert pane.controller._current.name == AVERAGES_LESSON
+
+
+def test_the_context_menu_copies_the_values_at_the_crosshair(
+    application: Application, user: User
+) -> None:
+    user.wait_until_idle()
+    entries = {action.text(): action for action in story_menu(application).actions()}
+    assert "Meas&ure" in entries
+    application.window.actions_by_name["measure"].trigger()
+    assert len(application.story.rows.crosshair.cursors.columns) == 2
+    entries["Copy the &values at the crosshair"].trigger()
+    assert QGuiApplication.clipboard().text().startswith("column ")
+    assert user.message.startswith("Copied: column ")
+    assert "Copy fi&gure" in entries

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
 from occ_gui.bench import bench_plot
 from occ_gui.bench.bench_choice import OF_SCENE, PUBLISHED, BenchChoice
@@ -22,6 +22,7 @@ from occ_gui.bench.bench_measurement import request_of
 from occ_gui.bench.bench_plot import BITS, RATES, drawn
 from occ_gui.bench.bench_table import cell_text
 from occ_gui.bench.bench_view import BenchView
+from occ_gui.bench.feature import bench
 from occ_gui.detection_map.slider_strip_controller import RANKS
 from occ_gui.scene.frame_rate import FrameRate
 from occ_model.errors import ParameterError
@@ -181,23 +182,22 @@ def test_points_are_drawn_where_their_values_are(wrong: int, right: int) -> None
 
 
 def test_the_bench_is_exported_with_its_own_setting(
-    application: Application, qtbot: QtBot, tmp_path: Path,
+    qtbot: QtBot, small_scene: Scene, inline_workers: InlineWorkers, tmp_path: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
-    said: list[str] = []
-    application.shell.pane("export").status_message.connect(said.append)
-    path = tmp_path / "bench.csv"
-    application.shell.pane("export").export("bench", path)
-    qtbot.waitUntil(lambda: bool(said))
-    assert "not complete" in said[-1]
-    application.window.bring_to_front("bench")
-    qtbot.waitUntil(lambda: application.shell.made_pane("bench") is not None)
+    panes, queue = PaneBench(qtbot, small_scene), WorkQueue(1, lambda: inline_workers)
+    rate, say, path = FrameRate(panes.store), panes.said.append, tmp_path / "bench.csv"
+    panes.shell.add(bench(panes.scenes, rate, lambda: queue.channels[0], say), panes.window)
+    panes.simulate()
+    assert "not complete" in panes.export("bench", path)
+    panes.see("bench")
     request = BenchRequest(decoders=("threshold",), exposures=(1.0,), decibels=(), bits=64)
     found = request, tuple(measure_bench_point(request, request.points[0]))
     full: Callable[[], object] = lambda: found  # noqa: E731
     monkeypatch.setattr(BenchController, "full", property(lambda _self: full()))
-    application.shell.pane("export").export("bench", path)
-    qtbot.waitUntil(lambda: application.shell.pane("export").is_idle and path.exists())
+    assert panes.export("bench", path).startswith("Exported")
+    queue.stop()
+    panes.shell.stop()
     lines = path.read_text("utf-8").splitlines()
     assert any("5 rows a symbol" in line for line in lines if line.startswith("#"))
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))

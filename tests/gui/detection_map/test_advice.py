@@ -6,14 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from gui.detection_map.map_bench import MapBench
 from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map import advice_controller as module
-from occ_gui.detection_map import advice_worker, map_schedule, wiring
+from occ_gui.detection_map import advice_worker, map_schedule
 from occ_gui.detection_map.advice_sentences import AdviceSentences
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import row, sentences
@@ -24,8 +24,6 @@ from occ_model.results.limits import Limits, RangeEnd, ReadInterval, Trial, Work
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.advice import advice_of
-
-pytestmark = pytest.mark.own_window
 
 GOOD = Trial(14.7e3, 200, 200, 83.9, 100.0, 20, 20)
 INSIDE = Trial(14.55e3, 3810, 3810, 99.0, 100.0, 381, 381)
@@ -76,22 +74,17 @@ def view(qtbot: QtBot) -> AdviceView:
 
 
 @pytest.fixture
-def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: Any) -> None:
-    """Have workers of the window, whichever of its parts begins to measure first."""
-    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
-
-
-@pytest.fixture
 def advised(
-    qtbot: QtBot, workers: None, application: Application, monkeypatch: pytest.MonkeyPatch
-) -> Application:
+    qtbot: QtBot, map_bench: MapBench, inline_workers: Any, monkeypatch: pytest.MonkeyPatch
+) -> MapBench:
     """Ask for advice, and wait for it."""
+    map_bench.workers = inline_workers
     monkeypatch.setattr(advice_worker, "limits", found)
-    application.window.bring_to_front("map")
-    application.shell.pane("map").map.set_seen(False)  # it is not what is looked at here
-    application.shell.pane("map").view.advise.click()
-    qtbot.waitUntil(lambda: application.shell.pane("map").advisor.is_idle)
-    return application
+    map_bench.see("map")
+    map_bench.pane.map.set_seen(False)  # it is not what is looked at here
+    map_bench.view.advise.click()
+    qtbot.waitUntil(lambda: map_bench.pane.advisor.is_idle)
+    return map_bench
 
 
 def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) -> None:
@@ -156,8 +149,8 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     assert row(advice.limits).split()[-1] == bits
 
 
-def test_every_decoder_is_searched_and_each_end_has_a_button(advised: Application) -> None:
-    advice = advised.shell.pane("map").view.advice
+def test_every_decoder_is_searched_and_each_end_has_a_button(advised: MapBench) -> None:
+    advice = advised.view.advice
     titles = [text for text in advice.sentences() if text.startswith("The ")]
     for decoder in DECODERS:
         assert any(title.startswith(f"The {decoder} decoder, 99 %") for title in titles)
@@ -174,29 +167,29 @@ def test_every_decoder_is_searched_and_each_end_has_a_button(advised: Applicatio
     ],
 )
 def test_a_destination_button_changes_the_scene_in_one_step(
-    advised: Application, place: int, name: str, value: float
+    advised: MapBench, place: int, name: str, value: float
 ) -> None:
-    before = advised.store.scene
-    advised.view("decode").choose_decoder("matched")
-    advised.shell.pane("map").view.advice.destinations[place].click()
-    assert advised.store.scene == before.replace(**{name: value})
-    assert advised.view("decode").decoder() == "threshold", "the limit is another decoder's"
+    before = advised.scenes.scene
+    advised.choose_decoder("matched")
+    advised.view.advice.destinations[place].click()
+    assert advised.scenes.scene == before.replace(**{name: value})
+    assert advised.store.workspace.decoder == "threshold", "the limit is another decoder's"
     label = quantity(name).label.lower()
-    assert advised.shell.pane("map").view.advice.state.toolTip() == (
+    assert advised.view.advice.state.toolTip() == (
         f"This advice is on the scene before the change. Its limits of the {label} still hold."
     )
-    advised.store.undo_stack.undo()
-    assert advised.store.scene == before
+    advised.scenes.undo_stack.undo()
+    assert advised.scenes.scene == before
 
 
 def test_a_refusal_of_the_model_is_shown(
-    qtbot: QtBot, advised: Application, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, advised: MapBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.undo()
-    advised.store.change(pattern="1100")
-    advised.shell.pane("map").view.advice.again.click()
-    qtbot.waitUntil(lambda: advised.shell.pane("map").advisor.is_idle)
-    assert "A raw pattern holds no code" in advised.shell.pane("map").view.advice.state.toolTip()
+    advised.scenes.change(pattern="1100")
+    advised.view.advice.again.click()
+    qtbot.waitUntil(lambda: advised.pane.advisor.is_idle)
+    assert "A raw pattern holds no code" in advised.view.advice.state.toolTip()
 
 
 class Never:
@@ -220,35 +213,33 @@ class Never:
 
 @pytest.mark.parametrize("how", ["cancel", "change"])
 def test_a_search_ends_when_it_is_cancelled_or_the_scene_changes(
-    qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch, how: str
+    qtbot: QtBot, map_bench: MapBench, monkeypatch: pytest.MonkeyPatch, how: str
 ) -> None:
-    monkeypatch.setattr(wiring, "new_workers", Never)
+    map_bench.workers = Never()
     monkeypatch.setattr(module, "_LOOK_MS", 5)
-    application.shell.pane("map").view.advise.click()
-    advice = application.shell.pane("map").view.advice
-    assert not application.shell.pane("map").advisor.is_idle
+    map_bench.view.advise.click()
+    advice = map_bench.view.advice
+    assert not map_bench.pane.advisor.is_idle
     if how == "cancel":
         advice.cancel.click()
     else:
-        application.store.change(iso=200.0)
-    assert application.shell.pane("map").advisor.is_idle
+        map_bench.scenes.change(iso=200.0)
+    assert map_bench.pane.advisor.is_idle
     messages = {"cancel": "Cancelled.", "change": "The scene has changed; ask again."}
     assert advice.state.toolTip() == messages[how]
 
 
-def test_closing_the_window_during_a_search_ends_the_look_at_it(
-    application: Application, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(wiring, "new_workers", Never)
-    application.shell.pane("map").view.advise.click()
-    looks = application.shell.pane("map").advisor.findChildren(QTimer)
+def test_stopping_during_a_search_ends_the_look_at_it(map_bench: MapBench) -> None:
+    map_bench.workers = Never()
+    map_bench.view.advise.click()
+    looks = map_bench.pane.advisor.findChildren(QTimer)
     assert any(look.isActive() for look in looks)
-    application.window.close()
+    map_bench.shell.stop()
     assert not any(look.isActive() for look in looks)
 
 
 def test_only_limits_that_the_user_asks_for_come_before_the_map(
-    application: Application, monkeypatch: pytest.MonkeyPatch
+    map_bench: MapBench, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ranks: list[int] = []
     put_really = JobChannel.put
@@ -257,12 +248,11 @@ def test_only_limits_that_the_user_asks_for_come_before_the_map(
         ranks.append(min(stage.rank for stage in stages()))
         put_really(channel, request, stages)
 
-    monkeypatch.setattr(wiring, "new_workers", Never)
-
+    map_bench.workers = Never()
     monkeypatch.setattr(JobChannel, "put", put)
-    application.shell.pane("map").view.cards.asked.emit()
-    application.shell.pane("map").view.advise.click()
-    application.shell.pane("map").advisor.cancel()
+    map_bench.view.cards.asked.emit()
+    map_bench.view.advise.click()
+    map_bench.pane.advisor.cancel()
     in_turn, asked = ranks
     assert asked < map_schedule.COARSE
     assert map_schedule.FINE < in_turn < map_schedule.SURE
@@ -321,40 +311,40 @@ def test_the_page_is_no_higher_than_its_sentences(view: AdviceView, small_scene:
 
 
 def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
-    advised: Application,
+    advised: MapBench,
 ) -> None:
-    advice = advised.shell.pane("map").view.advice
+    advice = advised.view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
         labels = {label.isEnabled() for row in advice._lines for label in row.findChildren(QLabel)}
         return labels, [button.isEnabled() for button in advice.destinations[:3]]
 
     assert state() == ({True}, [True, True, True])
-    advised.store.change(switching_frequency=9e3)  # its limits do not depend on it
+    advised.scenes.change(switching_frequency=9e3)  # its limits do not depend on it
     assert state() == ({True, False}, [True, False, False])
     (row,) = [row for row in advice._lines if advice.destinations[0] in row.children()]
     assert all(label.isEnabled() for label in row.findChildren(QLabel))
-    advised.store.change(iso=200.0)
+    advised.scenes.change(iso=200.0)
     assert state() == ({False}, [False, False, False])
-    advised.store.undo_stack.undo()
-    advised.store.undo_stack.undo()
+    advised.scenes.undo_stack.undo()
+    advised.scenes.undo_stack.undo()
     assert state() == ({True}, [True, True, True])
-    advised.shell.pane("map").view.image_effects.click()
+    advised.view.image_effects.click()
     assert state() == ({False}, [False, False, False])
 
 
 def test_the_buttons_of_the_cards_live_again_when_their_scene_comes_back(
-    advised: Application,
+    advised: MapBench,
 ) -> None:
-    cards = advised.shell.pane("map").view.advice.cards.cards.values()
-    first = advised.store.scene
-    advised.store.change(iso=200.0)
+    cards = advised.view.advice.cards.cards.values()
+    first = advised.scenes.scene
+    advised.scenes.change(iso=200.0)
     for card in cards:
         assert not card.go.isEnabled()
         assert "earlier scene" in card.go.toolTip()
-    advised.store.put(first, "preset")
+    advised.scenes.put(first, "preset")
     for card in cards:
         assert card.go.isEnabled()
         assert "14.55 kHz" in card.go.toolTip()
     card.go.click()
-    assert advised.store.scene == first.replace(switching_frequency=INSIDE.value)
+    assert advised.scenes.scene == first.replace(switching_frequency=INSIDE.value)

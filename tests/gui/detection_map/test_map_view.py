@@ -6,20 +6,16 @@ from typing import Any
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, Qt
+from gui.detection_map.map_bench import MapBench
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import (
     QAbstractButton,
-    QApplication,
     QComboBox,
-    QStyle,
-    QStyleOptionComboBox,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
-from occ_gui.detection_map import wiring
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
 from occ_gui.detection_map.colour_map import DIFFERENCES, RATES, to_colours
 from occ_gui.detection_map.map_legend import _SAMPLE
@@ -300,29 +296,23 @@ def test_every_control_has_a_name_and_says_what_it_does(view: MapView) -> None:
         assert control.toolTip(), control.accessibleName()
 
 
-def test_a_click_in_the_window_is_undone_as_one_step(
-    qtbot: QtBot, application: Application, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    controller = application.shell.pane("map").map
+def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:
+    controller, scenes = map_bench.pane.map, map_bench.scenes
     controller.map = whole((10, 10))
-    before = application.store.scene
-    application.shell.pane("map").view.picked.emit((2, 3))
-    scene = application.store.scene
-    assert scene.value(FREQUENCY) == controller.map.x_values[2]
-    assert scene.value(DISTANCE) == controller.map.y_values[3]
-    application.store.undo_stack.undo()
-    assert application.store.scene == before
+    before = scenes.scene
+    map_bench.view.picked.emit((2, 3))
+    assert scenes.scene.value(FREQUENCY) == controller.map.x_values[2]
+    assert scenes.scene.value(DISTANCE) == controller.map.y_values[3]
+    scenes.undo_stack.undo()
+    assert scenes.scene == before
 
 
 def test_a_pane_that_is_made_late_shows_the_rate_that_was_chosen_meanwhile(
-    application: Application,
+    map_bench: MapBench,
 ) -> None:
-    application.frame_rate.change(24.0)
-    application.frame_rate.show("bits")
-    pane = application.shell.pane("map")
-    assert (pane.view.frame_rate.value(), pane.view.shown.key()) == (24.0, "bits")
-    application.frame_rate.show("rate")
-    application.frame_rate.change(30.0)
+    map_bench.frame_rate.change(24.0)
+    map_bench.frame_rate.show("bits")
+    assert (map_bench.view.frame_rate.value(), map_bench.view.shown.key()) == (24.0, "bits")
 
 
 def is_there(process: int) -> bool:
@@ -333,57 +323,18 @@ def is_there(process: int) -> bool:
     return True
 
 
-def test_closing_the_window_ends_its_processes(
-    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    workers = ProcessPool(2, PRELOAD)
-    monkeypatch.setattr(wiring, "new_workers", lambda: workers)
-    application = Application(small_scene)
-    application.window.show()
-    application.window.bring_to_front("map")
-    qtbot.waitUntil(lambda: bool(application.shell.pane("map").map.map), timeout=20_000)
-    processes = workers.processes
+def test_stopping_ends_the_processes(qtbot: QtBot, map_bench: MapBench) -> None:
+    map_bench.workers = ProcessPool(2, PRELOAD)
+    map_bench.see("map")
+    qtbot.waitUntil(lambda: bool(map_bench.pane.map.map), timeout=20_000)
+    processes = map_bench.workers.processes
     assert processes
-    application.window.close()
-    application.window.deleteLater()
+    map_bench.stop()
     # One that has ended is there until the process that forked it has taken note.
     qtbot.waitUntil(lambda: not any(map(is_there, processes)))
     for number in processes:
         with pytest.raises(ProcessLookupError):
             os.kill(number, 0)
-
-
-@pytest.mark.parametrize("size", [(1000, 700), (1280, 800), (1920, 1080)])
-def test_nothing_of_the_pane_is_cut_off(application: Application, size: tuple[int, int]) -> None:
-    application.window.resize(*size)
-    application.window.bring_to_front("map")
-    view = application.shell.pane("map").view
-    view.show_map(whole((10, 10)))
-    view.show_left_out(("Vignetting", "JPEG"))
-    QApplication.processEvents()
-    controls = [*view.findChildren(QComboBox), *view.findChildren(QAbstractButton)]
-    for control in (*controls, view.status, view.left_out, *view.plots.plots, view.plots.bar):
-        if control.isVisible():
-            least = control.minimumSizeHint()
-            assert control.visibleRegion().boundingRect() == control.rect(), control
-            assert control.width() >= least.width(), control
-            assert control.height() >= least.height(), control
-    for box in view.findChildren(QComboBox):
-        if box.isVisible():
-            option = QStyleOptionComboBox()
-            box.initStyleOption(option)
-            field = box.style().subControlRect(
-                QStyle.ComplexControl.CC_ComboBox,
-                option,
-                QStyle.SubControl.SC_ComboBoxEditField,
-                box,
-            )
-            assert box.fontMetrics().horizontalAdvance(box.currentText()) <= field.width(), box
-    plot = view.plots.plots[0]
-    assert plot.rect().toRectF().contains(plot.area())
-    assert plot.area().contains(plot.place_of((1.0, 1.0)))
-    assert isinstance(plot.place_of((0.0, 0.0)), QPointF)
-    assert (application.window.width(), application.window.height()) == size
 
 
 def test_a_map_of_an_earlier_scene_says_so_at_once_and_is_dimmed_later(view: MapView) -> None:

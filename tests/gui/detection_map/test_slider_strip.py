@@ -2,28 +2,23 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from gui.pane_bench import ControlsBench, handle_middle
 from gui.stores import store_of
-from gui.user import User
-from PySide6.QtCore import QSettings
-from PySide6.QtWidgets import QApplication, QSlider, QStyle, QStyleOptionSlider
+from PySide6.QtWidgets import QApplication, QSlider
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.app.application import Application
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
-from occ_gui.detection_map import wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip
+from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
 from occ_gui.detection_map.strip_legend import StripLegend
-from occ_gui.files.preferences import Preferences
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.parameters import quantity
@@ -140,19 +135,20 @@ def test_a_scene_that_the_model_refuses_is_unknown(bench: Bench) -> None:
     assert set(bench.wait_until_idle()["iso"]) == {None}
 
 
-def handle_middle(slider: QSlider) -> float:
-    option = QStyleOptionSlider()
-    slider.initStyleOption(option)
-    control, part = QStyle.ComplexControl.CC_Slider, QStyle.SubControl.SC_SliderHandle
-    handle = slider.style().subControlRect(control, option, part, slider)
-    return float(slider.x() + handle.x() + handle.width() / 2)
+@pytest.fixture
+def strips(qtbot: QtBot, small_scene: Scene) -> SliderStrips:
+    """Show the strips of the controls."""
+    controls = ControlsBench(qtbot, small_scene).controls
+    strips = SliderStrips(controls.main_rows(), controls)
+    controls.add_foot(strips.legend)
+    QApplication.processEvents()
+    return strips
 
 
-def test_a_strip_begins_and_ends_where_the_handle_does(application: Application) -> None:
-    strips = application.slider_strips.strips
-    assert tuple(strips) == MAIN
-    for name, row in application.controls.main_rows().items():
-        strip = strips[name]
+def test_a_strip_begins_and_ends_where_the_handle_does(strips: SliderStrips) -> None:
+    assert tuple(strips.strips) == MAIN
+    for name, row in strips._rows.items():
+        strip = strips.strips[name]
         for end, position in enumerate((row.slider.minimum(), row.slider.maximum())):
             row.slider.blockSignals(True)
             row.slider.setValue(position)
@@ -165,9 +161,9 @@ def test_a_strip_begins_and_ends_where_the_handle_does(application: Application)
 
 
 def test_good_bad_and_unknown_positions_look_different(
-    application: Application, grey_picture: Callable[..., Any]
+    strips: SliderStrips, grey_picture: Callable[..., Any]
 ) -> None:
-    strip = application.slider_strips.strips["iso"]
+    strip = strips.strips["iso"]
     strip.show_shares((0.0, 0.0, None, 1.0, 1.0))
     first, last = strip.span()
     row = grey_picture(strip)[3].astype(int)
@@ -177,36 +173,14 @@ def test_good_bad_and_unknown_positions_look_different(
     assert "read at 2 of 4" in strip.accessibleDescription()
 
 
-def test_every_strip_says_what_it_is(application: Application) -> None:
-    for strip in application.slider_strips.strips.values():
+def test_every_strip_says_what_it_is(strips: SliderStrips) -> None:
+    for strip in strips.strips.values():
         assert strip.accessibleName().startswith("Reading along ")
         assert "grey not known" in strip.toolTip()
 
 
-def test_the_view_menu_hides_the_strips_and_it_is_remembered(
-    qtbot: QtBot, small_scene: Scene, tmp_path: Path
-) -> None:
-    def settings() -> QSettings:
-        return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
-
-    kept = settings()
-    application = Application(small_scene, preferences=kept)
-    application.window.show()
-    strips = application.slider_strips.strips.values()
-    assert all(strip.isVisible() for strip in strips)
-    application.window.actions_by_name["slider_strips"].trigger()
-    QApplication.processEvents()
-    assert not any(strip.isVisible() for strip in strips)
-    assert application.measuring.slider_strips.is_idle
-    application.window.close()
-    application.window.deleteLater()
-    kept.sync()
-    assert not Preferences(settings()).slider_strips
-    assert Preferences(None).slider_strips
-
-
-def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
-    strip = application.slider_strips.strips["iso"]
+def test_the_colours_of_a_strip_are_the_maps(strips: SliderStrips) -> None:
+    strip = strips.strips["iso"]
     strip.show_shares((0.0, 0.5, 1.0))
     strip.show_present(None)
     picture, (first, last) = strip.grab().toImage(), strip.span()
@@ -215,43 +189,6 @@ def test_the_colours_of_a_strip_are_the_maps(application: Application) -> None:
         place = round(first + share * (last - first))
         seen = picture.pixelColor(place, 3)
         assert [seen.red(), seen.green(), seen.blue()] == colour
-
-
-def colour_at(strip: SliderStrip, place: float) -> list[int]:
-    seen = strip.grab().toImage().pixelColor(round(place), 3)
-    return [seen.red(), seen.green(), seen.blue()]
-
-
-@pytest.fixture
-def workers(monkeypatch: pytest.MonkeyPatch, inline_workers: Any) -> None:
-    """Have workers of the window, whichever of its parts begins to measure first."""
-    monkeypatch.setattr(wiring, "new_workers", lambda: inline_workers)
-
-
-@pytest.mark.own_window
-def test_strip_and_banner_state_the_rate_of_the_study(
-    workers: None, application: Application, user: User, qtbot: QtBot
-) -> None:
-    """At the handle as anywhere: the picture shown is another fact, which the banner states."""
-    application.store.put(
-        application.store.scene.replace(rows=300, switching_frequency=3.4e3), "an edge"
-    )
-    user.wait_until_idle()
-    scene, strips = application.store.scene, application.slider_strips.strips
-    own = application.measuring.own_rate
-    qtbot.waitUntil(lambda: own.rate is not None)
-    rate = occ.success_rate(scene, 20)
-    assert 5.0 < rate < 99.0
-    assert {round(100.0 * s.present.share, 9) for s in strips.values() if s.present} == {rate}
-    shown = {chip.key: chip.text for chip in application.story.verdict.chips.chips}
-    assert shown["rate"] == f"of 20 pictures: {rate:.3g} %"
-    strip = strips["iso"]
-    assert f"{rate:.3g} % of 20 pictures" in strip.toolTip()
-    strip.show_shares((0.0,) * POSITIONS)
-    wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
-    assert colour_at(strip, handle_middle(strip._slider) - strip.x() + 9) == wanted
-    application.store.change(switching_frequency=14e3)
-    assert {s.present for s in strips.values()} == {None}
 
 
 def test_strips_of_an_earlier_scene_are_marked_until_measured(bench: Bench) -> None:
@@ -283,14 +220,14 @@ def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None
 
 
 def test_the_legend_says_what_the_colours_mean_and_gives_way_to_the_sliders(
-    application: Application,
+    strips: SliderStrips,
 ) -> None:
-    legend = application.slider_strips.legend
+    legend = strips.legend
     assert legend.accessibleName() == "Colours of the sliders"
     assert "read correctly" in legend.toolTip()
     assert legend.minimumSizeHint().height() == 0
     assert not legend.isHidden()
-    application.window.actions_by_name["slider_strips"].trigger()
+    strips.set_shown(False)
     assert legend.isHidden()
 
 

@@ -4,16 +4,17 @@ import re
 from collections.abc import Sequence
 
 import pytest
+from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.explanation import equation_text
 from occ_gui.explanation.equation_controller import EquationController
 from occ_gui.explanation.equation_text import EquationText
+from occ_gui.explanation.feature import equations as equations_pane
+from occ_gui.profile.feature import profile
 from occ_model.results.teaching import Equation
 from occ_model.scene.scene import Scene
 from occ_model.teaching.equations import equations
@@ -137,14 +138,13 @@ def test_equations_follow_the_scene_only_while_they_are_seen(small_scene: Scene)
     assert len(pane.shown) == 3
 
 
-def test_what_is_typed_arrives_in_the_equations(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    text = application.shell.pane("equations").pane.equations
-    user.enter("exposure_time", "90 us")
-    assert "90 µs" not in text.toPlainText()  # nobody sees it
-    application.window.bring_to_front("equations")
-    qtbot.waitUntil(lambda: "= 90 µs / 8 µs" in text.toPlainText())
-    user.enter("exposure_time", "136 us")
-    assert "136 µs" in text.toPlainText()
+def test_a_change_arrives_in_the_equations_that_are_seen(qtbot: QtBot, small_scene: Scene) -> None:
+    bench = PaneBench(qtbot, small_scene)
+    plot = bench.add(profile(bench.store, bench.board, str)).view.plot
+    text = bench.add(equations_pane(bench.scenes, lambda: plot), seen=False).pane.equations
+    bench.scenes.change(exposure_time=90e-6)
+    assert "90 µs" not in text.toPlainText()
+    bench.see("equations")
+    assert "= 90 µs / 8 µs" in text.toPlainText()
+    bench.scenes.change(exposure_time=136e-6)
     assert "136 µs" in marked(text)

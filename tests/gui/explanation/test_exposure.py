@@ -4,17 +4,19 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from gui.user import User
+from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
-from occ_gui.explanation.column_picker import ColumnPicker
 from occ_gui.explanation.exposure_controller import ExposureController
 from occ_gui.explanation.exposure_plot import ExposurePlot
+from occ_gui.explanation.feature import equations
+from occ_gui.explanation.pane import ExplanationPane
+from occ_gui.profile.feature import profile
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.plot import Plot
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.scene import Scene
 from occ_model.teaching.exposure_window import exposure_window
@@ -198,16 +200,24 @@ def test_nothing_is_worked_out_unseen(pane: Pane, bare_snapshot_of: SnapshotOf) 
     assert [column for column, _ in pane.windows] == [5]
 
 
-def place_of(application: Application, column: float) -> QPoint:
-    plot = application.view("profile").plot
+class Bench(PaneBench):
+    """The equations beside the profile, in which their column is picked."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene) -> None:
+        super().__init__(qtbot, scene)
+        self.plot = self.add(profile(self.store, self.board, str)).view.plot
+        self.pane: ExplanationPane = self.add(equations(self.scenes, lambda: self.plot))
+        self.simulate()
+
+
+def place_of(plot: Plot, column: float) -> QPoint:
     scene = plot.getViewBox().mapViewToScene(QPointF(column, 20.0))
     return plot.mapFromScene(scene)
 
 
-def move_mouse(application: Application, column: float) -> None:
+def move_mouse(plot: Plot, column: float) -> None:
     """Move the mouse over a column of the profile, no button down."""
-    viewport = application.view("profile").plot.viewport()
-    place = place_of(application, column)
+    viewport, place = plot.viewport(), place_of(plot, column)
     none, no_key = Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier
     event = QMouseEvent(
         QEvent.Type.MouseMove, QPointF(place), QPointF(viewport.mapToGlobal(place)), none, none,
@@ -217,30 +227,25 @@ def move_mouse(application: Application, column: float) -> None:
 
 
 @pytest.fixture
-def seen(application: Application, qtbot: QtBot) -> Application:
-    application.window.bring_to_front("equations")
-    pane = application.shell.pane("equations").pane
-    qtbot.waitUntil(lambda: bool(pane.exposure.sentence.text()))
-    return application
+def seen(qtbot: QtBot, small_scene: Scene) -> Bench:
+    return Bench(qtbot, small_scene)
 
 
-def test_mouse_click_and_keys_over_the_profile_choose_a_column(
-    seen: Application, qtbot: QtBot
-) -> None:
-    exposure, plot = seen.shell.pane("equations").pane.exposure, seen.view("profile").plot
+def test_mouse_click_and_keys_over_the_profile_choose_a_column(seen: Bench, qtbot: QtBot) -> None:
+    exposure, plot = seen.pane.pane.exposure, seen.plot
     viewport = plot.viewport()
     first, last = plot.getViewBox().viewRange()[0]
     there, place = (round(first + share * (last - first)) for share in (0.3, 0.6))
-    move_mouse(seen, there)
+    move_mouse(plot, there)
     qtbot.waitUntil(lambda: abs(exposure.column.value() - there) <= 1)
-    qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(seen, place))
+    qtbot.mouseClick(viewport, Qt.MouseButton.LeftButton, pos=place_of(plot, place))
     qtbot.waitUntil(exposure.hold.isChecked)
     column = exposure.column.value()
     assert abs(column - place) <= 1
     qtbot.keyClick(plot, Qt.Key.Key_Right)
     assert exposure.column.value() == column + 1
     assert exposure.sentence.text().startswith(f"Column {column + 1}:")
-    assert seen.shell.pane("equations").picker.marker.value() == column + 1
+    assert seen.pane.picker.marker.value() == column + 1
     qtbot.keyClick(plot, Qt.Key.Key_PageUp)
     assert exposure.column.value() == column + 11
     qtbot.keyClick(plot, Qt.Key.Key_PageDown)
@@ -249,8 +254,8 @@ def test_mouse_click_and_keys_over_the_profile_choose_a_column(
     assert not exposure.hold.isChecked()
 
 
-def test_a_number_typed_chooses_and_holds_a_column(seen: Application, qtbot: QtBot) -> None:
-    exposure = seen.shell.pane("equations").pane.exposure
+def test_a_number_typed_chooses_and_holds_a_column(seen: Bench, qtbot: QtBot) -> None:
+    exposure = seen.pane.pane.exposure
     exposure.column.selectAll()
     qtbot.keyClicks(exposure.column, "1100")
     qtbot.keyClick(exposure.column, Qt.Key.Key_Return)
@@ -260,32 +265,22 @@ def test_a_number_typed_chooses_and_holds_a_column(seen: Application, qtbot: QtB
     assert not exposure.hold.isChecked()
 
 
-def test_the_profiles_mark_stays_while_the_exposure_is_visible(
-    seen: Application, qtbot: QtBot
-) -> None:
-    picker: ColumnPicker = seen.shell.pane("equations").picker
-    assert picker.marker.isVisible()
-    docks = seen.window.docks
-    seen.window.tabifyDockWidget(docks["equations"], docks["decode"])
-    seen.window.bring_to_front("decode")
-    qtbot.waitUntil(lambda: not picker.marker.isVisible())
-    messages = seen.shell.pane("equations").pane.exposure.sentence.text()
-    move_mouse(seen, seen.view("profile").plot.getViewBox().viewRange()[0][0] + 50.0)
-    qtbot.keyClick(seen.view("profile").plot, Qt.Key.Key_Right)
-    assert seen.shell.pane("equations").pane.exposure.sentence.text() == messages
+def test_the_profiles_mark_stays_while_the_exposure_is_visible(seen: Bench, qtbot: QtBot) -> None:
+    marker, sentence = seen.pane.picker.marker, seen.pane.pane.exposure.sentence
+    assert marker.isVisible()
+    seen.see("equations", False)
+    assert not marker.isVisible()
+    said = sentence.text()
+    move_mouse(seen.plot, seen.plot.getViewBox().viewRange()[0][0] + 50.0)
+    qtbot.keyClick(seen.plot, Qt.Key.Key_Right)
+    assert sentence.text() == said
 
 
-def test_the_exposure_follows_the_scene(seen: Application, user: User) -> None:
-    exposure = seen.shell.pane("equations").pane.exposure
-    user.enter("exposure_time", "136 us")
+def test_the_exposure_follows_the_scene(seen: Bench) -> None:
+    exposure = seen.pane.pane.exposure
+    levels = seen.simulate(exposure_time=136e-6).profile
     assert "136 µs exposure" in exposure.sentence.text()
-    level = seen.view("profile").simulation.getOriginalDataset()[1]
-    column = seen.shell.pane("equations").pane.exposure.column.value()
-    assert (
-        f"{level[column]:.1f} grey levels"
-        in seen.shell.pane("equations").pane.exposure.sentence.text()
-    )
-    assert np.isfinite(level).all()
+    assert f"{levels[exposure.column.value()]:.1f} grey levels" in exposure.sentence.text()
 
 
 def test_the_column_shown_first_is_in_the_panels_first_packet(

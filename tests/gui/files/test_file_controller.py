@@ -99,6 +99,17 @@ def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
     assert bench.store.undo_stack.count() == 0
 
 
+@pytest.mark.parametrize("content", ["format = 99\n", "format = 'new'\n[camera]\nlens = 3\n"])
+def test_a_scene_file_of_a_newer_version_is_refused(
+    bench: Bench, tmp_path: Path, small_scene: Scene, content: str
+) -> None:
+    path = tmp_path / "newer.toml"
+    path.write_text(content, encoding="utf-8")
+    bench.files.open_scene(path)
+    assert "this version reads format 1" in bench.status_message[-1]
+    assert bench.store.scene == small_scene
+
+
 def test_an_unwritable_scene_gives_a_sentence_and_no_file(bench: Bench, tmp_path: Path) -> None:
     for path in (tmp_path, tmp_path / "nowhere" / "scene.toml"):
         bench.files.save_scene(path)

@@ -7,19 +7,21 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from gui.pane_bench import PaneBench
 from PySide6.QtCore import QObject, QPoint, Qt, QUrl, Slot
 from PySide6.QtGui import QColor, QDesktopServices, QImage, QPalette, QTextCursor, QTextDocument
 from PySide6.QtWidgets import QTextBrowser, QToolBar
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
-from occ_gui.app.command_line import PANES
+from occ_gui.bands.feature import bands
 from occ_gui.help import manual as manual_module
 from occ_gui.help import page_style
+from occ_gui.help.feature import manual as declaration
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.help_window import HelpWindow
-from occ_gui.help.pages import CONTENTS, GUIDE, docs_folder, heading_id, pages
-from occ_gui.window.current_pane import PICTURE
+from occ_gui.help.pages import CONTENTS, GUIDE, docs_folder, pages
+from occ_gui.spectrum.feature import spectrum
+from occ_model.scene.scene import Scene
 
 ROOT = Path(__file__).parents[3]
 
@@ -73,20 +75,6 @@ def click(qtbot: QtBot, browser: QTextBrowser, target: str) -> None:
     browser.ensureCursorVisible()
     place = browser.cursorRect(cursor).center()
     qtbot.mouseClick(browser.viewport(), Qt.MouseButton.LeftButton, pos=place)
-
-
-def test_every_pane_has_a_page_and_its_heading(
-    application: Application, manual: HelpWindow
-) -> None:
-    pages = application.shell.pane("help").pages
-    assert set(pages) == {*PANES, PICTURE}
-    for page in pages.values():
-        name, _, heading = page.partition("#")
-        text = (docs_folder() / name).read_text(encoding="utf-8")
-        titles = [heading_id(line.lstrip("#")) for line in text.splitlines() if line[:1] == "#"]
-        assert not heading or heading in titles, page
-        manual.show_page(page)
-        assert manual.browser.source().fileName() == name
 
 
 @pytest.mark.whole
@@ -193,26 +181,32 @@ def test_code_stands_on_a_ground_of_the_theme(manual: HelpWindow) -> None:
         assert cursor.blockFormat().background().color() == QColor(colour)
 
 
-def test_the_menu_opens_the_guide_and_the_page_of_the_pane(application: Application) -> None:
-    entries = application.window.actions_by_name
+def test_its_entries_open_the_guide_and_the_page_of_the_pane(
+    qtbot: QtBot, small_scene: Scene
+) -> None:
+    bench, current = PaneBench(qtbot, small_scene), ["spectrum"]
+    for declared in (spectrum(), bands(bench.scenes)):
+        bench.shell.add(declared, bench.window)
+    bench.shell.add(declaration(bench.window, bench.shell, lambda: current[0]), bench.window)
+    entries = bench.window.actions_by_name
     entries["guide"].trigger()
-    (browser,) = application.window.findChildren(HelpBrowser)
+    (browser,) = bench.window.findChildren(HelpBrowser)
     assert browser.window().isVisible()
     assert browser.source().fileName() == GUIDE
-    for pane, page in application.shell.pane("help").pages.items():
-        application.current_pane.name = pane
+    for pane, page in (("spectrum", "guide.md#measure"), ("bands", "bands.md"), ("?", GUIDE)):
+        current[0] = pane
         entries["about_pane"].trigger()
         assert browser.source().toString().endswith(f"/{page}")
-    assert application.window.findChildren(HelpBrowser) == [browser]
+    assert bench.window.findChildren(HelpBrowser) == [browser]
 
 
 def test_a_missing_manual_is_answered_with_a_sentence(
-    application: Application, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     monkeypatch.setattr(manual_module, "docs_folder", lambda: tmp_path)
-    application.window.actions_by_name["guide"].trigger()
-    message = application.window.statusBar().currentMessage()
-    assert message == "The manual cannot be read: No such file or directory."
+    bench = PaneBench(qtbot, small_scene)
+    bench.add(declaration(bench.window, bench.shell, str)).show_page()
+    assert bench.said == ["The manual cannot be read: No such file or directory."]
     assert not (tmp_path / CONTENTS).exists()
 
 

@@ -6,13 +6,12 @@ from threading import Event
 from typing import Any
 
 import pytest
-from gui.user import User
+from gui.lessons.bench import Lessons
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QLabel
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons import answers
 from occ_gui.lessons.changed_scene import changed_sentence
@@ -24,41 +23,23 @@ from occ_model.teaching.answers import check_answer
 from occ_model.teaching.lessons import lessons
 
 
-@pytest.fixture
-def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
-    """Open the lessons by the menu."""
-    user.choose("&Lessons")
-    guide = application.shell.pane("lessons").view
-    qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
-    return guide
-
-
-def answer(guide: LessonView, user: User, text: str) -> str:
-    """Type an answer, and return what the check says."""
-    guide.step.answer_field.field.setText(text)
-    guide.step.answer_field.check.click()
-    user.wait_until_idle()
-    return guide.step.answer_field.sentence.text()
-
-
-def test_a_number_is_checked_against_the_model_and_kept(guide: LessonView, user: User) -> None:
+def test_a_number_is_checked_against_the_model_and_kept(bench: Lessons, guide: LessonView) -> None:
     guide.list.choices[0].click()
     assert guide.step.answer_field.unit.text() == "columns"
-    assert answer(guide, user, "40") == "✗  Not yet: that is too low. Try again."
-    assert answer(guide, user, "65") == "≈  Close, but a little too high. Look once more."
-    assert answer(guide, user, "many").startswith("?  ")
-    assert answer(guide, user, "62.5") == "✓  Right. The model gives 62.5 columns."
+    assert bench.answer("40") == "✗  Not yet: that is too low. Try again."
+    assert bench.answer("65") == "≈  Close, but a little too high. Look once more."
+    assert bench.answer("many").startswith("?  ")
+    assert bench.answer("62.5") == "✓  Right. The model gives 62.5 columns."
     guide.step.next.click()
     assert guide.step.answer_field.field.text() == ""
     assert not guide.step.answer_field.sentence.isVisible()
     guide.step.back.click()
     assert guide.step.answer_field.field.text() == "62.5"
     assert "Right" in guide.step.answer_field.sentence.text()
-    user.wait_until_idle()
 
 
 def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is(
-    application: Application, guide: LessonView, user: User, monkeypatch: pytest.MonkeyPatch
+    bench: Lessons, guide: LessonView, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     go_on, given = Event(), guide.step.answer_field
 
@@ -67,7 +48,7 @@ def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is
         return check_answer(*question)
 
     guide.list.choices[0].click()
-    answer(guide, user, "65")  # near, and recorded until another one is given
+    bench.answer("65")  # near, and recorded until another one is given
     monkeypatch.setattr(answers, "check_answer", slow)
     for text, button in (("62.5", guide.step.next), ("25", guide.step.next)):
         given.field.setText(text)
@@ -81,7 +62,7 @@ def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is
     assert "Look once more" not in guide.end.answers.text()
     assert not guide.end.report.isEnabled()
     go_on.set()
-    user.wait_until_idle()
+    bench.wait_until_idle()
     assert "62.5 columns. Right." in guide.end.answers.text()
     assert "27.6 ms. Right." in guide.end.answers.text()
     assert "computes" not in guide.end.answers.text()
@@ -89,82 +70,56 @@ def test_an_answer_that_is_still_being_checked_at_the_end_is_recorded_when_it_is
 
 
 def test_check_formula_explanation_and_report_are_of_the_scene_that_is_shown(
-    application: Application, guide: LessonView, user: User
+    bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
-    application.store.change(readout_time=27.54e-6)
-    assert "too high" in answer(guide, user, "62.5")
-    assert answer(guide, user, "18") == "✓  Right. The model gives 18.2 columns."
+    bench.scenes.change(readout_time=27.54e-6)
+    assert "too high" in bench.answer("62.5")
+    assert bench.answer("18") == "✓  Right. The model gives 18.2 columns."
     guide.step.reveal.click()
     assert "18.2 columns" in guide.step.equation.toPlainText()
     assert "own scene (Readout time: 8 µs): One state lasts" in guide.step.answer.text()
-    learning = application.shell.pane("lessons")
+    learning = bench.pane
     lesson = learning.controller.lesson_under_way
     assert lesson is not None
     (first, *others) = learning.answers.all_of(lesson)
-    assert first.scene == application.store.scene
+    assert first.scene == bench.scenes.scene
     assert [each.scene for each in others] == [each.step.asked for each in others]
-    user.wait_until_idle()
 
 
 def test_an_answer_that_was_checked_at_another_scene_says_so(
-    application: Application, guide: LessonView, user: User
+    bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
     said = guide.step.answer_field.sentence
-    assert "Right" in answer(guide, user, "62.5")
+    assert "Right" in bench.answer("62.5")
     assert "has changed" not in said.text()
-    application.store.change(readout_time=20e-6)
+    bench.scenes.change(readout_time=20e-6)
     assert said.text().endswith("The scene has changed since: check again.")
     guide.step.again.click()
     assert "has changed" not in said.text()
-    application.store.change(readout_time=20e-6)
+    bench.scenes.change(readout_time=20e-6)
     guide.step.next.click()
     guide.step.back.click()  # which sets the scene again
     assert "has changed" not in said.text()
-    user.wait_until_idle()
 
 
 def test_what_a_question_names_is_to_be_set_before_an_answer_is_judged(
-    application: Application, guide: LessonView, user: User
+    bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
     guide.step.next.click()
     sentence = guide.step.answer_field.sentence
-    assert "Right" in answer(guide, user, "25")  # a prediction
-    application.store.change(readout_time=20e-6)
+    assert "Right" in bench.answer("25")  # a prediction
+    bench.scenes.change(readout_time=20e-6)
     assert "has changed" not in sentence.text()  # it was about this
-    application.store.change(readout_time=19e-6)
+    bench.scenes.change(readout_time=19e-6)
     assert "has changed" in sentence.text()
-    said = answer(guide, user, "25")
+    said = bench.answer("25")
     assert said == "→  First set Readout time to 20 µs: the question is about that."
-    application.store.change(readout_time=20e-6)
-    assert "Right" in answer(guide, user, "25")
+    bench.scenes.change(readout_time=20e-6)
+    assert "Right" in bench.answer("25")
     assert "own scene" not in guide.step.answer.text()
-    user.wait_until_idle()
-
-
-def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
-    application: Application, guide: LessonView, user: User
-) -> None:
-    story = application.story
-    usual = story.rows.axis.span
-    guide.list.choices[0].click()
-    user.wait_until_idle()
-    held = story.rows.axis.span
-    assert story.ranges["packets"].text() == "250 columns"
-    assert held == pytest.approx(250, rel=0.05)
-    for readout in (20e-6, 4e-6):
-        application.store.change(readout_time=readout)
-        user.wait_until_idle()
-        assert story.rows.axis.span == pytest.approx(held)
-    guide.step.all.click()
-    user.wait_until_idle()
-    assert story.ranges["packets"].text() == "2 packets"
-    assert story.rows.axis.span == pytest.approx(usual)
-    application.store.change(pattern="10")
-    user.wait_until_idle()
-    assert story.ranges["packets"].text() == "2 cycles"
 
 
 def test_the_explanation_is_shown_to_its_end(qtbot: QtBot) -> None:
@@ -224,71 +179,68 @@ def test_question_answer_and_check_stay_in_view_however_long_the_text(qtbot: QtB
 
 
 def test_a_step_says_what_is_changed_and_which_numbers_are_of_which_scene(
-    application: Application, guide: LessonView, user: User
+    bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
     changed = guide.step.changed
     assert not changed.isVisible()
-    application.store.change(readout_time=19e-6)
+    bench.scenes.change(readout_time=19e-6)
     assert changed.isVisible()
     assert "Readout time is 19 µs instead of 8 µs." in changed.text()
     assert "check and report are of your scene" in changed.text()
     guide.step.again.click()
     assert not changed.isVisible()
-    application.store.change(readout_time=19e-6)
+    bench.scenes.change(readout_time=19e-6)
     guide.step.next.click()
     assert not changed.isVisible()
     # The question of the second step is about this value.
-    application.store.change(readout_time=20e-6)
+    bench.scenes.change(readout_time=20e-6)
     assert not changed.isVisible()
-    application.store.change(readout_time=21e-6, iso=200.0, distance=1.0)
+    bench.scenes.change(readout_time=21e-6, iso=200.0, distance=1.0)
     assert changed.text().count(" instead of ") == 2
     assert "and 1 more" in changed.text()
-    user.wait_until_idle()
 
 
 def test_the_control_of_a_step_is_marked_and_the_others_are_dimmed(
-    application: Application, guide: LessonView, user: User, qtbot: QtBot
+    bench: Lessons, guide: LessonView, qtbot: QtBot
 ) -> None:
     guide.list.choices[0].click()
-    rows = application.controls.panels["Main"].rows
+    rows = bench.controls.panels["Main"].rows
     assert guide.step.control.text() == "Change: Readout time"
-    assert application.shell.pane("lessons").spotlight.is_on
+    assert bench.pane.spotlight.is_on
     assert rows["readout_time"].graphicsEffect() is None
     assert rows["iso"].graphicsEffect() is not None
     qtbot.waitUntil(lambda: not rows["readout_time"].visibleRegion().isEmpty())
     for name, row in rows.items():
         assert row.isEnabled() is (name == "readout_time")
-    field = user.row("exposure_time").field
-    told, before = field.toolTip(), application.store.scene
+    field = bench.row("exposure_time").field
+    told, before = field.toolTip(), bench.scenes.scene
     assert told.startswith("This step of the lesson is about “Readout time”.")
-    user.enter("exposure_time", "90 µs")
-    assert application.store.scene == before
-    user.enter("readout_time", "20 µs")
-    assert application.store.scene.camera.readout_time == 20e-6
+    bench.enter("exposure_time", "90 µs")
+    assert bench.scenes.scene == before
+    bench.enter("readout_time", "20 µs")
+    assert bench.scenes.scene.camera.readout_time == 20e-6
     guide.step.all.click()
-    assert not application.shell.pane("lessons").spotlight.is_on
+    assert not bench.pane.spotlight.is_on
     assert rows["iso"].graphicsEffect() is None
     assert all(row.isEnabled() for row in rows.values())
     assert told.endswith(field.toolTip())
     assert "This step" not in field.toolTip()
-    user.wait_until_idle()
 
 
 def test_the_explanation_has_its_equation_with_the_present_numbers(
-    application: Application, guide: LessonView, user: User
+    bench: Lessons, guide: LessonView
 ) -> None:
     guide.list.choices[0].click()
     guide.step.reveal.click()
     assert "62.5 columns" in guide.step.equation.toPlainText()
     assert guide.step.equation.toPlainText().count("Columns") == 1
-    application.store.change(readout_time=20e-6)
+    bench.scenes.change(readout_time=20e-6)
     assert "25 columns" in guide.step.equation.toPlainText()
-    user.wait_until_idle()
 
 
 def test_the_animation_moves_while_it_is_seen_and_stops_at_a_click(
-    guide: LessonView, user: User, qtbot: QtBot
+    bench: Lessons, guide: LessonView, qtbot: QtBot
 ) -> None:
     guide.list.choices[0].click()
     animation = guide.step.animation
@@ -301,18 +253,16 @@ def test_the_animation_moves_while_it_is_seen_and_stops_at_a_click(
     guide.step.next.click()
     guide.step.next.click()
     assert not animation.is_playing
-    user.wait_until_idle()
 
 
 def test_the_end_shows_the_answers_and_saves_them_as_a_report(
-    application: Application,
+    bench: Lessons,
     guide: LessonView,
-    user: User,
     monkeypatch: pytest.MonkeyPatch,
     tmp_path: Path,
 ) -> None:
     guide.list.choices[0].click()
-    answer(guide, user, "62.5")
+    bench.answer("62.5")
     for _ in range(3):
         guide.step.next.click()
     assert "62.5 columns. Right." in guide.end.answers.text()
@@ -321,14 +271,14 @@ def test_the_end_shows_the_answers_and_saves_them_as_a_report(
     guide.end.author.setText("Ada $x_1$ ")
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     guide.end.report.click()
-    user.wait_until_idle()
+    bench.wait_until_idle()
     assert path.with_suffix(".pdf").read_bytes().startswith(b"%PDF")
-    assert user.message == "Saved report.pdf"
-    assert application.shell.pane("lessons").reports.author == "Ada $x_1$"
+    assert bench.said[-1] == "Saved report.pdf"
+    assert bench.pane.reports.author == "Ada $x_1$"
 
 
 def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
-    guide: LessonView, user: User, qtbot: QtBot
+    bench: Lessons, guide: LessonView, qtbot: QtBot
 ) -> None:
     guide.list.choices[0].click()
     for _ in range(2):
@@ -348,30 +298,30 @@ def test_the_end_leads_to_the_next_lesson_and_a_second_click_saves_nothing(
         guide.step.next.click()
     guide.step.next.click()
     assert not guide.end.next.isVisible()
-    user.wait_until_idle()
 
 
 def test_a_report_that_is_not_wanted_writes_nothing(
-    guide: LessonView, user: User, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    bench: Lessons, guide: LessonView, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     guide.list.choices[0].click()
     for _ in range(3):
         guide.step.next.click()
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: ("", ""))
     guide.end.report.click()
-    user.wait_until_idle()
+    bench.wait_until_idle()
     assert list(tmp_path.iterdir()) == []
 
 
 def test_a_teachers_lesson_is_listed_and_a_bad_one_is_named(
-    application: Application, user: User, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    bench: Lessons, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     step = 'preset = "phone-68us"\ntext = "a"\nquestion = "b?"\nanswer = "c"'
     (tmp_path / "mine.toml").write_text(f'title = "Mine"\n[[step]]\n{step}', encoding="utf-8")
     (tmp_path / "bad.toml").write_text(f'title = "Bad"\n[[stop]]\n{step}', encoding="utf-8")
     monkeypatch.setenv("OCC_LESSONS", str(tmp_path))
-    user.choose("&Lessons")
-    guide = application.shell.pane("lessons").view
+    bench.see("lessons", False)
+    bench.see("lessons")
+    guide = bench.guide
     assert any(choice.text().startswith("Mine") for choice in guide.list.choices)
     assert "bad is no lesson: line 2: a lesson has no key 'stop'" in guide.list.problems.text()
 
@@ -389,73 +339,41 @@ def test_the_folder_of_lessons_is_made_and_opened(
     assert [path.name for path in (tmp_path / "own").iterdir()] == ["my-first-lesson.toml"]
 
 
-def test_a_lab_sheet_has_buttons_for_what_it_asks(
-    application: Application, guide: LessonView, user: User, qtbot: QtBot
-) -> None:
-    (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
-    sheet.click()
-    assert not guide.step.action.isVisible()
-    for _ in range(3):
-        guide.step.next.click()
-    user.wait_until_idle()
-    assert guide.step.action.text() == "Match the photo"
-    assert "Match the photo first" in answer(guide, user, "12.8")
-    guide.step.action.click()
-    user.wait_until_idle()
-    assert "Right. The match gives" in answer(guide, user, "12.8")
-    # The lesson stays beside the photo.
-    assert application.window.modes.mode == "lessons"
-    assert guide.isVisible()
-    assert application.view("photo").isVisible()
-    lessons = application.shell.pane("lessons")
-    assert lessons.controller.lesson_under_way is not None
-    given = lessons.answers.all_of(lessons.controller.lesson_under_way)
-    assert given[3].match is application.shell.pane("photo").matching.match
-    assert given[3].photo == "led-1khz.jpg"
-    assert given[0].match is None
-    guide.step.all.click()
-    user.wait_until_idle()
-
-
 def test_a_lab_sheet_keeps_a_photo_of_one_s_own(
-    application: Application, guide: LessonView, user: User, photo_file: Path
+    bench: Lessons, guide: LessonView, photo_file: Path
 ) -> None:
-    application.open_photo(photo_file)
-    user.wait_until_idle()
+    bench.photos.open(photo_file)
+    bench.wait_until_idle()
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
     sheet.click()
     for _ in range(3):
         guide.step.next.click()
-    user.wait_until_idle()
-    opened = application.shell.pane("photo").matching.photo
-    assert opened is not None
-    assert opened.path == photo_file
+    bench.wait_until_idle()
+    assert bench.photos.path == photo_file
     guide.step.all.click()
-    user.wait_until_idle()
 
 
 def test_a_sample_that_was_open_before_a_lab_sheet_returns_with_the_users_choices(
-    application: Application, guide: LessonView, user: User
+    bench: Lessons, guide: LessonView
 ) -> None:
     (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
     (sample,) = [path for path in sample_photos() if path.stem == "led-1khz"]
-    application.open_photo(sample)
-    user.wait_until_idle()
-    application.view("photo").form.sent.show_key("square")
-    application.view("photo").form.sent.chosen.emit("square")
+    bench.photos.open(sample)
+    bench.wait_until_idle()
+    bench.choose_sent("square")
     sheet.click()
     for _ in range(2):
         guide.step.next.click()
-    user.wait_until_idle()
-    assert application.photos.path == sample  # in place of a photo of one's own
-    assert application.view("photo").form.choice().sent == "auto"
+    bench.wait_until_idle()
+    assert bench.photos.path == sample  # in place of a photo of one's own
+    assert bench.photos.choice.form.sent == "auto"
     guide.step.back.click()
-    user.wait_until_idle()
-    assert application.photos.path is None
+    bench.wait_until_idle()
+    assert bench.photos.path is None
     guide.step.all.click()
-    user.wait_until_idle()
-    assert application.photos.path == sample
-    assert application.view("photo").form.choice().sent == "square"
+    bench.wait_until_idle()
+    assert bench.photos.path == sample
+    assert bench.photos.choice.form.sent == "square"
 
 
 @pytest.mark.parametrize("goal", ["", "Find the null."])

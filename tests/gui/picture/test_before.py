@@ -4,18 +4,19 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from gui.user import User
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.picture.before_controller import BeforeController
 from occ_gui.picture.before_wipe import BeforeWipe
+from occ_gui.picture.feature import picture as picture_pane
 from occ_gui.picture.picture_pane import PicturePane
+from occ_gui.profile.feature import profile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
@@ -203,21 +204,24 @@ def test_a_wipe_before_any_change_shows_nothing(
 
 
 def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
-    application: Application, user: User, grey_picture: Callable[[QWidget], Grey]
+    qtbot: QtBot, small_scene: Scene, grey_picture: Callable[[QWidget], Grey]
 ) -> None:
-    application.view("picture").before.chosen.setChecked(True)
-    _, start = application.view("profile").simulation.getOriginalDataset()
-    slider = user.slider("exposure_time")
-    slider.setSliderDown(True)
-    for position in (500, 600, 700):
-        slider.setValue(position)
-        user.wait_until_idle()
-    slider.setSliderDown(False)
-    _, then = application.view("profile").before.getOriginalDataset()
+    bench = PaneBench(qtbot, small_scene)
+    image = bench.add(picture_pane(bench.store, str)).view
+    curves = bench.add(profile(bench.store, bench.board, str)).view
+    before = BeforeController(bench.store, [bench.board])
+    bench.hear_first.append(before.show_snapshot)
+    bench.simulate()
+    image.before.chosen.setChecked(True)
+    _, start = curves.simulation.getOriginalDataset()
+    for exposure in (80e-6, 90e-6, 100e-6):
+        bench.scenes.change(7, exposure_time=exposure)
+        bench.simulate()
+    _, then = curves.before.getOriginalDataset()
     assert np.array_equal(then, start)
-    assert application.view("picture").before.picture.isVisible()
-    grey_picture(application.view("picture"))
-    assert application.scene.before.before is not None
+    assert image.before.picture.isVisible()
+    grey_picture(image)
+    assert before.before is not None
 
 
 def test_the_line_stays_in_the_picture(

@@ -1,26 +1,31 @@
 """The camera's picture and the receiver's are two, and each place says which it has."""
 
 import csv
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from gui.user import User
-from PIL import Image
+from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.app.application import Application
+from occ_gui.decoding.decode_view import DecodeView
+from occ_gui.decoding.feature import decoding
 from occ_gui.picture.averaged_image import AveragedImage
+from occ_gui.picture.feature import picture
 from occ_gui.picture.image_view import ImageView
+from occ_gui.profile.feature import profile
+from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.window.cursor_readout import follow_pictures
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES
+from occ_model.scene.scene import Scene
 
 SnapshotOf = Callable[..., Snapshot]
 
@@ -106,109 +111,87 @@ def test_every_way_of_showing_a_photo_names_the_picture(
             assert f"{whose}'s picture" in view.simulation.caption.toolTip().lower()
 
 
-def test_the_pointer_reads_the_levels_of_both_pictures(
-    application: Application, qtbot: QtBot
-) -> None:
-    application.story.show_whole_picture(True)
-    pane, frame = application.view("picture").simulation, application.view("picture")._frame
-    assert frame is not None
+class Bench(PaneBench):
+    """Picture, profile and decoding."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene) -> None:
+        super().__init__(qtbot, scene)
+        self.picture: ImageView = self.add(picture(self.store, str)).view
+        self.profile: ProfileView = self.add(profile(self.store, self.board, str)).view
+        self.decoding: DecodeView = self.add(decoding(self.store)).view
+        self.frame = self.simulate().frame
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
+    bench = Bench(qtbot, small_scene)
+    yield bench
+    bench.shell.stop()
+
+
+def test_the_pointer_reads_the_levels_of_both_pictures(bench: Bench) -> None:
+    pane, frame, pointed = bench.picture.simulation, bench.frame, list[str]()
+    follow_pictures(bench.picture, pointed.append)
     view = pane.graphics
-    centre = QPointF(frame.image.shape[1] / 2, frame.image.shape[0] / 2)
-    place = QPoint(view.mapFromScene(pane.box.mapViewToScene(centre)))
-    at = pane.box.mapSceneToView(QPointF(view.mapToScene(place)))
-    column, row = round(at.x()), round(at.y())
-    camera, receiver = frame.camera_image[row, column], frame.image[row, column]
-    expected = (
-        f"Simulation: column {column}, row {row}, camera level {camera}, receiver level {receiver}"
-    )
+    middle = QPointF(frame.image.shape[1] / 2, frame.image.shape[0] / 2)
+    place = QPoint(view.mapFromScene(pane.box.mapViewToScene(middle)))
     for whose in PICTURES:
-        application.view("picture").choose_picture(whose)
-        qtbot.mouseMove(view.viewport(), place + QPoint(1, 0))
-        qtbot.mouseMove(view.viewport(), place)
-        qtbot.waitUntil(lambda: application.window.pointed.toolTip() == expected)
-    assert application.view("picture").levels_at(-1, 0) is None
-    assert application.view("picture").levels_at(column, frame.image.shape[0]) is None
+        bench.picture.choose_picture(whose)
+        for right in (0, 20, 40):  # faster than a hand: where it stops is read, too
+            point = place + QPoint(right, 0)
+            move_mouse(view.viewport(), point)
+            at = pane.box.mapSceneToView(QPointF(view.mapToScene(point)))
+            column, row = round(at.x()), round(at.y())
+            assert pointed[-1] == (
+                f"Simulation: column {column}, row {row}, camera level "
+                f"{frame.camera_image[row, column]}, receiver level {frame.image[row, column]}"
+            )
+    assert bench.picture.levels_at(-1, 0) is None
+    assert bench.picture.levels_at(0, frame.image.shape[0]) is None
 
 
-def test_the_position_where_a_fast_mouse_stops_is_read(application: Application) -> None:
-    pane = application.view("picture").simulation
-    viewport = pane.graphics.viewport()
-    middle = viewport.rect().center()
+def move_mouse(viewport: QWidget, point: QPoint) -> None:
+    """Move the mouse to a point, no button down."""
     kind, none, no_key = QEvent.Type.MouseMove, Qt.MouseButton.NoButton, Qt.KeyboardModifier(0)
-    for right in (0, 20, 40):  # faster than a hand
-        place = QPointF(middle + QPoint(right, 0))
-        everywhere = QPointF(viewport.mapToGlobal(place.toPoint()))
-        event = QMouseEvent(kind, place, everywhere, none, none, no_key)
-        QApplication.sendEvent(viewport, event)
-        seen = pane.graphics.mapToScene(place.toPoint())
-        column = round(pane.box.mapSceneToView(QPointF(seen)).x())
-        assert application.window.pointed.toolTip().startswith(f"Simulation: column {column}, ")
+    everywhere = QPointF(viewport.mapToGlobal(point))
+    QApplication.sendEvent(
+        viewport, QMouseEvent(kind, QPointF(point), everywhere, none, none, no_key)
+    )
 
 
-def test_save_picture_writes_and_names_the_one_that_is_shown(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    frame = application.view("picture")._frame
-    assert frame is not None
-    for whose in PICTURES:
-        application.view("picture").choose_picture(whose)
-        path = tmp_path / f"{whose}.png"
-        application.files.save_picture(path)
-        assert f"{whose}'s picture" in user.message
-        with Image.open(path) as picture:
-            assert np.array_equal(np.asarray(picture), frame.picture(whose))
-            assert picture.info["Description"] == frame.picture_title(whose)
-
-
-def test_an_export_draws_and_names_the_one_that_is_shown(
-    application: Application, user: User, tmp_path: Path
-) -> None:
+def test_an_export_draws_and_names_the_one_that_is_shown(bench: Bench, tmp_path: Path) -> None:
     means = []
     for whose in PICTURES:
-        application.view("picture").choose_picture(whose)
+        bench.picture.picture_chosen.emit(whose)
         path = tmp_path / f"{whose}.csv"
-        application.shell.pane("export").export("picture", path)
-        user.wait_until_idle()
+        bench.export("picture", path)
         lines = path.read_text(encoding="utf-8").splitlines()
         assert f"{whose.title()}'s picture" in lines[0]
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))
         means.append(np.mean([float(cell) for row in rows[1:] for cell in row[1:]]))
-    frame = application.view("picture")._frame
-    assert frame is not None
+    frame = bench.frame
     assert means == pytest.approx([frame.camera_image.mean(), frame.image.mean()], abs=1.0)
 
 
-def test_an_exported_profile_is_the_one_that_is_shown(
-    application: Application, user: User, tmp_path: Path
-) -> None:
+def test_an_exported_profile_is_the_one_that_is_shown(bench: Bench, tmp_path: Path) -> None:
     for enhanced in (False, True):
-        application.view("profile").enhanced.setChecked(enhanced)
+        bench.profile.enhanced.setChecked(enhanced)
         path = tmp_path / f"{enhanced}.csv"
-        application.shell.pane("export").export("profile", path)
-        user.wait_until_idle()
+        bench.export("profile", path)
         lines = path.read_text(encoding="utf-8").splitlines()
         assert ("after the receiver's enhancement" in lines[0]) == enhanced
         table = np.array(
             [line.split(",") for line in lines if line[:1].isdigit()], dtype=np.float64
         )
-        for column, curve in (
-            (1, application.view("profile").simulation),
-            (2, application.view("profile").band),
-        ):
+        for column, curve in ((1, bench.profile.simulation), (2, bench.profile.band)):
             np.testing.assert_allclose(table[:, column], curve.getOriginalDataset()[1], atol=0.01)
 
 
-def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(
-    application: Application, user: User
-) -> None:
-    application.window.bring_to_front("decode")
+def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(bench: Bench) -> None:
     for whose in PICTURES:
-        application.view("picture").choose_picture(whose)
-        application.store.change(iso=200.0 if whose == "camera" else 300.0)
-        user.wait_until_idle()
-        frame = application.view("picture")._frame
-        assert frame is not None
-        signal = application.view("decode").signal.signal.getOriginalDataset()[1]
+        bench.picture.picture_chosen.emit(whose)
+        frame = bench.simulate(iso=200.0 if whose == "camera" else 300.0).frame
+        signal = bench.decoding.signal.signal.getOriginalDataset()[1]
         read = occ.decode(frame.image, frame.scene).signal
         assert read is not None
         assert np.array_equal(signal, read)

@@ -5,14 +5,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from gui.user import User
-from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QTableWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.pins.compare_view import CompareView
+from occ_gui.pins.feature import compare
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.pins.pinned import Pinned
 from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
@@ -259,95 +258,76 @@ def test_a_view_that_is_not_seen_draws_nothing_until_it_is(
     assert view.table.rowCount() > 0
 
 
+class Bench(PaneBench):
+    """The pane, and the pins that its entries set."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene) -> None:
+        super().__init__(qtbot, scene)
+        self.pins = PinController(self.scenes, lambda shown: shown.scene == self.scenes.scene)
+        self.pins.status_message.connect(self.said.append)
+        self.hear_first.append(self.pins.show_snapshot)
+        self.view: CompareView = self.add(compare(self.pins)).view
+        self.simulate()
+
+    def choose(self, entry: str) -> None:
+        self.window.actions_by_name[entry].trigger()
+
+
+@pytest.fixture
+def bench(qtbot: QtBot, small_scene: Scene) -> Bench:
+    return Bench(qtbot, small_scene)
+
+
 def test_states_are_pinned_compared_and_restored_in_one_step(
-    qtbot: QtBot, application: Application, user: User, small_scene: Scene
+    bench: Bench, small_scene: Scene
 ) -> None:
-    window, compare = application.window, application.shell.pane("compare").view
-    both = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
-    window.activateWindow()
-    qtbot.waitActive(window)
-    qtbot.keyClick(window, Qt.Key.Key_A, both)
-    assert "as A" in user.message
-    user.enter("iso", "200")
-    assert user.message == ""
-    qtbot.keyClick(window, Qt.Key.Key_B, both)
-    window.bring_to_front("compare")
-    qtbot.waitUntil(lambda: not compare.visibleRegion().isEmpty())
-    assert ["ISO speed", "100", "200"] in texts(compare.table)
-    steps = application.store.undo_stack.count()
-    compare.returns["A"].click()
-    user.wait_until_idle()
-    assert application.store.scene == small_scene
-    assert application.store.undo_stack.count() == steps + 1
-    user.choose("&Undo")
-    assert application.store.scene.camera.iso == 200.0
-    compare.clear.click()
-    assert application.pins.pinned.a is None
+    bench.choose("pin_a")
+    assert "as A" in bench.said[-1]
+    assert "pin B, too" in bench.said[-1]
+    bench.simulate(iso=200.0)
+    bench.choose("pin_b")
+    assert ["ISO speed", "100", "200"] in texts(bench.view.table)
+    steps = bench.scenes.undo_stack.count()
+    bench.view.returns["A"].click()
+    assert bench.scenes.scene == small_scene
+    assert bench.scenes.undo_stack.count() == steps + 1
+    bench.scenes.undo_stack.undo()
+    assert bench.scenes.scene.camera.iso == 200.0
+    bench.view.clear.click()
+    assert bench.pins.pinned.a is None
 
 
-def test_effects_forced_by_hand_are_compared_and_returned_to(
-    application: Application, user: User
-) -> None:
-    pins = application.pins
-    application.store.force("jpeg", True)
-    user.wait_until_idle()
-    pins.pin("A")
-    application.store.force("jpeg", None)
-    application.store.force("vignetting", False)
-    user.wait_until_idle()
-    pins.pin("B")
-    assert inputs(pins.pinned) == {"Effects by hand": ("JPEG on by hand", "Vignetting off by hand")}
-    pins.go_to("A")
-    user.wait_until_idle()
-    assert application.settings.settings.force == {"jpeg": True}
-    user.choose("&Undo")
-    assert application.settings.settings.force == {"vignetting": False}
+def test_effects_forced_by_hand_are_compared_and_returned_to(bench: Bench) -> None:
+    bench.scenes.force("jpeg", True)
+    bench.simulate()
+    bench.choose("pin_a")
+    bench.scenes.force("jpeg", None)
+    bench.scenes.force("vignetting", False)
+    bench.simulate()
+    bench.choose("pin_b")
+    forced = inputs(bench.pins.pinned)
+    assert forced == {"Effects by hand": ("JPEG on by hand", "Vignetting off by hand")}
+    bench.choose("go_to_a")
+    assert bench.settings.settings.force == {"jpeg": True}
+    bench.scenes.undo_stack.undo()
+    assert bench.settings.settings.force == {"vignetting": False}
 
 
-def test_a_pin_waits_for_the_results_of_the_present_scene(
-    application: Application, user: User
-) -> None:
-    pins = application.pins
-    application.store.change(iso=200.0)
-    pins.pin("A")
-    assert pins.pinned.a is None
-    assert user.message == "A is pinned as soon as this scene is computed."
-    user.wait_until_idle()
-    pinned = pins.pinned.a
-    assert pinned is not None
-    assert pinned.scene.camera.iso == 200.0
+def test_a_pin_waits_for_the_results_of_the_present_scene(bench: Bench) -> None:
+    bench.scenes.change(iso=200.0)
+    bench.choose("pin_a")
+    assert bench.pins.pinned.a is None
+    assert bench.said[-1] == "A is pinned as soon as this scene is computed."
+    bench.simulate()
+    assert bench.pins.pinned.a is not None
+    assert bench.pins.pinned.a.scene.camera.iso == 200.0
 
 
-def test_a_scene_without_a_picture_is_not_pinned(application: Application, user: User) -> None:
-    pins = application.pins
-    application.store.change(distance=0.1, yaw=1.2)
-    pins.pin("A")
-    user.wait_until_idle()
-    application.store.undo_stack.undo()
-    user.wait_until_idle()
-    assert pins.pinned.a is None
-
-
-def test_the_pane_opens_by_itself_once_there_are_two_states(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    window = application.window
-    window.resize(1280, 800)
-    user.choose("Pin as &A")
-    assert "pin B, too" in user.message
-    assert window.docks["compare"].isHidden()
-    user.enter("iso", "200")
-    user.choose("Pin as &B")
-    compare = window.docks["compare"]
-    qtbot.waitUntil(lambda: compare.isVisible() and compare.height() > 0.3 * 800)
-
-
-@pytest.mark.parametrize(("name", "side"), [("compare", "height"), ("equations", "width")])
-def test_a_pane_that_the_menu_opens_is_large_enough(
-    application: Application, qtbot: QtBot, name: str, side: str
-) -> None:
-    window = application.window
-    window.resize(1280, 800)
-    dock = window.docks[name]
-    dock.toggleViewAction().trigger()
-    qtbot.waitUntil(lambda: getattr(dock, side)() >= 0.25 * getattr(window, side)())
+def test_a_scene_without_a_picture_is_not_pinned(bench: Bench) -> None:
+    bench.scenes.change(distance=0.1, yaw=1.2)
+    bench.choose("pin_a")
+    bench.pins.give_up()
+    assert "no picture" in bench.said[-1]
+    bench.scenes.undo_stack.undo()
+    bench.simulate()
+    assert bench.pins.pinned.a is None

@@ -1,81 +1,82 @@
 """A slider runs by itself, is undone as one change, and tells where the picture changes."""
 
+from collections.abc import Iterator
+
 import pytest
-from gui.user import User
+from gui.pane_bench import ControlsBench
 from PySide6.QtWidgets import QToolTip
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
+from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.slider_scale import SliderScale
 from occ_model.scene.scene import Scene
 
 NAME = "switching_frequency"
 
 
-def press(application: Application) -> None:
-    application.controls.panels["Main"].play_buttons[NAME].click()
+@pytest.fixture
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[ControlsBench]:
+    bench = ControlsBench(qtbot, small_scene)
+    yield bench
+    bench.controls.player.stop()
+
+
+def press(bench: ControlsBench, name: str = NAME) -> None:
+    bench.controls.panels["Main"].play_buttons[name].click()
 
 
 def test_a_run_moves_the_scene_and_is_undone_at_once(
-    application: Application, user: User, qtbot: QtBot, small_scene: Scene
+    bench: ControlsBench, qtbot: QtBot, small_scene: Scene
 ) -> None:
-    store, seen = application.store, set[float]()
+    store, seen = bench.scenes, set[float]()
     store.changed.connect(lambda scene: seen.add(scene.transmitter.switching_frequency))
-    press(application)
+    press(bench)
     qtbot.waitUntil(lambda: len(seen) >= 4)
-    press(application)
-    assert application.controls.player.playing == ""
-    user.wait_until_idle()
-    user.choose("&Undo")
+    press(bench)
+    assert bench.controls.player.playing == ""
+    store.undo_stack.undo()
     assert store.scene == small_scene
 
 
 def test_a_run_turns_round_at_the_end_and_ends_where_it_is_not_to_loop(
-    application: Application, user: User, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+    bench: ControlsBench, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     monkeypatch.setattr("occ_gui.scene.player.SPEEDS", {"normal": 0.2})
-    player = application.controls.player
+    player = bench.controls.player
     player.is_looping = False
     values: list[float] = []
-    application.store.changed.connect(lambda s: values.append(s.transmitter.switching_frequency))
+    bench.scenes.changed.connect(lambda s: values.append(s.transmitter.switching_frequency))
     player.play(NAME)
     qtbot.waitUntil(lambda: player.playing == "")
-    user.wait_until_idle()
     assert max(values) == 100e3
     assert values.index(max(values)) < len(values) - 1
     assert values[-1] == 500.0
 
 
-def test_a_value_that_is_entered_ends_the_run(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    player = application.controls.player
-    press(application)
+def test_a_value_that_is_entered_ends_the_run(bench: ControlsBench, qtbot: QtBot) -> None:
+    player = bench.controls.player
+    press(bench)
     qtbot.waitUntil(lambda: player._set is not None)
-    application.store.change(switching_frequency=5e3)
+    bench.scenes.change(switching_frequency=5e3)
     assert player.playing == ""
-    assert application.store.scene.transmitter.switching_frequency == 5e3
-    user.wait_until_idle()
+    assert bench.scenes.scene.transmitter.switching_frequency == 5e3
 
 
 def test_a_run_goes_on_while_another_parameter_is_changed(
-    application: Application, user: User, qtbot: QtBot
+    bench: ControlsBench, qtbot: QtBot
 ) -> None:
-    player = application.controls.player
-    press(application)
+    player = bench.controls.player
+    press(bench)
     qtbot.waitUntil(lambda: player._set is not None)
-    application.store.change(distance=1.5)
+    bench.scenes.change(distance=1.5)
     assert player.playing == NAME
-    application.controls.panels["Main"].play_buttons["iso"].click()
+    press(bench, "iso")
     assert player.playing == "iso"
     player.stop()
-    user.wait_until_idle()
 
 
-@pytest.mark.own_window
-def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(application: Application) -> None:
-    player, asked = application.controls.player, list[str]()
-    player.film_asked.disconnect(application._animate)
+def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(bench: ControlsBench) -> None:
+    player, asked = bench.controls.player, list[str]()
     player.film_asked.connect(asked.append)
     entries = {action.text(): action for action in player.menu_of(NAME).actions()}
     entries["&Fast"].trigger()
@@ -87,14 +88,13 @@ def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(application: Applicati
     assert not again["&Loop"].isChecked()
 
 
-def test_the_marks_follow_the_scene(application: Application, user: User, qtbot: QtBot) -> None:
-    panel = application.controls.panels["Main"]
+def test_the_marks_follow_the_scene(bench: ControlsBench, qtbot: QtBot) -> None:
+    panel, _marks = bench.controls.panels["Main"], MarkController(bench.scenes, bench.controls)
     (scale,) = panel.rows[NAME].findChildren(SliderScale)
-    application.store.change(exposure_time=100e-6)
+    bench.scenes.change(exposure_time=100e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([10e3, 20e3])
     assert "10 kHz: Exposure and switching period are equal" in scale.accessibleDescription()
     assert scale.accessibleName() == "From 500 Hz to 100 kHz"
-    application.store.change(exposure_time=15e-6)
+    bench.scenes.change(exposure_time=15e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([1 / 15e-6])
-    user.wait_until_idle()
     QToolTip.hideText()

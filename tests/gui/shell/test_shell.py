@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import pytest
-from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QDockWidget, QLabel, QMainWindow, QWidget
+from gui.pane_bench import PlainWindow
+from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.core.store import Store
@@ -15,21 +15,6 @@ from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
-
-
-class Window(QMainWindow):
-    """A window with docks and one menu entry."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.actions_by_name = {"do": QAction(self)}
-        self.docks: dict[str, QDockWidget] = {}
-
-    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
-        dock = self.docks[name] = QDockWidget(title, self)
-        dock.setWidget(content)
-        dock.hide()
-        return dock
 
 
 class Noting(Pane[object]):
@@ -59,7 +44,7 @@ class Bench:
     """A shell with a pane of the ISO speed."""
 
     def __init__(self, qtbot: QtBot) -> None:
-        self.store, self.board, self.window = Store(Workspace(Scene())), Board(), Window()
+        self.store, self.board, self.window = Store(Workspace(Scene())), Board(), PlainWindow()
         qtbot.addWidget(self.window)
         self.shell = Shell(self.store, self.board)
         self.done: list[str] = []
@@ -131,7 +116,7 @@ def test_a_hidden_pane_is_told_when_it_is_seen_again(bench: Bench) -> None:
 
 
 def test_what_a_pane_cannot_show_is_not_shown(qtbot: QtBot) -> None:
-    window, board = Window(), Board()
+    window, board = PlainWindow(), Board()
     qtbot.addWidget(window)
     shell = Shell(Store(Workspace(Scene())), board)
     shell.add(

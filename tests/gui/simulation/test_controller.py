@@ -75,6 +75,22 @@ def test_a_scene_without_a_picture_says_why_and_views_stay(
     assert bench.scenes == [small_scene]
 
 
+def test_after_an_unexpected_failure_the_next_one_is_shown(
+    bench: Bench, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_arguments: object, **_named: object) -> None:
+        raise ZeroDivisionError("a mistake")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(controller, "render_with", broken)
+        bench.store.change(iso=333.0)
+        bench.wait_until_idle()
+    assert bench.failures == ["The simulation failed: ZeroDivisionError: a mistake."]
+    bench.store.change(iso=456.0)
+    bench.wait_until_idle()
+    assert bench.scenes[-1] == bench.store.scene
+
+
 def test_after_a_scene_without_a_picture_the_next_one_is_shown(bench: Bench) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
     bench.wait_until_idle()

@@ -4,13 +4,14 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from gui.user import User
+from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.spectrum.feature import spectrum
 from occ_gui.spectrum.pane import SpectrumPane
 from occ_gui.spectrum.spectrum_view import SpectrumView
+from occ_model.scene.scene import Scene
 
 
 @pytest.fixture
@@ -46,18 +47,17 @@ def test_a_bright_panel_is_told_to_lose_light(
     assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)
 
 
-def test_the_pane_follows_the_simulation_while_it_is_seen(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    application.window.bring_to_front("spectrum")
-    qtbot.waitUntil(lambda: application.shell.pane("spectrum").view.isVisible())
-    view = application.shell.pane("spectrum").view
-    user.wait_until_idle()
-    before = view.spectrum.accessibleDescription()
-    application.store.change(exposure_time=100e-6)
-    user.wait_until_idle()
-    assert "first zero of the exposure's response: 10 kHz" in view.spectrum.accessibleDescription()
-    assert before != view.spectrum.accessibleDescription()
+def test_the_pane_follows_the_simulation_while_it_is_seen(qtbot: QtBot, small_scene: Scene) -> None:
+    bench = PaneBench(qtbot, small_scene)
+    curve = bench.add(spectrum()).view.spectrum
+    bench.simulate()
+    before = curve.accessibleDescription()
+    bench.simulate(exposure_time=100e-6)
+    shown = curve.accessibleDescription()
+    assert "first zero of the exposure's response: 10 kHz" in shown != before
+    bench.see("spectrum", False)
+    bench.simulate(exposure_time=50e-6)
+    assert curve.accessibleDescription() == shown
 
 
 def test_every_grey_level_is_in_view(view: SpectrumView) -> None:

@@ -1,25 +1,32 @@
 """Two cursors measure columns, time, levels and chips between them."""
 
 import pytest
-from gui.user import User
 from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
-from occ_gui.app.story_wiring import story_menu
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story.measure_cursors import measure
+from occ_gui.story.story_view import StoryView
 
 
 @pytest.fixture
-def measuring(application: Application, user: User) -> Application:
-    user.wait_until_idle()
-    application.window.actions_by_name["measure"].trigger()
-    return application
+def story(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
+    """Show the story of a scene, and measure in it."""
+    story = StoryView(QWidget())
+    qtbot.addWidget(story)
+    story.resize(900, 700)
+    story.show()
+    story.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
+    story.show_reading(snapshot)
+    QApplication.processEvents()
+    story.switch_measuring(True)
+    return story
 
 
-def test_the_difference_is_that_of_the_model(measuring: Application) -> None:
-    rows, scene = measuring.story.rows, measuring.store.scene
+def test_the_difference_is_that_of_the_model(story: StoryView, snapshot: Snapshot) -> None:
+    rows, scene = story.rows, snapshot.scene
     cursors = rows.crosshair.cursors
     cursors.move(0, 100.0, rows.crosshair.columns)
     cursors.move(1, 225.0, rows.crosshair.columns)
@@ -30,14 +37,14 @@ def test_the_difference_is_that_of_the_model(measuring: Application) -> None:
     assert found.chips == pytest.approx(found.time * scene.transmitter.switching_frequency)
     assert rows.profile.levels is not None
     assert found.levels == pytest.approx(rows.profile.levels[225] - rows.profile.levels[100])
-    assert measuring.story.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")
-    assert "as a period 1 kHz" in measuring.story.measured.toolTip()
+    assert story.measured.text().startswith("1 to 2: 125.0 columns  ·  1 ms")
+    assert "as a period 1 kHz" in story.measured.toolTip()
 
 
 def test_a_cursor_is_dragged_in_any_row_and_stays_in_the_picture(
-    measuring: Application, qtbot: QtBot
+    story: StoryView, qtbot: QtBot
 ) -> None:
-    rows = measuring.story.rows
+    rows = story.rows
     row, cursors = rows.profile, rows.crosshair.cursors
     first, chosen = cursors.columns[0], rows.crosshair.column
     start = QPoint(round(row.x_of(first)), 20)
@@ -51,19 +58,7 @@ def test_a_cursor_is_dragged_in_any_row_and_stays_in_the_picture(
     assert cursors.columns[0] == 0.0
 
 
-def test_without_measuring_there_are_no_cursors(measuring: Application) -> None:
-    measuring.window.actions_by_name["measure"].trigger()
-    assert measuring.story.rows.crosshair.cursors.columns == []
-    assert not measuring.story.measured.isVisible()
-
-
-def test_the_context_menu_copies_the_values_at_the_crosshair(
-    application: Application, user: User
-) -> None:
-    user.wait_until_idle()
-    entries = {action.text(): action for action in story_menu(application).actions()}
-    entries["Copy the &values at the crosshair"].trigger()
-    assert QGuiApplication.clipboard().text().startswith("column ")
-    assert user.message.startswith("Copied: column ")
-    assert "Meas&ure" in entries
-    assert "Copy fi&gure" in entries
+def test_without_measuring_there_are_no_cursors(story: StoryView) -> None:
+    story.switch_measuring(False)
+    assert story.rows.crosshair.cursors.columns == []
+    assert not story.measured.isVisible()

@@ -5,23 +5,24 @@ from io import BytesIO
 from pathlib import Path
 
 import pytest
+from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from gui.user import User
 from PIL import Image
 from PySide6.QtWidgets import QFileDialog, QWidget
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
-from occ_gui.app.application import Application
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.transmitter import transmitter_controller, transmitter_jobs
+from occ_gui.transmitter.feature import transmitter as declared
 from occ_gui.transmitter.transmitter_controller import TransmitterController
 from occ_gui.transmitter.transmitter_dialog import TransmitterDialog
 from occ_gui.transmitter.transmitter_jobs import Drawn, new_folder
 from occ_model.boards.transmission import Transmission
 from occ_model.errors import OutputError
 from occ_model.figures import transmitter_files
+from occ_model.scene.scene import Scene
 
 
 @pytest.fixture(autouse=True)
@@ -78,17 +79,19 @@ def choose_board(dialog: TransmitterDialog, name: str) -> None:
     dialog.board.activated.emit(dialog.board.currentIndex())
 
 
-def test_the_menu_opens_it_on_the_scene_at_hand(application: Application, user: User) -> None:
-    user.choose("&Transmitter…")
-    user.wait_until_idle()
-    assert application.shell.made_pane("transmitter") is not None
-    opened = application.shell.made_pane("transmitter").dialog
-    assert opened is not None
+def test_its_entry_opens_it_on_the_scene_at_hand(qtbot: QtBot, small_scene: Scene) -> None:
+    bench = PaneBench(qtbot, small_scene)
+    bench.shell.add(declared(bench.window, bench.scenes, Preferences(None)), bench.window)
+    assert bench.shell.made_pane("transmitter") is None
+    bench.window.actions_by_name["transmitter"].trigger()
+    bench.wait_until_idle()
+    opened = bench.shell.pane("transmitter").dialog
     assert opened.isVisible()
     assert opened.facts.text().startswith("Switching frequency: 10 kHz, as asked")
-    application.store.change(switching_frequency=14.7e3)
-    user.wait_until_idle()
+    bench.scenes.change(switching_frequency=14.7e3)
+    bench.wait_until_idle()
     assert opened.take.isEnabled()
+    bench.shell.stop()
 
 
 def test_it_states_the_frequency_that_is_sent_and_its_error(dialog: TransmitterDialog) -> None:

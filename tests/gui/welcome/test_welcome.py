@@ -1,72 +1,43 @@
 """Three doors lead a new user into the program, once and whenever they are asked for."""
 
+from typing import Any, cast
+
 import pytest
-from gui.user import User
+from gui.pane_bench import PaneBench
 from PySide6.QtGui import QColor, QFont, QPalette
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
 from occ_gui.app.start import Start
+from occ_gui.files.preferences import Preferences
 from occ_gui.files.session_record import Session
 from occ_gui.welcome.door import Door
+from occ_gui.welcome.feature import welcome
+from occ_gui.welcome.welcome import Welcome
 from occ_gui.welcome.welcome_dialog import WelcomeDialog
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 
 @pytest.fixture
-def doors(application: Application, user: User, qtbot: QtBot) -> WelcomeDialog:
-    user.choose("&Welcome…")
-    dialog = application.shell.pane("welcome").dialog
-    assert dialog is not None
-    qtbot.waitUntil(dialog.isVisible)
+def doors(qtbot: QtBot) -> WelcomeDialog:
+    dialog = WelcomeDialog()
+    qtbot.addWidget(dialog)
+    dialog.show()
     return dialog
 
 
-def test_the_first_door_begins_the_first_lesson(
-    application: Application, doors: WelcomeDialog, user: User
-) -> None:
-    doors.doors["learn"].click()
-    user.wait_until_idle()
-    assert application.window.modes.mode == "lessons"
-    place = application.shell.pane("lessons").view.step.place.text()
-    assert place == "What is a rolling shutter? · step 1 of 3"
-    assert application.shell.pane("welcome").dialog is None
-
-
-def test_the_second_door_asks_for_a_photo(
-    application: Application, doors: WelcomeDialog, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[object] = []
-    monkeypatch.setattr(QFileDialog, "getOpenFileNames", lambda *a: asked.append(a) or ("", ""))
-    doors.doors["photo"].click()
-    assert application.window.modes.mode == "photo"
-    assert len(asked) == 1
-
-
-def test_the_third_door_changes_nothing_of_the_scene(
-    application: Application, doors: WelcomeDialog, small_scene: Scene
-) -> None:
-    doors.doors["explore"].click()
-    assert application.window.modes.mode == "explore"
-    assert application.store.scene == small_scene
-
-
-def test_the_page_comes_by_itself_only_once(
-    application: Application, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    stored: dict[str, str] = {}
-    preferences = application.preferences
-    monkeypatch.setattr(preferences, "recall", lambda key: stored.get(key, ""))
-    monkeypatch.setattr(preferences, "keep", stored.__setitem__)
-    application.shell.pane("welcome").show_once()
-    dialog = application.shell.pane("welcome").dialog
-    assert dialog is not None
-    dialog.close()
-    assert application.shell.pane("welcome").dialog is None
-    application.shell.pane("welcome").show_once()
-    assert application.shell.pane("welcome").dialog is None
+def test_the_page_comes_by_itself_only_once(qtbot: QtBot, small_scene: Scene) -> None:
+    bench, files = PaneBench(qtbot, small_scene), cast("Any", None)  # which no door asks for
+    page: Welcome = bench.add(
+        welcome(cast("Any", bench.window), bench.shell, Preferences(None), files)
+    )
+    page.show_once()
+    assert page.dialog is not None
+    page.dialog.close()
+    assert page.dialog is None
+    page.show_once()
+    assert page.dialog is None
 
 
 @pytest.mark.parametrize(("asked", "scene", "is_new"), [(False, None, True), (True, None, False)])

@@ -6,7 +6,7 @@ from PySide6.QtGui import QColor, QPalette, QPen
 from PySide6.QtWidgets import QApplication, QCheckBox, QMainWindow
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.application import Application
+from occ_gui.profile.profile_view import ProfileView
 from occ_gui.widgets.contrast import contrast, pen_on, seen_on
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import ThemeController, palette_of
@@ -52,12 +52,15 @@ def test_only_the_colour_of_a_pen_changes() -> None:
     assert seen.color() != pen.color()
 
 
-def test_curves_and_their_samples_follow_the_theme(application: Application) -> None:
-    themes, curve = application.options.theme, application.view("profile").simulation
+def test_curves_follow_the_theme(qtbot: QtBot) -> None:
+    themes, view = ThemeController(), ProfileView()
+    qtbot.addWidget(view)
     for theme in ("dark", "light"):
         themes.choose(theme)
         QApplication.processEvents()
-        assert curve.opts["pen"].color() == seen_on(palette_of(theme), QColor(colours.SIMULATION))
+        assert view.simulation.opts["pen"].color() == seen_on(
+            palette_of(theme), QColor(colours.SIMULATION)
+        )
     themes.choose("system")
 
 

@@ -20,14 +20,18 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QPushButton,
     QSlider,
+    QStyle,
+    QStyleOptionComboBox,
     QTabWidget,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.values.placement import MODES
 from occ_gui.window.modes.mode import MODES as WINDOW_MODES
+from occ_model.results.sweep_request import SweepPoint
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 
@@ -183,6 +187,42 @@ def test_the_accuracy_pane_is_whole_and_readable_at_every_size(
     user.wait_until_idle()
     assert_faultless(qtbot, application.window, "accuracy")
     assert axis_labels_cut_off(application.window) == []
+
+
+def texts_cut_off(window: QWidget) -> list[str]:
+    """List the lists whose chosen text is wider than its field."""
+    found = []
+    for box in window.findChildren(QComboBox):
+        if box.isVisible() and not behind(box):
+            option = QStyleOptionComboBox()
+            box.initStyleOption(option)
+            kind, part = QStyle.ComplexControl.CC_ComboBox, QStyle.SubControl.SC_ComboBoxEditField
+            field = box.style().subControlRect(kind, option, part, box)
+            if box.fontMetrics().horizontalAdvance(box.currentText()) > field.width():
+                found.append(describe(box))
+    return found
+
+
+@pytest.mark.parametrize("size", SIZES, ids=lambda size: f"{size.width()}x{size.height()}")
+def test_the_map_is_whole_and_readable_at_every_size(
+    qtbot: QtBot, application: Application, size: QSize
+) -> None:
+    application.window.resize(size)
+    application.window.bring_to_front("map")
+    view = application.view("map")
+    x, y = "switching_frequency", "distance"
+    rates = RateMap(x, y, lattice(x, 13), lattice(y, 7), ("threshold", "matched"))
+    rates.enter([SweepPoint(index, 10, (10, 10), "", (1, 1)) for index in range(91)], 2)
+    view.show_map(rates)
+    view.show_left_out(("Vignetting", "JPEG"))
+    assert_faultless(qtbot, application.window, "map")
+    assert texts_cut_off(view) == []
+    for part in (*view.plots.plots, view.plots.bar):
+        assert not part.isVisible() or not cut_off(part), part
+    plot = view.plots.plots[0]
+    assert plot.rect().toRectF().contains(plot.area())
+    assert plot.area().contains(plot.place_of((1.0, 1.0)))
+    assert application.window.size() == size
 
 
 @pytest.mark.whole

@@ -241,3 +241,14 @@ def test_a_pane_that_opens_below_the_middle_is_high_enough(
     window.bring_to_front("compare")
     qtbot.wait(50)
     assert compare.height() == given
+
+
+@pytest.mark.parametrize(("name", "side"), [("compare", "height"), ("equations", "width")])
+def test_a_pane_that_the_menu_opens_is_large_enough(
+    application: Application, qtbot: QtBot, name: str, side: str
+) -> None:
+    window = application.window
+    window.resize(1280, 800)
+    dock = window.docks[name]
+    dock.toggleViewAction().trigger()
+    qtbot.waitUntil(lambda: getattr(dock, side)() >= 0.25 * getattr(window, side)())

@@ -1,0 +1,303 @@
+"""Lessons in the window: their panes, the story, the photo's pane and the session beside them."""
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+from gui.user import User
+from PySide6.QtCore import QSize
+from pytestqt.qtbot import QtBot
+
+from occ_gui.app.application import Application
+from occ_gui.files.file_controller import sample_photos
+from occ_gui.files.session import SessionFile
+from occ_gui.files.session_record import Session
+from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.window.main_window import MainWindow
+from occ_model.effects.registry import NAMES
+from occ_model.results.decoding import Region
+from occ_model.scene.scene import Scene
+from occ_model.teaching.lessons import lessons
+
+
+@pytest.fixture
+def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
+    """Open the lessons by the menu."""
+    user.choose("&Lessons")
+    guide = application.shell.pane("lessons").view
+    qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
+    return guide
+
+
+def choose_sent(application: Application, sent: str) -> None:
+    """Choose what was sent, as with the mouse."""
+    chosen = application.view("photo").form.sent
+    chosen.show_key(sent)
+    chosen.chosen.emit(sent)
+
+
+def in_front(application: Application, name: str) -> bool:
+    return not application.window.docks[name].visibleRegion().isEmpty()
+
+
+def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot, small_scene: Scene
+) -> None:
+    lesson = lessons().lessons[0]
+    guide.list.choices[0].click()
+    user.wait_until_idle()
+    step = lesson.steps[0]
+    assert application.store.scene == step.scene
+    assert application.store.undo_stack.count() == 1
+    assert guide.step.question.text() == step.question
+    assert "step 1 of 3" in guide.step.place.text()
+    assert not guide.step.back.isEnabled()
+    # The row of the story shows the profile, and all the larger without another pane of it.
+    assert step.pane == "profile"
+    assert application.story.rows.profile.isVisible()
+    assert application.window.docks["profile"].isHidden()
+    user.choose("&Undo")
+    assert application.store.scene == small_scene
+
+
+def test_a_step_shows_the_pane_that_the_story_does_not_have(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    lesson = next(each for each in lessons().lessons if each.steps[0].pane == "accuracy")
+    guide.list.choices[lessons().lessons.index(lesson)].click()
+    user.wait_until_idle()
+    qtbot.waitUntil(lambda: in_front(application, "accuracy"))
+
+
+@pytest.mark.whole
+def test_the_photos_give_the_numbers_that_the_answers_state(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    guide.list.choices[5].click()
+    user.wait_until_idle()
+    for expected in ("12.8", "8.9"):
+        user.choose("&Match photo")
+        found = application.view("photo").result.values["readout_time"].text()
+        value = float(found.split()[0])  # with no condition: the frequency is told
+        assert f"{value:.1f}" == expected, found
+        if expected == "12.8":
+            guide.step.next.click()
+            user.wait_until_idle()
+    user.choose("&Apply to the scene")
+    assert application.store.scene.transmitter.code == 345
+    assert application.controls.code.number.value() == 345
+
+
+def test_a_step_about_a_photo_shows_its_verdict_first_and_takes_its_frequency_as_certain(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    story, photo = application.story, application.view("photo")
+    choose_sent(application, "square")  # of the user's own photo before
+    guide.list.choices[5].click()
+    for frequency in (2e3, 6e3):
+        user.wait_until_idle()
+        assert photo.form.sent.key() == "auto"
+        assert photo.form.certain.isChecked()
+        assert application.photos.choice.certain == {"switching_frequency": frequency}
+        assert photo.verdict.isVisible()
+        assert not story.verdict.isVisible()
+        guide.step.next.click()
+    user.wait_until_idle()
+    assert guide.end.isVisible()
+    assert story.verdict.isVisible()
+    assert not photo.verdict.isVisible()
+
+
+def test_the_lessons_stand_at_the_right_of_what_they_explain(
+    application: Application, guide: LessonView, qtbot: QtBot
+) -> None:
+    window = application.window
+    dock, picture = window.docks["lessons"], application.view("picture")
+    assert window.modes.mode == "lessons"
+    qtbot.waitUntil(lambda: not dock.visibleRegion().isEmpty())
+    assert dock.height() > window.height() // 2
+    assert dock.geometry().left() > picture.mapTo(window, picture.rect().center()).x()
+
+
+@pytest.mark.whole
+def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that_was_found(
+    application: Application, user: User, qtbot: QtBot
+) -> None:
+    photo, sample = application.view("photo"), sample_photos()[0]
+    application.open_photo(sample)
+    user.wait_until_idle()
+    choose_sent(application, "square")
+    application.shell.pane("photo").parts.draw(Region(100, 800, 0, 900))
+    user.choose("&Match photo")
+
+    def state() -> tuple[object, ...]:
+        # A pattern is cut where its label is narrow, and whole in the tooltip.
+        shown = {
+            name: label.toolTip() if name == "pattern" else label.text()
+            for name, label in photo.result.values.items()
+        }
+        title = photo.verdict.heading
+        return (
+            application.shell.pane("photo").matching.match, photo.form.choice(),
+            application.photos.choice.certain, photo.form.certain.isChecked(),
+            application.shell.pane("photo").parts.part, shown, title, photo.result.isHidden(),
+            photo.result.stale.isHidden(), application.photos.path,
+        )  # fmt: skip
+
+    before = state()
+    assert before[0] is not None
+    assert before[3]
+    user.choose("&Lessons")
+    guide = application.shell.pane("lessons").view
+    qtbot.waitUntil(lambda: bool(guide.list.choices))
+    guide.list.choices[5].click()
+    guide.step.next.click()
+    user.wait_until_idle()
+    assert application.photos.path != sample
+    choose_sent(application, "read")
+    guide.step.all.click()
+    user.wait_until_idle()
+    assert state() == before
+
+
+def begin_with_photo(
+    application: Application, guide: LessonView, user: User, size: QSize
+) -> MainWindow:
+    """Begin the lesson about a photo in a window of this size."""
+    window = application.window
+    window.modes.switch("lessons")
+    window.resize(size)
+    user.wait_until_idle()
+    guide.list.choices[5].click()
+    user.wait_until_idle()
+    return window
+
+
+@pytest.mark.own_window  # one that had other panes before may be a few pixels wider
+def test_a_lesson_beside_its_photo_fits_into_a_small_window(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    window = begin_with_photo(application, guide, user, QSize(1000, 700))
+    qtbot.waitUntil(lambda: application.view("photo").placement.isVisible())
+    assert window.minimumSizeHint().width() <= 1000
+    assert window.width() == 1000
+
+
+def test_in_a_large_window_a_lesson_leaves_its_photo_the_height_that_it_does_not_need(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    window = begin_with_photo(application, guide, user, QSize(1920, 1080))
+    lesson, photo = window.docks["lessons"], window.docks["photo"]
+    least = photo.minimumSizeHint().height()
+    qtbot.waitUntil(lambda: photo.height() > 1.4 * least)
+    assert lesson.height() >= lesson.sizeHint().height()
+
+
+def test_a_crash_during_a_lesson_leaves_the_users_own_state(
+    application: Application,
+    guide: LessonView,
+    user: User,
+    small_scene: Scene,
+    photo_file: Path,
+    tmp_path: Path,
+) -> None:
+    autosave = application.kept.autosave
+    autosave.resume(SessionFile(tmp_path, NAMES), Session(), scene_wins=True)
+    application.settings.set_tolerance(7.0)
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    before = application.store.store.workspace
+    guide.list.choices[5].click()
+    user.wait_until_idle()
+    assert application.store.scene != before.scene
+    assert application.photos.path != photo_file
+    autosave.write()
+    record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
+    assert record["in_use"]
+    assert Scene.from_toml(record["scene"]) == before.scene
+    assert record["settings"] == asdict(before.settings)
+    assert record["photo"]["path"] == str(photo_file)
+    guide.step.all.click()
+    user.wait_until_idle()
+    application.store.change(distance=2.0)
+    autosave.write()
+    record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
+    assert Scene.from_toml(record["scene"]).pose.distance == 2.0
+    autosave.end()
+
+
+def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
+    application: Application,
+    guide: LessonView,
+    user: User,
+    small_scene: Scene,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    written: list[Scene] = []
+    autosave = application.kept.autosave
+    monkeypatch.setattr(autosave, "end", lambda: written.append(application.store.scene))
+    guide.list.choices[0].click()
+    user.wait_until_idle()
+    assert application.store.scene != small_scene
+    application.window.close()
+    assert written == [small_scene]
+
+
+def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
+    application: Application, guide: LessonView, user: User
+) -> None:
+    story = application.story
+    usual = story.rows.axis.span
+    guide.list.choices[0].click()
+    user.wait_until_idle()
+    held = story.rows.axis.span
+    assert story.ranges["packets"].text() == "250 columns"
+    assert held == pytest.approx(250, rel=0.05)
+    for readout in (20e-6, 4e-6):
+        application.store.change(readout_time=readout)
+        user.wait_until_idle()
+        assert story.rows.axis.span == pytest.approx(held)
+    guide.step.all.click()
+    user.wait_until_idle()
+    assert story.ranges["packets"].text() == "2 packets"
+    assert story.rows.axis.span == pytest.approx(usual)
+    application.store.change(pattern="10")
+    user.wait_until_idle()
+    assert story.ranges["packets"].text() == "2 cycles"
+
+
+def test_a_lab_sheet_has_buttons_for_what_it_asks(
+    application: Application, guide: LessonView, user: User, qtbot: QtBot
+) -> None:
+    (sheet,) = [choice for choice in guide.list.choices if "readout" in choice.text()]
+    sheet.click()
+    assert not guide.step.action.isVisible()
+    for _ in range(3):
+        guide.step.next.click()
+    user.wait_until_idle()
+    assert guide.step.action.text() == "Match the photo"
+    given = guide.step.answer_field
+
+    def answer() -> str:
+        given.field.setText("12.8")
+        given.check.click()
+        user.wait_until_idle()
+        return str(given.sentence.text())
+
+    assert "Match the photo first" in answer()
+    guide.step.action.click()
+    user.wait_until_idle()
+    assert "Right. The match gives" in answer()
+    # The lesson stays beside the photo.
+    assert application.window.modes.mode == "lessons"
+    assert guide.isVisible()
+    assert application.view("photo").isVisible()
+    lessons = application.shell.pane("lessons")
+    assert lessons.controller.lesson_under_way is not None
+    first, *_, last = lessons.answers.all_of(lessons.controller.lesson_under_way)[:4]
+    assert last.match is application.shell.pane("photo").matching.match
+    assert last.photo == "led-1khz.jpg"
+    assert first.match is None
+    guide.step.all.click()
+    user.wait_until_idle()

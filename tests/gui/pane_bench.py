@@ -1,0 +1,168 @@
+"""Panes without the application: values go in by hand, and what they want comes out as edits."""
+
+from collections import defaultdict
+from collections.abc import Callable
+from functools import cached_property
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from gui.stores import store_of
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QSlider, QStyle, QStyleOptionSlider, QWidget
+from pytestqt.qtbot import QtBot
+
+from occ_gui.background.task import Task
+from occ_gui.detection_map.slider_strip import SliderStrips
+from occ_gui.detection_map.wiring import Measuring
+from occ_gui.export.export_controller import ExportController
+from occ_gui.export.feature import export
+from occ_gui.files.preferences import Preferences
+from occ_gui.scene.control_panel import ControlPanel
+from occ_gui.scene.parameter_rows import QuantityRow
+from occ_gui.scene.scene_editor import SceneEditor
+from occ_gui.shell.feature import Feature
+from occ_gui.shell.results import Board
+from occ_gui.shell.shell import Shell
+from occ_gui.simulation.controller import simulate
+from occ_gui.simulation.present_results import Use
+from occ_gui.simulation.preview import Picture
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.window.current_pane import CurrentPane
+from occ_model.scene.parameters import quantity
+from occ_model.scene.scene import Scene
+
+
+def handle_middle(slider: QSlider) -> float:
+    """Return where the middle of a slider's handle is, in its parent."""
+    option = QStyleOptionSlider()
+    slider.initStyleOption(option)
+    control, part = QStyle.ComplexControl.CC_Slider, QStyle.SubControl.SC_SliderHandle
+    handle = slider.style().subControlRect(control, option, part, slider)
+    return float(slider.x() + handle.x() + handle.width() / 2)
+
+
+class PlainWindow(QMainWindow):
+    """A window with docks, and with every menu entry that is asked for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.actions_by_name: dict[str, QAction] = defaultdict(lambda: QAction(self))
+        self.docks: dict[str, QDockWidget] = {}
+
+    def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
+        dock = self.docks[name] = QDockWidget(title, self)
+        dock.setWidget(content)
+        self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, dock)
+        dock.hide()
+        return dock
+
+
+class Present:
+    """Gives the results on a board as those of the present scene."""
+
+    def __init__(self, board: Board) -> None:
+        self._board = board
+
+    @property
+    def latest(self) -> Snapshot | None:
+        return self._board.results.snapshot
+
+    def ask(self, use: Use) -> None:
+        assert self.latest is not None
+        use(self.latest)
+
+
+class PaneBench:
+    """Store, board and shell for the features that a test adds; it simulates when it is told."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene) -> None:
+        self.scenes, self.board, self.window = store_of(scene), Board(), PlainWindow()
+        self.store, self.settings = self.scenes.store, self.scenes.settings
+        self.simulation: Any = SimpleNamespace(runner=Task(lambda *_: None, "no simulation"))
+        self.hear_first: list[Callable[[Snapshot], object]] = []
+        """Who hears of exact results before the panes."""
+        self.shell, self.said = Shell(self.store, self.board), list[str]()
+        self.shell.said.connect(self.said.append)
+        self.settings.refused.connect(self.said.append)
+        qtbot.addWidget(self.window)
+        self._qtbot = qtbot
+
+    def add(self, feature: Feature[Any], *, seen: bool = True) -> Any:
+        """Add a pane or a service, and give what is made of it."""
+        self.shell.add(feature, self.window)
+        if feature.title and seen:
+            self.see(feature.name)
+        return self.shell.pane(feature.name)
+
+    def see(self, name: str, seen: bool = True) -> None:
+        """Show or hide a pane."""
+        self.window.show()
+        self.window.docks[name].setVisible(seen)
+        self.window.docks[name].visibilityChanged.emit(seen)
+
+    def simulate(self, **changes: Any) -> Snapshot:
+        """Change the scene, and put its exact results on the board."""
+        if changes:
+            self.scenes.change(**changes)
+        workspace = self.store.workspace
+        snapshot = simulate(workspace.scene, workspace.settings)
+        for hear in self.hear_first:
+            hear(snapshot)
+        self.board.show_picture(Picture.of(snapshot.frame, workspace.whose, snapshot.request))
+        self.board.show_reading(snapshot)
+        self.board.show_snapshot(snapshot)
+        return snapshot
+
+    @cached_property
+    def measuring(self) -> Measuring:
+        """The channels of the processes; nothing is measured along a slider."""
+        row = QuantityRow(quantity("iso"), self.window)
+        row.hide()
+        return Measuring(self.scenes, SliderStrips({"iso": row}), lambda: False)
+
+    @cached_property
+    def exporter(self) -> ExportController:
+        """What exports the figures of the panes."""
+        present: Any = Present(self.board)
+        current = CurrentPane(self.window, self.window.docks)
+        feature = export(
+            self.window, self.shell, present, Preferences(None), lambda: current.name, self.scenes
+        )
+        exporter: ExportController = self.add(feature)
+        return exporter
+
+    def export(self, name: str, path: Path) -> str:
+        """Export a figure of the panes, and return what is said of it."""
+        self.exporter.export(name, path)
+        self.wait_until_idle()
+        return self.said[-1]
+
+    def wait_until_idle(self) -> None:
+        self._qtbot.waitUntil(lambda: self.shell.is_idle)
+
+
+class ControlsBench(PaneBench):
+    """The controls of the scene, which edit it and follow it."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene) -> None:
+        super().__init__(qtbot, scene)
+        self.controls, self.editor = ControlPanel([]), SceneEditor(self.scenes)
+        self.controls.connect_editor(self.editor)
+        self.controls.show_scene(scene)
+        self.scenes.changed.connect(self.controls.show_scene)
+        self.window.setCentralWidget(self.controls)
+        self.window.resize(1280, 800)
+        self.window.show()
+
+    def row(self, name: str) -> QuantityRow:
+        """Find the controls of a quantity of the first page."""
+        return self.controls.main_rows()[name]
+
+    def enter(self, name: str, text: str) -> None:
+        """Type a number, and press Enter."""
+        field = self.row(name).field
+        field.selectAll()
+        self._qtbot.keyClicks(field, text)
+        self._qtbot.keyClick(field, Qt.Key.Key_Return)

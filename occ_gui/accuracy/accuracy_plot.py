@@ -8,7 +8,6 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette, QResizeEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from occ_gui.accuracy.point_names import NamedPoint, PointNames
 from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
@@ -94,7 +93,6 @@ class AccuracyPlot(QWidget):
         widest = self.fontMetrics().horizontalAdvance(f"≤ {LEAST_ERROR:g}")
         self.plot.getAxis("left").setWidth(widest + self.fontMetrics().height() + _LABEL_GAP)
         self._make_items()
-        self.names = PointNames(self.plot)
         self.plot.dress_with(self._dress)
         self._lay_out()
         self._fit()
@@ -138,7 +136,6 @@ class AccuracyPlot(QWidget):
         self.front_points.setPen(of_front)
         self.front_ring.setPen(ring)
         self._write_legend(palette)
-        self._name_points(palette)
         grey = palette.color(QPalette.ColorRole.Mid)
         self._floor.setPen(thin(grey, Qt.PenStyle.DashLine))
 
@@ -255,8 +252,8 @@ class AccuracyPlot(QWidget):
         self._drawn = ways_shown(points)
         shown = [way.point for way in self._drawn]
         for part in ACCURACY_PARTS:
-            of_part = [point for point in shown if point.part == part]
-            self.scatters[part].setData(*_places(of_part), data=of_part)
+            of_part = [way for way in self._drawn if way.point.part == part]
+            self.scatters[part].setData(*_places([way.point for way in of_part]), data=of_part)
             self.scatters[part].setOpacity(opacity)
         for part, line in self.lines.items():
             chain = [p for p in points if p.part == part and not p.current]
@@ -264,17 +261,7 @@ class AccuracyPlot(QWidget):
             line.setOpacity(opacity)
         self.rings.setData(*_places([point for point in shown if point.current]))
         self.rings.setOpacity(opacity)
-        self._name_points(self.palette())
-        self.names.set_opacity(opacity)
         self._fit()
-
-    def _name_points(self, palette: QPalette) -> None:
-        xs, ys = _places([way.point for way in self._drawn])
-        self.names.show(
-            [NamedPoint(x, y, way.name) for way, x, y in zip(self._drawn, xs, ys, strict=True)],
-            palette.color(QPalette.ColorRole.Text),
-            palette.color(QPalette.ColorRole.Base),
-        )
 
     def _fit_again(self) -> None:
         self._fits_points = True
@@ -307,6 +294,7 @@ def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
     return times, [math.log10(max(point.error, LEAST_ERROR)) for point in points]
 
 
-def _describe(point: AccuracyPoint) -> str:
+def _describe(way: Way) -> str:
+    point = way.point
     numbers = f"{1e3 * point.seconds:.3g} ms, {point.error:.3g} levels"
-    return f"{point.name}: {numbers}\n({ACCURACY_PARTS[point.part]})"
+    return f"{way.name}: {numbers}\n({ACCURACY_PARTS[point.part]})"

@@ -1,16 +1,12 @@
 """The plot shows the points as they come, and until then those before, faint."""
 
 import math
-from itertools import combinations
 
-import numpy as np
 import pytest
-from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_plot import _RING, COLOURS, SYMBOLS, AccuracyPlot
-from occ_gui.accuracy.point_names import _FreePlaces
 from occ_gui.accuracy.ways_shown import ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint
@@ -66,7 +62,7 @@ def measure(plot: AccuracyPlot, points: tuple[AccuracyPoint, ...] = POINTS) -> N
 
 
 def names(plot: AccuracyPlot) -> list[str]:
-    return [p.name for scatter in plot.scatters.values() for p in scatter.data["data"]]
+    return [way.point.name for scatter in plot.scatters.values() for way in scatter.data["data"]]
 
 
 def test_each_point_is_at_its_time_and_error_with_its_marker(plot: AccuracyPlot) -> None:
@@ -94,45 +90,6 @@ def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder(
     points = [*POINTS[:5], bare]
     shown = [way.name for way in ways_shown(points) if way.point.part == "effects"]
     assert shown == ["now: picture, no effects", "picture, all effects"]
-
-
-@pytest.mark.parametrize("size", [QSize(352, 200), QSize(640, 190), QSize(720, 240)], ids=str)
-def test_points_are_named_and_no_name_covers_another(plot: AccuracyPlot, size: QSize) -> None:
-    """In the smallest plot one name has no room: rather none than one at another's point."""
-    plot.resize(size)
-    measure(plot, tuple(crowd()))
-    QApplication.processEvents()
-    places = plot.names.places
-    unnamed = {way.name for way in ways_shown(crowd())} - set(places)
-    assert len(unnamed) <= (1 if size.width() < 400 else 0)
-    for one, other in combinations(places, 2):
-        assert not places[one].intersects(places[other]), (one, other)
-    area = plot.plot.getViewBox().sceneBoundingRect()
-    assert all(area.contains(place) for place in places.values())
-
-
-def test_a_name_stands_nearer_to_its_own_point_than_to_any_other(plot: AccuracyPlot) -> None:
-    plot.resize(720, 300)
-    measure(plot, tuple(crowd()))
-    QApplication.processEvents()
-    box = plot.plot.getViewBox()
-    points = {
-        way.name: box.mapViewToScene(
-            QPointF(
-                math.log10(1e3 * way.point.seconds),
-                math.log10(max(way.point.error, LEAST_ERROR)),
-            )
-        )
-        for way in ways_shown(crowd())
-    }
-    for name, rect in plot.names.places.items():
-
-        def distance(point: QPointF, rect: QRectF = rect) -> float:
-            right = max(rect.left() - point.x(), point.x() - rect.right(), 0.0)
-            down = max(rect.top() - point.y(), point.y() - rect.bottom(), 0.0)
-            return math.hypot(right, down)
-
-        assert min(points, key=lambda each: distance(points[each])) == name
 
 
 def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> None:
@@ -177,9 +134,9 @@ def test_why_nothing_was_measured_is_shown(plot: AccuracyPlot) -> None:
 
 def test_a_point_tells_its_name_time_error_and_part(plot: AccuracyPlot) -> None:
     measure(plot)
-    tip = plot.scatters["path"].opts["tip"]
-    assert tip(x=0.0, y=0.0, data=POINTS[6]) == (
-        "profile path: 0.1 ms, 0.4 levels\n(columns alone, whole pictures)"
+    scatter = plot.scatters["path"]
+    assert scatter.opts["tip"](x=0.0, y=0.0, data=scatter.data["data"][0]) == (
+        "profile only: 0.1 ms, 0.4 levels\n(columns alone, whole pictures)"
     )
 
 
@@ -216,33 +173,3 @@ def test_the_rings_at_the_top_and_at_the_bottom_are_whole(plot: AccuracyPlot, he
     ys = [math.log10(max(point.error, LEAST_ERROR)) for point in POINTS]
     assert (high - max(ys)) / pixel >= _RING - 0.01
     assert (math.log10(LEAST_ERROR) - low) / pixel >= _RING - 0.01
-
-
-def test_the_line_to_a_name_does_not_cross_another_name() -> None:
-    """A name between a point and the next free place makes another direction the better one."""
-    here, size = QPointF(100.0, 100.0), QSizeF(40.0, 10.0)
-    places = _FreePlaces(QRectF(0.0, 0.0, 400.0, 400.0), [here])
-    first = places.take(here, size)
-    assert first is not None
-    centre = np.array([[here.x() + 3.0 * (first.center().x() - here.x()),
-                        here.y() + 3.0 * (first.center().y() - here.y())]])  # fmt: skip
-    at = np.array([here.x(), here.y()])
-    other = 2.0 * at - centre
-    assert places._is_crossing(np.concatenate([centre, other]), size, at).tolist() == [True, False]
-
-
-def test_a_name_does_not_lie_on_the_line_to_another_name() -> None:
-    one, other, size = np.array([50.0, 200.0]), np.array([200.0, 300.0]), QSizeF(40.0, 10.0)
-    places = _FreePlaces(QRectF(0.0, 0.0, 400.0, 400.0), [QPointF(*one), QPointF(*other)])
-    places._fill(np.array([350.0, 200.0]), size, one)
-    on_the_line, beside_it = np.array([[200.0, 200.0]]), np.array([[200.0, 320.0]])
-    assert places._is_crossing(on_the_line, size, other).tolist() == [True]
-    assert places._is_crossing(beside_it, size, other).tolist() == [False]
-
-
-def test_the_line_to_a_name_does_not_pass_another_point() -> None:
-    here, between, size = np.array([50.0, 200.0]), QPointF(150.0, 202.0), QSizeF(40.0, 10.0)
-    places = _FreePlaces(QRectF(0.0, 0.0, 400.0, 400.0), [QPointF(*here), between])
-    behind_it, elsewhere = np.array([[250.0, 200.0]]), np.array([[50.0, 100.0]])
-    assert places._is_crossing(behind_it, size, here).tolist() == [True]
-    assert places._is_crossing(elsewhere, size, here).tolist() == [False]

@@ -1,9 +1,13 @@
 """Draw how a board is wired to the light, with the values' assumptions and the cautions."""
 
 import textwrap
+from collections.abc import Iterator
+from contextlib import contextmanager
 
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from schemdraw import Drawing, elements
 
 from occ_model.boards.board import Board
 from occ_model.boards.caution import EYES, flicker_sentence
@@ -15,11 +19,13 @@ from occ_model.boards.wiring import (
     Wiring,
     wiring,
 )
-from occ_model.figures import circuit_symbols as symbols
 from occ_model.scene.units import SECOND
 
 _SIZE = (7.6, 6.0)
 """In inches."""
+
+_TEXT = 8
+"""Size of the circuits' texts, in points."""
 
 _LINE_LENGTH = 116
 """Characters of a line of text below the drawing."""
@@ -29,15 +35,15 @@ def wiring_figure(sent: Transmission) -> Figure:
     """Draw the circuit; call it within :func:`occ_model.figures.drawing.house_style`."""
     values = wiring(sent.board)
     figure = Figure(figsize=_SIZE)
-    drawn, written = figure.subplots(2, 1, height_ratios=(3.4, 2.6))
-    for axes in (drawn, written):
+    figure.suptitle(f"{sent.board.title}: wiring", fontweight="bold")
+    places = figure.subplot_mosaic("AAB;TTT", height_ratios=(3.4, 2.6))
+    written = places["T"]
+    for axes in places.values():
         axes.set_axis_off()
-    drawn.text(0.1, 9.2, f"{sent.board.title}: wiring", fontweight="bold", va="center")
-    drawn.set_aspect("equal")
-    drawn.set_xlim(0, 21)
-    drawn.set_ylim(-0.5, 9.6)
-    _draw_panel(drawn, sent.board, values)
-    _draw_led(drawn, sent.board, values)
+    places["A"].set_title("A: panel, switched as in the paper")
+    _draw_panel(places["A"], sent.board, values)
+    places["B"].set_title("B: a single LED")
+    _draw_led(places["B"], sent.board, values)
     written.set_xlim(0, 1)
     written.set_ylim(0, 1)
     text = "\n".join(textwrap.fill(line, _LINE_LENGTH) for line in notes(sent))
@@ -67,41 +73,50 @@ def notes(sent: Transmission) -> list[str]:
 
 def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
     """Draw the paper's circuit: a MOSFET switches the panel."""
-    axes.text(0.1, 7.9, "A: panel, switched as in the paper", va="center")
-    symbols.box(axes, (0.1, 1.6), (3.2, 4.0), board.title.replace(" ", "\n", 1))
-    axes.text(3.15, 4.35, board.pin, va="center", ha="right")
-    axes.text(3.15, 2.1, board.ground, va="center", ha="right")
-    symbols.wire(axes, (3.3, 4.0), (4.0, 4.0))
-    symbols.resistor(axes, 5.0, 4.0, f"{values.gate_resistor} Ω")
-    symbols.wire(axes, (6.0, 4.0), (7.6, 4.0))
-    symbols.joint(axes, 6.7, 4.0)
-    symbols.wire(axes, (6.7, 4.0), (6.7, 3.4))
-    symbols.resistor(axes, 6.7, 2.4, f"{values.pull_down // 1000} kΩ", upright=True)
-    symbols.transistor(axes, 8.6, 4.0, board.transistor)
-    symbols.wire(axes, (9.1, 5.0), (9.1, 5.6))
-    symbols.box(axes, (8.1, 5.6), (2.0, 1.3), "LED\npanel")
-    symbols.wire(axes, (9.1, 6.9), (9.1, 7.5), (12.6, 7.5), (12.6, 5.4))
-    symbols.box(axes, (11.6, 4.1), (2.0, 1.3), "12 V")
-    axes.text(12.8, 5.6, "+", va="bottom")
-    axes.text(12.8, 3.9, "-", va="top")
-    # The board's ground, the MOSFET's source and the supply's minus are one wire.
-    symbols.wire(axes, (3.3, 2.1), (4.0, 2.1), (4.0, 0.7), (12.6, 0.7), (12.6, 4.1))
-    for x, top in ((6.7, 1.4), (9.1, 3.0)):
-        symbols.wire(axes, (x, top), (x, 0.7))
-        symbols.joint(axes, x, 0.7)
-    symbols.wire(axes, (5.2, 0.7), (5.2, 0.3))
-    symbols.joint(axes, 5.2, 0.7)
-    symbols.ground(axes, 5.2, 0.3)
+    with _circuit(axes) as drawing:
+        pins = [
+            elements.IcPin(board.ground, side="right", anchorname="ground", lblsize=_TEXT),
+            elements.IcPin(board.pin, side="right", anchorname="out", lblsize=_TEXT),
+        ]
+        name = board.title.replace(" ", "\n", 1)
+        chip = drawing.add(elements.Ic(pins=pins, size=(3.4, 3.6), label=name))
+        drawing.add(elements.RBox().at(chip.out).right(3.4).label(f"{values.gate_resistor} Ω"))
+        gate = drawing.add(elements.Dot())
+        pull_down = drawing.add(
+            elements.RBox().down(2.6).label(f"{values.pull_down // 1000} kΩ", loc="bottom")
+        )
+        drawing.add(elements.Dot())
+        drawing.add(elements.Ground())
+        mosfet = elements.NMos().right().anchor("gate").label(board.transistor, "right")
+        drawing.add(mosfet.at((gate.center.x + 1.0, gate.center.y)))
+        drawing.add(elements.Line().at(gate.center).to(mosfet.gate))
+        ends = [elements.IcPin(side=side, anchorname=side) for side in ("top", "bottom")]
+        panel = elements.Ic(pins=ends, size=(2.0, 1.4), label="LED\npanel").anchor("bottom")
+        drawing.add(panel.at(mosfet.drain))
+        drawing.add(elements.Line().at(panel.top).right(3.4))
+        drawing.add(elements.Battery().toy(pull_down.end).reverse().label("12 V", "bottom"))
+        # The board's ground, the MOSFET's source and the supply's minus are one wire.
+        drawing.add(elements.Line().tox(mosfet.source))
+        drawing.add(elements.Dot())
+        drawing.add(elements.Line().tox(pull_down.end))
+        drawing.add(elements.Line().at(mosfet.source).toy(pull_down.end))
+        drawing.add(elements.Wire("|-").at(chip.ground).to(pull_down.end))
 
 
 def _draw_led(axes: Axes, board: Board, values: Wiring) -> None:
     """Draw a single LED at the pin."""
-    axes.text(15.2, 7.9, "B: a single LED", va="center")
-    axes.text(15.2, 6.4, f"{board.pin} of the board", va="bottom", ha="left")
-    symbols.wire(axes, (15.4, 6.2), (16.6, 6.2), (16.6, 5.9))
-    symbols.resistor(axes, 16.6, 4.9, f"{values.led_resistor} Ω", upright=True)
-    symbols.wire(axes, (16.6, 3.9), (16.6, 3.4))
-    symbols.diode(axes, 16.6, 2.4, "LED")
-    symbols.wire(axes, (16.6, 1.4), (16.6, 0.7))
-    symbols.ground(axes, 16.6, 0.7)
-    axes.text(17.3, 0.5, board.ground, va="center", ha="left")
+    with _circuit(axes) as drawing:
+        drawing.add(elements.Dot(open=True).label(f"{board.pin} of the board", "top"))
+        drawing.add(elements.RBox().down(2.6).label(f"{values.led_resistor} Ω", loc="bottom"))
+        drawing.add(elements.LED().down(2.0).label("LED", loc="bottom"))
+        drawing.add(elements.Ground().label(board.ground, "right"))
+
+
+@contextmanager
+def _circuit(axes: Axes) -> Iterator[Drawing]:
+    """Draw the elements that are added into axes."""
+    drawing = Drawing(canvas=axes)
+    drawing.config(fontsize=_TEXT, lw=1.2, font=rcParams["font.family"][0])
+    yield drawing
+    drawing.draw(show=False)
+    axes.set_aspect("equal", adjustable="datalim")

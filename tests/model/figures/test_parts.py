@@ -9,7 +9,6 @@ import pytest
 from occ_model.figures import lesson_steps
 from occ_model.figures.accuracy import _draw_part
 from occ_model.figures.bench import _draw_bits
-from occ_model.figures.circuit_symbols import ground, transistor
 from occ_model.figures.decoding import _draw_signal
 from occ_model.figures.paper import _padded, _shown_columns
 from occ_model.figures.sweep import _axis_label
@@ -37,16 +36,6 @@ def test_the_bits_of_a_bench_are_drawn_with_both_ends_of_their_intervals() -> No
     assert (below, above) == ([2.0, 2.0], [4.0, 4.0])
 
 
-def test_the_arrow_of_a_transistor_points_straight_at_its_gate() -> None:
-    axes = Mock()
-    transistor(axes, 3.0, 7.0, "Q1")
-    (arrow,) = axes.add_patch.call_args.args
-    tip, *base = arrow.get_xy()[:3].tolist()
-    assert tip[1] == 7.0
-    assert base[0][0] == base[1][0] > tip[0] > 3.0
-    assert np.mean([corner[1] for corner in base]) == pytest.approx(7.0)
-
-
 @pytest.mark.parametrize(("left", "first"), [(3.4, 4), (5.0, 5), (-7.2, 0)])
 def test_a_profile_begins_with_the_first_column_whose_middle_shows_the_panel(
     left: float, first: int
@@ -67,16 +56,6 @@ def test_only_points_that_follow_one_another_are_joined_by_a_line(part: str) -> 
     _draw_part(axes, part, points)  # type: ignore[arg-type]
     styles = [call.kwargs.get("linestyle") for call in axes.plot.call_args_list]
     assert ("-" in styles) == (part in CHAINED_PARTS)
-
-
-def test_the_ground_is_level_lines_each_shorter_than_the_one_above() -> None:
-    axes = Mock()
-    ground(axes, 2.0, 1.0)
-    lines = [call.args[:2] for call in axes.plot.call_args_list]
-    widths = [np.ptp(x) for x, _ in lines]
-    assert all(np.mean(x) == pytest.approx(2.0) for x, _ in lines)
-    assert all(np.ptp(y) == 0.0 for _, y in lines)
-    assert widths[0] > widths[1] > widths[2] > 0.0
 
 
 @pytest.mark.parametrize("swing", [0.1, 4.0, 200.0])

@@ -141,10 +141,10 @@ class ProfileRow(StoryRow):
         self._draw_grid(painter, area)
         self._draw_threshold(painter, area)
         columns = np.arange(len(levels), dtype=np.float64)
-        if self.band is not None:
-            self._draw_curve(painter, area, columns, self.band, BAND, dash=DASH)
         self._draw_curve(painter, area, columns, levels, SIMULATION)
-        if self.photo is not None:  # thinner, so that both are seen where they agree
+        if self.band is not None:  # its dashes above, so that both are seen where they agree
+            self._draw_curve(painter, area, columns, self.band, BAND, dash=DASH)
+        if self.photo is not None:  # and thinner
             self._draw_curve(painter, area, *self.photo, PHOTO, width=_THIN)
 
     def _draw_curve(

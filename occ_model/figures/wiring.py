@@ -106,7 +106,7 @@ def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
 def _draw_led(axes: Axes, board: Board, values: Wiring) -> None:
     """Draw a single LED at the pin."""
     with _circuit(axes) as drawing:
-        drawing.add(elements.Dot(open=True).label(f"{board.pin} of the board", "top"))
+        drawing.add(elements.Dot(open=True).label(board.pin, "right"))
         drawing.add(elements.RBox().down(2.6).label(f"{values.led_resistor} Ω", loc="bottom"))
         drawing.add(elements.LED().down(2.0).label("LED", loc="bottom"))
         drawing.add(elements.Ground().label(board.ground, "right"))

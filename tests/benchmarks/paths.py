@@ -4,8 +4,9 @@ python tests/benchmarks/paths.py --scenes 200 --images 20
 python tests/benchmarks/paths.py --scenes 200 --images 8 --any
 python tests/benchmarks/paths.py --pictures
 
-The first takes scenes at which one of the decoders, each in turn, is in doubt; the second any. The
-third prints the rates of the phone's whole pictures round the end of its working range.
+The first takes scenes at which one of the decoders, each in turn, is in doubt; the second any. What
+is known after every ten of them goes to the standard error. The third prints the rates of the
+phone's whole pictures round the end of its working range.
 """
 
 import argparse
@@ -28,8 +29,6 @@ from physics.paths import (
     significance,
 )
 
-JOBS = 2
-
 
 def main() -> None:
     """Compare studies with pictures and print a line for each decoder and preset."""
@@ -37,18 +36,23 @@ def main() -> None:
     parser.add_argument("--scenes", type=int, default=200)
     parser.add_argument("--images", type=int, default=20)
     parser.add_argument("--seed", type=int, default=2)
+    parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--any", action="store_true")
     parser.add_argument("--pictures", action="store_true")
     asked = parser.parse_args()
     if asked.pictures:
         compare_pictures()
         return
-    with ProcessPoolExecutor(JOBS) as processes:
+    found: list[TwoPaths] = []
+    with ProcessPoolExecutor(asked.jobs) as processes:
         jobs = [
             processes.submit(compared_one, number, asked.images, asked.seed, asked.any)
             for number in range(asked.scenes)
         ]
-        found = [pair for job in jobs for pair in job.result()]
+        for done, job in enumerate(jobs, 1):
+            found += job.result()
+            if done % 10 == 0:
+                print(f"{done} scenes: {so_far(found)}", file=sys.stderr, flush=True)
     print("| decoder | preset | scenes | in doubt | mean difference, points | p |")
     print("|---|---|---|---|---|---|")
     for decoder in DECODERS:
@@ -67,6 +71,15 @@ def compared_one(number: int, images: int, seed: int, any_scene: bool) -> list[T
     if any_scene:
         return list(compared((number,), images, seed))
     return list(compared_at(scene_in_doubt(number, seed), images, number))
+
+
+def so_far(found: list[TwoPaths]) -> str:
+    """Write each decoder's p and the rates in doubt that it rests on."""
+    parts = []
+    for decoder in DECODERS:
+        probability, terms = significance([pair for pair in found if pair.decoder == decoder])
+        parts.append(f"{decoder} {probability:.2f} of {terms}")
+    return ", ".join(parts)
 
 
 def compare_pictures() -> None:

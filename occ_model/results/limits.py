@@ -54,25 +54,20 @@ class RangeEnd:
         None where there is none, or it was not looked for.
     is_bisected
         Whether the end was found by bisection; otherwise it is known to a step of the search.
+    interval
+        The values between which the true end lies, with 95 %; None where that is not known.
     """
 
     works: Trial
     fails: Trial | None
     inside: Trial | None = None
     is_bisected: bool = False
+    interval: tuple[float, float] | None = None
 
     @property
     def value(self) -> float:
         """The last value at which the decoder reads, in SI units."""
         return self.works.value
-
-    @property
-    def interval(self) -> tuple[float, float] | None:
-        """The values between which the true end lies, with 95 %; None where that is not known."""
-        if self.fails is None or self.inside is None:
-            return None
-        first, last = sorted((self.inside.value, self.fails.value))
-        return first, last
 
 
 @dataclass(frozen=True, slots=True)

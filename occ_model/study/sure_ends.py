@@ -5,20 +5,25 @@ their 95 % intervals lie on either side of the rate asked for. At a rate of 99 %
 381 images, all of them read. So values inside are tried in growing steps from the end, each until a
 first image is not read. The search has found a value that fails in twenty images, which is far out
 where the rate falls slowly: values between it and the end are tried with more images, each until it
-is refuted that the rate is reached there.
+is refuted that the rate is reached there. In which part between the end lies is told by more
+pictures there: see :mod:`occ_model.study.end_interval`.
 """
 
 import math
+from collections import deque
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import islice, takewhile
+
+import numpy as np
 
 from occ_model.parallel.job import Heartbeat
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study.confidence import TWO_SIDED, trial_of
-from occ_model.study.working_range import NEAR, moved, other_seed, right_bits_at
+from occ_model.study.end_interval import interval_of_end
+from occ_model.study.working_range import NEAR, Images, moved, right_bits_at
 
 MOST_IMAGES = 1000
 """Images at a value beyond which it is not shown to be read: at rates above 99.6 %."""
@@ -26,6 +31,9 @@ MOST_IMAGES = 1000
 
 OUTSIDE = 200
 """Most images at a value beyond an end."""
+
+_ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
+"""Pictures at parts of what is left of an interval, in rounds."""
 
 _CHANCE = 0.025
 """Chance to refute a rate that is reached: that of one side of a 95 % interval."""
@@ -54,7 +62,7 @@ def with_sure_ends(
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
 ) -> WorkingRange:
-    """Find, for each bisected end, a value inside that is surely read, and the nearest that fails.
+    """Find, for each bisected end, values on both sides that are sure, and its interval.
 
     Parameters
     ----------
@@ -68,14 +76,18 @@ def with_sure_ends(
     images = images_to_be_sure(rate)
     if not images or not found.intervals:
         return found
-    own = replace(settings, images=max(images, settings.images), seed=other_seed(settings.seed))
+    own = replace(settings, images=max(images, settings.images))
 
     def sure(end: RangeEnd, other: RangeEnd) -> RangeEnd:
         if end.fails is None or not end.is_bisected:
             return end
-        inside = _inside(scene, found.parameter, end.value, other.value, own, heartbeat)
-        fails = _outside(scene, found.parameter, end, rate, own, heartbeat)
-        return replace(end, inside=inside, fails=fails)
+        taken = _Pictures(scene, found.parameter, own, heartbeat)
+        inside = _inside(taken, end.value, other.value)
+        fails = _outside(taken, end.value, end.fails, rate)
+        known = replace(end, inside=inside, fails=fails)
+        if inside is None:
+            return known
+        return replace(known, interval=_interval(taken, rate, inside.value, fails.value))
 
     return replace(
         found,
@@ -86,50 +98,80 @@ def with_sure_ends(
     )
 
 
-def _inside(
-    scene: Scene,
-    name: str,
-    end: float,
-    other: float,
-    settings: RateSettings,
-    heartbeat: Heartbeat,
-) -> Trial | None:
+class _Pictures:
+    """What is read in pictures at values about an end.
+
+    The pictures of each value are others: those of one seed begin at the same parts of a packet, so
+    that near values lose the same ones.
+    """
+
+    def __init__(
+        self, scene: Scene, name: str, settings: RateSettings, heartbeat: Heartbeat
+    ) -> None:
+        self.bits = scene.transmitter.payload_length
+        self.most = settings.images
+        self._scene, self._name = scene, name
+        self._settings, self._heartbeat = settings, heartbeat
+        self._at: dict[float, Images] = {}
+
+    def at(self, value: float) -> Images:
+        """Return the right bits of each picture at a value."""
+        if value not in self._at:
+            own = replace(self._settings, seed=_seed_at(value, self._settings.seed))
+            coming = right_bits_at(self._scene, self._name, value, own, self._heartbeat)
+            self._at[value] = Images(coming)
+        return self._at[value]
+
+    def lost(self) -> dict[float, list[float]]:
+        """Return the shares of bits that were lost, by the value."""
+        return {
+            value: [1.0 - right / self.bits for right in images.seen]
+            for value, images in self._at.items()
+        }
+
+
+def _seed_at(value: float, seed: int) -> int:
+    return int(np.random.SeedSequence([seed, 2, *value.as_integer_ratio()]).generate_state(1)[0])
+
+
+def _inside(taken: _Pictures, end: float, other: float) -> Trial | None:
     """Find the value nearest to an end of which every image is read."""
-    value, step, bits = end, NEAR, scene.transmitter.payload_length
+    value, step = end, NEAR
     while value != other:
         value, step = moved(value, other, step), step * step
-        counts = right_bits_at(scene, name, value, settings, heartbeat)
-        read = takewhile(lambda right: right == bits, counts)
-        trial = trial_of(value, list(read), bits)
-        if trial.images == settings.images:
-            return trial
+        read = list(takewhile(lambda right: right == taken.bits, taken.at(value)))
+        if len(read) == taken.most:
+            return trial_of(value, read, taken.bits)
     return None
 
 
-def _outside(
-    scene: Scene,
-    name: str,
-    end: RangeEnd,
-    rate: float,
-    settings: RateSettings,
-    heartbeat: Heartbeat,
-) -> Trial | None:
+def _outside(taken: _Pictures, end: float, fails: Trial, rate: float) -> Trial:
     """Halve the distance from an end to a value that fails, as long as the rate is refuted."""
-    fails, bits = end.fails, scene.transmitter.payload_length
-    while fails is not None:
-        low, high = sorted((end.value, fails.value))
-        value = float(f"{math.sqrt(low * high):.5g}")
+    while True:
+        low, high = sorted((end, fails.value))
+        value = _between(low, high, 0.5)
         if high / low <= NEAR * NEAR or value in (low, high):
-            break
-        counts = right_bits_at(scene, name, value, settings, heartbeat)
-        refuting = _until_refuted(islice(counts, OUTSIDE), bits, rate / 100.0)
-        if refuting is None:
-            break
-        trial = trial_of(value, refuting, bits)
-        if trial.high >= rate:
-            break
+            return fails
+        refuting = _until_refuted(islice(taken.at(value), OUTSIDE), taken.bits, rate / 100.0)
+        trial = refuting and trial_of(value, refuting, taken.bits)
+        if not trial or trial.high >= rate:
+            return fails
         fails = trial
-    return fails
+
+
+def _interval(taken: _Pictures, rate: float, inside: float, outside: float) -> tuple[float, float]:
+    """Take pictures between two values, nearer to the end each time, and return its interval."""
+    first, last = inside, outside
+    for _ in range(_ROUNDS):
+        for part in _PARTS:
+            deque(islice(taken.at(_between(first, last, part)), PICTURES), maxlen=0)
+        first, last = interval_of_end(taken.lost(), rate, inside, outside)
+    low, high = sorted((first, last))
+    return low, high
+
+
+def _between(first: float, last: float, part: float) -> float:
+    return float(f"{first * (last / first) ** part:.5g}")
 
 
 def _until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:

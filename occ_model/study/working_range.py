@@ -75,21 +75,21 @@ def right_bits_at(
     return (right for (right,) in right_bits_of_images(at, settings, heartbeat))
 
 
-class _Images:
+class Images:
     """The bits that are read rightly in the images at one value, one image after the other."""
 
     def __init__(self, images: Iterator[int]) -> None:
         self._coming = images
-        self._seen: list[int] = []
+        self.seen: list[int] = []
 
     def __iter__(self) -> Iterator[int]:
         for place in count():
-            if place == len(self._seen):
+            if place == len(self.seen):
                 following = next(self._coming, None)
                 if following is None:
                     return
-                self._seen.append(following)
-            yield self._seen[place]
+                self.seen.append(following)
+            yield self.seen[place]
 
 
 class _Search:
@@ -122,7 +122,7 @@ class _Search:
         self._low, self._high = min(low, self._own), max(high, self._own)
         self._values = self._coarse_values()
         self._fresh = replace(settings, seed=other_seed(settings.seed))
-        self._images: dict[tuple[float, int], _Images] = {}
+        self._images: dict[tuple[float, int], Images] = {}
         self._refuted: set[int] = set()
 
     def working_range(self) -> WorkingRange:
@@ -288,10 +288,10 @@ class _Search:
                 break
         return trial_of(value, counts, self._bits)
 
-    def _images_at(self, value: float, settings: RateSettings) -> _Images:
+    def _images_at(self, value: float, settings: RateSettings) -> Images:
         key = value, settings.seed
         if key not in self._images:
-            self._images[key] = _Images(
+            self._images[key] = Images(
                 right_bits_at(self._scene, self._name, value, settings, self._heartbeat)
             )
         return self._images[key]

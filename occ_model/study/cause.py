@@ -1,9 +1,13 @@
 """Why a picture is not read: the cause in the scene, before the symptom that a decoder meets."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from occ_model.camera.photometry import FLAT, WHITE, level_values
+from occ_model.camera.projection import panel_corners
+from occ_model.camera.sensor import deviation
+from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
 from occ_model.receiver.matched.payload_templates import MOST_BITS
 from occ_model.receiver.short_chips import columns_of_chip
@@ -27,6 +31,11 @@ _BRIGHT = 200.0
 
 _ROOM = 1.15
 """By how much a step goes beyond the limit that theory gives."""
+
+
+_ABOVE_NOISE = {"threshold": 10.0, "equalizer": 2.0}
+"""Times a column's noise that stripes must swing, at random scenes: a single column that errs cuts
+a run in two. The equalizer smooths."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +62,12 @@ def cause_of(scene: Scene, decoder: str) -> Cause | None:
         return None
     try:
         found = (
-            _light(scene), _short_chips(scene), _few_chips(scene, decoder), _bits(scene, decoder)
+            _light(scene), _short_chips(scene), _few_chips(scene, decoder), _bits(scene, decoder),
+            _null(scene, decoder), _noise(scene, decoder),
         )  # fmt: skip
     except OccError:
         return None
-    return next((one for one in (*found, _null(scene, decoder)) if one is not None), None)
+    return next((one for one in found if one is not None), None)
 
 
 def _light(scene: Scene) -> Cause | None:
@@ -143,13 +153,36 @@ def _compared_bits(scene: Scene) -> int:
 def _null(scene: Scene, decoder: str) -> Cause | None:
     null = theory.null_frequency(scene)
     ratio = scene.transmitter.switching_frequency / null
-    if decoder != "threshold" or ratio < _NEAR_NULL:
+    if decoder not in TWO_HEADERS or ratio < _NEAR_NULL:
         return None
     side = "beyond" if ratio > 1.0 else "at"
-    bits = scheme_of(scene.transmitter).bits
-    other = "matched" if bits <= _compared_bits(scene) else "sequence"
+    why = f"An exposure covers {2.0 * ratio:.3g} chips: single chips average out"
+    if decoder == "equalizer":
+        why += ", and undoing that amplifies rounding and noise"
+    return Cause(f"{side} the null at {HERTZ.format(null, 3)}", f"{why}.", _whole_packets(scene))
+
+
+def _noise(scene: Scene, decoder: str) -> Cause | None:
+    """Compare a column's noise with the stripes of chips that alternate."""
+    chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
+    region = region_of(panel_corners(scene), scene.camera.rows, scene.camera.columns)
+    if decoder not in _ABOVE_NOISE or region is None or chips >= 2.0:
+        return None
+    values = level_values(scene)
+    of_pixel = deviation(values, scene, lambda electrons: electrons + scene.sensor.read_noise**2)
+    of_column = float(of_pixel.max()) / math.sqrt(region.rows)
+    swing = float(values[1] - values[0]) * min(1.0, 2.0 / chips - 1.0)
+    if swing >= _ABOVE_NOISE[decoder] * of_column:
+        return None
     return Cause(
-        f"{side} the null at {HERTZ.format(null, 3)}",
-        f"An exposure covers {2.0 * ratio:.3g} chips: single chips average out.",
-        Step(f"Try the {other} decoder", decoder=other),
+        "too much noise",
+        f"A column's noise is {of_column:.2g} grey levels, where stripes of single chips swing by "
+        f"{swing:.2g}.",
+        _whole_packets(scene),
     )
+
+
+def _whole_packets(scene: Scene) -> Step:
+    """Return the step to a decoder that compares whole packets in place of single chips."""
+    other = "matched" if scheme_of(scene.transmitter).bits <= _compared_bits(scene) else "sequence"
+    return Step(f"Try the {other} decoder", decoder=other)

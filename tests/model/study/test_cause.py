@@ -11,32 +11,39 @@ SMALL = {"rows": 400}
 
 
 @pytest.mark.parametrize(
-    ("changes", "what"),
+    ("changes", "decoder", "what"),
     [
-        ({"switching_frequency": 20e3}, "beyond the null at 14.7 kHz"),
-        ({"switching_frequency": 2e3}, "too few chips in view"),
-        ({"luminance": 0.2, "illuminance": 1.0, "enhancement": "none"}, "too dark"),
-        ({"iso": 6400.0, "illuminance": 30e3}, "all is white"),
-        ({"readout_time": 80e-6, "switching_frequency": 20e3}, "chips are narrower than a column"),
+        ({"switching_frequency": 20e3}, "threshold", "beyond the null at 14.7 kHz"),
+        ({"switching_frequency": 60e3}, "equalizer", "beyond the null at 14.7 kHz"),
+        ({"switching_frequency": 2e3}, "threshold", "too few chips in view"),
+        ({"read_noise": 200.0, "luminance": 400.0}, "threshold", "too much noise"),
+        ({"read_noise": 300.0, "luminance": 60.0}, "equalizer", "too much noise"),
+        ({"luminance": 0.2, "illuminance": 1.0, "enhancement": "none"}, "threshold", "too dark"),
+        ({"iso": 6400.0, "illuminance": 30e3}, "threshold", "all is white"),
+        (
+            {"readout_time": 80e-6, "switching_frequency": 20e3}, "threshold",
+            "chips are narrower than a column",
+        ),
     ],
-)
-def test_the_step_that_is_offered_helps(changes: dict[str, Any], what: str) -> None:
+)  # fmt: skip
+def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, what: str) -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL, **changes)
-    assert occ.success_rate(scene, 3) < 50.0
-    cause = cause_of(scene, "threshold")
+    assert occ.success_rate(scene, 3, decoder) < 50.0
+    cause = cause_of(scene, decoder)
     assert cause is not None
     assert cause.what == what
     assert cause.step is not None
     helped = scene.replace(**cause.step.changes)
-    again = cause_of(helped, cause.step.decoder or "threshold")
+    again = cause_of(helped, cause.step.decoder or decoder)
     assert again is None or again.what != what
-    if what in ("too few chips in view", "beyond the null at 14.7 kHz"):
-        assert occ.success_rate(helped, 3, cause.step.decoder or "threshold") == 100.0
+    if what in ("too few chips in view", "beyond the null at 14.7 kHz", "too much noise"):
+        assert occ.success_rate(helped, 3, cause.step.decoder or decoder) == 100.0
 
 
 def test_a_scene_that_is_read_has_no_cause() -> None:
     for preset in occ.presets():
-        assert cause_of(occ.load_preset(preset), "threshold") is None
+        for decoder in occ.decoders():
+            assert cause_of(occ.load_preset(preset), decoder) is None
     assert cause_of(occ.load_preset("phone-136us").replace(pattern="10"), "threshold") is None
 
 

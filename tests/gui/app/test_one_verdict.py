@@ -24,12 +24,16 @@ from occ_gui.detection_map.resting_controller import RateRequest as Request
 from occ_gui.detection_map.slider_strip import IMAGES
 from occ_gui.detection_map.slider_strip_controller import POSITIONS
 from occ_gui.detection_map.worker import SEED, UNSEEN, measure_along, rate_settings
+from occ_gui.simulation.verdict import verdict_on
+from occ_gui.widgets.state_look import State
 from occ_model.cli import main
 from occ_model.parallel.job import do_job
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.study import working_range as module
+from occ_model.study.success_rate import right_bits_of_images
 from occ_model.study.sweep.points import measure_points
 from occ_model.study.theory import null_frequency
 from occ_model.study.working_range import _Search
@@ -153,8 +157,13 @@ def twelve_settings() -> list[tuple[Scene, str]]:
 
 
 @pytest.mark.parametrize("number", range(12))
-def test_five_doors_give_the_same_number(number: int, tmp_path: Path) -> None:
-    """Strip, map, limits, shell and banner, asked the same."""
+def test_six_doors_give_the_same_number(
+    number: int,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """Strip, map, limits, both commands of the shell, and banner, asked the same."""
     scene, decoder = twelve_settings()[number]
     scene = scene.replace(**UNSEEN)
     settings, images = SimulationSettings(), OWN_IMAGES
@@ -193,6 +202,32 @@ def test_five_doors_give_the_same_number(number: int, tmp_path: Path) -> None:
     assert own.rate == wanted
     assert (float(line["95 % from (%)"]), float(line["95 % to (%)"])) == (own.low, own.high)
     assert (100.0 * rate.low, 100.0 * rate.high) == pytest.approx((own.low, own.high))
+    monkeypatch.setattr(module, "STEP", 1e9)  # no values between the scene's own and the ends
+    monkeypatch.setattr(module, "NEAR", 1e9)
+    scene_file.write_text(scene.to_toml(), encoding="utf-8")
+    capsys.readouterr()
+    main([
+        "limits", "--scene", str(scene_file), "--decoder", decoder, "--images", str(images),
+        "--rate", "99.9", "--jobs", "1",
+    ])  # fmt: skip
+    row = capsys.readouterr().out.splitlines()[2].split()
+    assert (row[0], row[-1]) == (decoder, f"{float(line['bits a second']):.4g}")
+
+
+@pytest.mark.parametrize("number", range(12))
+def test_the_verdict_on_a_picture_is_what_the_study_counts_of_it(number: int) -> None:
+    scene, decoder = twelve_settings()[number]
+    sent = scene.transmitter.payload_bits
+    duration = len(occ.packet(scene)) * scene.transmitter.switching_period
+    counted = right_bits_of_images(scene, RateSettings(6, (decoder,), SEED, path="image"))
+    for image, (right,) in enumerate(counted):
+        random = np.random.default_rng(np.random.SeedSequence(SEED, spawn_key=(image,)))
+        taken = scene.replace(start_time=float(random.uniform(0.0, duration)))
+        seed = int(random.integers(2**32))
+        frame = occ.render(taken, observable="signal", seed=seed)
+        verdict = verdict_on(occ.decode(frame.image, taken, decoder), sent)
+        assert (verdict.state is State.GOOD) == (right == len(sent))
+        assert (verdict.state is State.BAD) == (right == 0)
 
 
 @pytest.mark.parametrize(

@@ -157,6 +157,8 @@ class BandsView(QWidget):
             lines[-1] += f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows 1 %."
         if found.scene.transmitter.edge_time:
             lines.append("The map is of sharp edges: the LED's own make weaker bars.")
+        if not eye.percent_flicker:
+            return [*lines, "For the eye: the lamp's light does not flicker."]
         lines.append(
             f"For the eye: percent flicker {eye.percent_flicker:.3g} %, flicker index "
             f"{eye.flicker_index:.2g}, SVM {eye.visibility:.2g}; by IEEE 1789-2015 {eye.risk} "

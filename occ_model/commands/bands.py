@@ -87,6 +87,8 @@ def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
 
 
 def _eye(found: EyeFlicker) -> list[str]:
+    if not found.percent_flicker:
+        return ["For the eye: the lamp's light does not flicker."]
     repeats = HERTZ.format(found.frequency, _DIGITS)
     return [
         f"For the eye: percent flicker {found.percent_flicker:.3g} %, flicker index "

@@ -8,7 +8,7 @@ dependence on illumination level, J. Opt. Soc. Am. A 35 (2018) 309.
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.bands import EyeFlicker, RiskLines
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.depth import edge_in_chips
@@ -46,7 +46,7 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
         The scene.
     """
     check_scene(scene)
-    chips = sent_chips(scene.transmitter)
+    chips = _lit_chips(scene)
     frequency = scene.transmitter.switching_frequency / len(chips)
     lit = float(chips.mean())
     least, most, above = _levels(scene)
@@ -102,9 +102,15 @@ def _risk(frequencies: FloatArray, modulations: FloatArray) -> str:
     return LOW_RISK if (modulations <= low_risk).all() else ABOVE
 
 
+def _lit_chips(scene: Scene) -> ByteArray:
+    """Return the chips in which there is light: none of a lamp that is off."""
+    chips = sent_chips(scene.transmitter)
+    return chips if scene.transmitter.luminance else np.zeros_like(chips)
+
+
 def _levels(scene: Scene) -> tuple[float, float, float]:
     """Return the least and the most light over a period, and the mean light above the mean."""
-    chips = sent_chips(scene.transmitter)
+    chips = _lit_chips(scene)
     lit = float(chips.mean())
     edge = edge_in_chips(scene)
     if not edge:
@@ -122,7 +128,7 @@ def _levels(scene: Scene) -> tuple[float, float, float]:
 
 def _sines(scene: Scene) -> tuple[FloatArray, FloatArray]:
     """Return the frequencies in Hz of the light's sines, and amplitudes in % of the mean."""
-    chips = sent_chips(scene.transmitter)
+    chips = _lit_chips(scene)
     period, total = len(chips), int(chips.sum())
     base = scene.transmitter.switching_frequency / period
     count = int(min(_NO_EFFECT[2] / base, _MOST_CHIPS * period))

@@ -80,6 +80,9 @@ def test_full_pulses_pass_each_line_at_its_frequency(cycles: float, risk: str) -
 
 
 def test_a_steady_lamp_does_not_flicker() -> None:
-    for pattern in ("1", "11"):
-        found = occ.eye_flicker(_PHONE.replace(pattern=pattern))
-        assert (found.percent_flicker, found.visibility, found.risk) == (0.0, 0.0, "no effect")
+    steady = [_PHONE.replace(pattern=pattern) for pattern in ("1", "11")]
+    off = _PHONE.replace(luminance=0.0)
+    for scene in (*steady, off, off.replace(edge_time=20e-6)):
+        found = occ.eye_flicker(scene)
+        assert (found.percent_flicker, found.flicker_index, found.visibility) == (0.0, 0.0, 0.0)
+        assert (found.risk, found.parts_risk) == ("no effect", "no effect")

@@ -67,7 +67,7 @@ class AdviceSentences:
             text = theory_text(facts.found.parameter, facts.theory)
             lines.append(AdviceLine(text, is_common=True))
         lines.append(AdviceLine(self.bits_a_second(advice.limits)))
-        lines.append(AdviceLine(how_tried(advice.limits), is_common=True))
+        lines += [AdviceLine(text, is_common=True) for text in how_tried(advice.limits)]
         return lines
 
     def bits_a_second(self, found: Limits) -> str:

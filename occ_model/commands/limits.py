@@ -161,7 +161,7 @@ def sentences(answers: Sequence[Limits]) -> list[str]:
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
     advice = advice_of(answers[0])
-    lines.append(how_tried(answers[0]))
+    lines += dict.fromkeys(line for found in answers for line in how_tried(found))
     for facts in (advice.frequency, advice.exposure):
         lines.append(theory_text(facts.found.parameter, facts.theory))
     return lines

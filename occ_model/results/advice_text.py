@@ -55,13 +55,19 @@ def searched_to(found: WorkingRange) -> str:
     )
 
 
-def how_tried(found: Limits) -> str:
-    """Say what the confidence of the ends rests on."""
-    return (
-        f"Each end was tried with {found.images} images or more that had not chosen it; the 95 % "
-        "intervals count images. Values between were tried in steps of "
-        f"{100.0 * (found.frequency.step - 1.0):.0f} %: a narrower gap can be missed."
+def how_tried(found: Limits) -> list[str]:
+    """Say what the confidence of the ends rests on, if any was found, and what can be missed."""
+    step = 100.0 * (found.frequency.step - 1.0)
+    missed = (
+        f"Values were tried in steps of {step:.0f} %: a narrower gap or interval can be missed."
     )
+    if not found.frequency.intervals and not found.exposure.intervals:
+        return [missed]
+    return [
+        f"Each end was tried with {found.images} images or more that had not chosen it; the 95 % "
+        "intervals count images.",
+        missed,
+    ]
 
 
 def theory_text(parameter: str, theory: TheoryLimits) -> str:

@@ -118,7 +118,7 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
             action="append",
             default=[],
             metavar="EFFECT",
-            help=f"{meaning} whatever its bound, one of {', '.join(NAMES)}; may be repeated",
+            help=f"{meaning} whatever its estimate, one of {', '.join(NAMES)}; may be repeated",
         )
 
 

@@ -76,12 +76,13 @@ def add_to(commands: Commands) -> None:
     parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
     parser.add_argument(
         "--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS",
-        help="what effects left out may change in the profile; default: %(default)s",
+        help="what effects left out may change in the signal that is decoded, in levels of the "
+        "stretched profile; default: %(default)s",
     )  # fmt: skip
     for switch, meaning in (("on", "simulate an effect"), ("off", "leave an effect out")):
         parser.add_argument(
             f"--{switch}", action="append", default=[], choices=NAMES, metavar="EFFECT",
-            help=f"{meaning} whatever its bound; may be repeated",
+            help=f"{meaning} whatever its estimate; may be repeated",
         )  # fmt: skip
     parser.add_argument(
         "--path", choices=SIGNAL_PATHS, default="auto",

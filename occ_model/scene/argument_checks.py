@@ -1,7 +1,8 @@
 """Check the arguments of functions: counts, choices, switches, seeds."""
 
 from collections.abc import Mapping, Sequence
-from numbers import Integral
+from numbers import Integral, Real
+from typing import TypeGuard
 
 import numpy as np
 
@@ -14,6 +15,11 @@ def check_count(name: str, value: object, least: int, most: int | None = None) -
     if not whole or value < least or (most is not None and value > most):  # type: ignore[operator]
         top = "" if most is None else f" to {most:,}"
         raise ParameterError.of(name, shown(value), f"a whole number from {least}{top}")
+
+
+def is_number(value: object) -> TypeGuard[float]:
+    """Return whether a value is a real number, which True and False are not."""
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def check_choice(name: str, value: object, choices: Sequence[str]) -> None:

@@ -2,12 +2,11 @@
 
 import math
 from collections.abc import Sequence
-from numbers import Real
 from statistics import NormalDist
 
 from occ_model.errors import ParameterError, shown
 from occ_model.results.limits import Trial
-from occ_model.scene.argument_checks import check_count
+from occ_model.scene.argument_checks import check_count, is_number
 
 _MOST_TRIALS = 2**53
 """Largest number up to which a float holds every whole number."""
@@ -87,8 +86,7 @@ def _interval(won: float, lost: float, z: float) -> tuple[float, float]:
 
 
 def _checked(level: object) -> float:
-    number = isinstance(level, Real) and not isinstance(level, bool)
-    share = float(level) if number and 0 < level < 1 else 0.0  # type: ignore[operator, arg-type]
+    share = float(level) if is_number(level) and 0 < level < 1 else 0.0
     if not 0.0 < share < 1.0:
         raise ParameterError.of("level", shown(level), "a number between 0 and 1")
     return share

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import wait
 from contextlib import ExitStack, suppress
 from functools import partial
-from numbers import Real
 from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError, shown
@@ -16,7 +15,7 @@ from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results.limits import Limits, WorkingRange
 from occ_model.results.sweep_request import MOST_JOBS, RateSettings, SignalPath
-from occ_model.scene.argument_checks import check_count
+from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
@@ -240,7 +239,6 @@ def _what(asked: tuple[Any, ...]) -> str:
 
 
 def _checked(rate: object) -> float:
-    number = isinstance(rate, Real) and not isinstance(rate, bool)
-    if not number or not 0.0 < rate <= 100.0:  # type: ignore[operator]
+    if not is_number(rate) or not 0.0 < rate <= 100.0:
         raise ParameterError.of("rate", f"{shown(rate)} %", "above 0 % to 100 %")
-    return float(rate)  # type: ignore[arg-type]
+    return float(rate)

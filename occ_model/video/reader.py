@@ -10,7 +10,7 @@ from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
 from occ_model.results.sent_packets import SentPackets
 from occ_model.results.video import LATEST, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
-from occ_model.scene.argument_checks import check_count
+from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import code_of
@@ -44,7 +44,7 @@ class VideoReader:
     ) -> None:
         check_scene(scene)
         decoder_named(decoder)
-        if not 0.0 < readout_tolerance <= 0.5:
+        if not is_number(readout_tolerance) or not 0.0 < readout_tolerance <= 0.5:
             raise ParameterError.of(
                 "readout_tolerance", shown(readout_tolerance), "above 0 up to 0.5"
             )

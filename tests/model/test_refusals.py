@@ -310,9 +310,12 @@ ROWS: list[Row] = [
             for index in (-1, 3, 1.5)
         ),
     ),
-    (
-        lambda: occ.VideoReader(SCENE, readout_tolerance=0.7),
-        "readout_tolerance", "0.7", "above 0 up to 0.5",
+    *calls(
+        lambda wrong: occ.VideoReader(SCENE, readout_tolerance=wrong),
+        *(
+            ({"wrong": wrong}, "readout_tolerance", repr(wrong), "above 0 up to 0.5")
+            for wrong in (0.7, 0.0, None, "0.01", True)
+        ),
     ),
     (
         lambda: occ.transmitter_sketch(SCENE, "arduino-due"),

@@ -129,7 +129,7 @@ def _check_file(path: Path, max_pixels: int) -> None:
     if not stat.S_ISREG(status.st_mode):
         raise PhotoError(f"{shown} is a device, pipe or socket, not a photo.")
     if status.st_size == 0:
-        raise PhotoError(f"{shown} is an empty file, not a photo.")
+        raise PhotoError(f"{shown} is an empty file.")
     # Some decoders load the whole file into memory.
     largest = _BYTES_A_PIXEL * max_pixels + _BYTES_OF_NOTES
     if status.st_size > largest:

@@ -59,7 +59,7 @@ def test_what_is_no_photo_is_refused_in_a_sentence(tmp_path: Path) -> None:
         assert refusal(path).startswith(f"{one_line(str(path))} ")
     assert refusal(tmp_path) == f"{tmp_path} is a folder, not a photo."
     (tmp_path / "empty.png").touch()
-    assert refusal(tmp_path / "empty.png").endswith("empty.png is an empty file, not a photo.")
+    assert refusal(tmp_path / "empty.png").endswith("empty.png is an empty file.")
 
 
 @pytest.mark.parametrize("path", [3, None, b"x.png", ["x.png"]])

@@ -52,7 +52,7 @@ ROWS = (
     row(PATHS[1], 7.001e-6),
     row(PATHS[2], 9e-6),
     row(PATHS[3], 5e-6, "doubtful", "Only 1.2 periods are in view."),
-    PhotoRow(PATHS[4], "unreadable", "photo-4.jpg is an empty file, not a photo."),
+    PhotoRow(PATHS[4], "unreadable", "photo-4.jpg is an empty file."),
     row(PATHS[5], 6.999e-6),
 )
 

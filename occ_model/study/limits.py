@@ -20,7 +20,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.success_rate import check_rate
-from occ_model.study.sure_ends import images_to_be_sure, with_sure_ends
+from occ_model.study.sure_ends import images_about_an_end, with_sure_ends
 from occ_model.study.working_range import expected_images, working_range
 
 if TYPE_CHECKING:
@@ -142,7 +142,7 @@ _LOOK = 0.1
 
 def usual_images(images: int, rate: float) -> int:
     """Return how many images a decoder's search along a parameter usually reads."""
-    return expected_images(images) + images_to_be_sure(rate)
+    return expected_images(images) + images_about_an_end(rate)
 
 
 def _answers(

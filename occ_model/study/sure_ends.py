@@ -55,6 +55,12 @@ def images_to_be_sure(rate: float) -> int:
     return least if least <= MOST_IMAGES else 0
 
 
+def images_about_an_end(rate: float) -> int:
+    """Return how many images usually tell how surely an end is known."""
+    sure = images_to_be_sure(rate)
+    return sure and sure + _ROUNDS * len(_PARTS) * PICTURES
+
+
 def with_sure_ends(
     scene: Scene,
     found: WorkingRange,

@@ -413,7 +413,7 @@ def test_the_stated_interval_of_an_end_holds_it(
     monkeypatch.setattr(module, "right_bits_of_images", falls(curve, lost))
     found = [occ.limits(SCENE, seed=seed).frequency.highest for seed in range(200)]
     intervals = [end.interval for end in found if end is not None and end.interval is not None]
-    assert len(intervals) == len(found)
+    assert len(intervals) >= 0.99 * len(found)
     held = sum(low <= 10e3 <= high for low, high in intervals)
     assert 0.92 * len(found) <= held <= 0.99 * len(found)
     # 381 images that are surely read and 200 that surely are not lie 2 to 5 % apart.

@@ -24,12 +24,19 @@ _RANK = 1
 
 @dataclass(frozen=True, slots=True)
 class OwnRate:
-    """The share of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
+    """The share of right bits, from 0 to 1, with its 95 % interval, in so many pictures.
+
+    Parameters
+    ----------
+    whole
+        Pictures of which every bit is right.
+    """
 
     share: float
     low: float
     high: float
     images: int
+    whole: int
 
 
 class OwnRateController(RestingController):
@@ -82,4 +89,5 @@ def own_rate(measured: MeasuredPoints) -> OwnRate | None:
     if not point.sent:
         return None
     low, high = interval_of_pictures(point.right[0], point.sent, measured.images)
-    return OwnRate(point.right[0] / point.sent, low / 100.0, high / 100.0, measured.images)
+    share, (whole,) = point.right[0] / point.sent, point.whole
+    return OwnRate(share, low / 100.0, high / 100.0, measured.images, whole)

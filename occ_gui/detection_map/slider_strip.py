@@ -60,7 +60,7 @@ class SliderStrip(QWidget):
                 100.0 * value for value in (self.present.share, self.present.low, self.present.high)
             )
             text += (
-                f"\nAt the handle {share:.3g} % of {self.present.images} pictures "
+                f"\nAt the handle {share:.3g} % of the bits of {self.present.images} pictures "
                 f"({low:.1f} to {high:.1f} %)."
             )
         good = sum(share > 0.99 for share in known)

@@ -41,12 +41,12 @@ def computing() -> Chip:
 
 def of_pictures(rate: "OwnRate") -> Chip:
     """Return what is read of pictures that begin at any time, beside the verdict on this one."""
-    text = f"of {rate.images} pictures: {100.0 * rate.share:.3g} %"
+    text = f"of {rate.images} pictures: {100.0 * rate.share:.3g} % of bits"
     meaning = (
         f"This picture is one; of {rate.images} that begin at any time "
         f"{100.0 * rate.share:.3g} % of the bits are "
-        f"read (95 % interval {100.0 * rate.low:.1f} to {100.0 * rate.high:.1f} %). The "
-        "strips show the same."
+        f"read (95 % interval {100.0 * rate.low:.1f} to {100.0 * rate.high:.1f} %), and every bit "
+        f"of {rate.whole} pictures. The strips show the same share."
     )
     state = State.GOOD if rate.share >= _READS else State.DOUBTFUL if rate.share else State.BAD
     return Chip("rate", text, meaning, state)

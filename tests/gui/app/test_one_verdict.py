@@ -33,7 +33,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study import working_range as module
-from occ_model.study.success_rate import right_bits_of_images
+from occ_model.study.success_rate import right_and_whole, right_bits_of_images
 from occ_model.study.sweep.points import measure_points
 from occ_model.study.theory import null_frequency
 from occ_model.study.working_range import _Search
@@ -279,11 +279,15 @@ def test_strip_and_banner_state_the_rate_of_the_study(
     qtbot.waitUntil(lambda: own.rate is not None)
     rate = occ.success_rate(scene, 20)
     assert 5.0 < rate < 99.0
+    # Some pictures are read in part: bits a second count whole ones, which the banner tells, too.
+    (whole,) = right_and_whole(scene, RateSettings(20, ("threshold",), SEED))[1]
+    assert own.rate is not None
+    assert own.rate.whole == whole
     assert {round(100.0 * s.present.share, 9) for s in strips.values() if s.present} == {rate}
     shown = {chip.key: chip.text for chip in application.story.verdict.chips.chips}
-    assert shown["rate"] == f"of 20 pictures: {rate:.3g} %"
+    assert shown["rate"] == f"of 20 pictures: {rate:.3g} % of bits"
     strip = strips["iso"]
-    assert f"{rate:.3g} % of 20 pictures" in strip.toolTip()
+    assert f"{rate:.3g} % of the bits of 20 pictures" in strip.toolTip()
     strip.show_shares((0.0,) * 9)
     wanted = to_colours(np.array([[rate]]), 0.0, 100.0, RATES)[0, 0, :3].tolist()
     seen = strip.grab().toImage().pixelColor(round(handle_middle(strip._slider) - strip.x() + 9), 3)

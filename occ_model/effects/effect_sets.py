@@ -16,7 +16,7 @@ from occ_model.effects.registry import EFFECTS
 from occ_model.results.plan import Way
 from occ_model.scene.simulation_settings import NoiseSource, SimulationSettings
 
-_FARTHEST = 1.5
+_FARTHEST = 1.15
 """Times that changes that are added may exceed the tolerance where together they are within it."""
 
 

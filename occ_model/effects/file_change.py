@@ -1,31 +1,24 @@
-"""What a file of rounded cosine coefficients makes of pixels, of noise and of changes.
-
-A coefficient x, in its steps, with noise of the deviation s in steps, is rounded. What rounding
-adds, round(x) - x, is a sawtooth; noise damps the n-th harmonic of its Fourier series by
-exp(-2 pi^2 n^2 s^2).
-"""
+"""What a file of rounded cosine coefficients makes of pixels, of noise and of changes."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.effects.normal import normal_share
+from occ_model.effects.rounding import (
+    DAMPING,
+    SHARP,
+    moved_steps,
+    moved_steps_of_noise,
+    near_half,
+    rounded_noise,
+    rounded_variance,
+    rounding_mean,
+    rounding_square,
+)
 from occ_model.effects.sample import Sample
-
-_HARMONICS = 6
-
-_DAMPING = 2.0 * math.pi**2
-"""Exponent of the first harmonic, for a noise of one step; it grows as the square of the number."""
-
-_NEGLIGIBLE = 9.0
-"""Exponent from which a harmonic is damped to nothing."""
-
-_SHARP = 0.08
-"""Noise in steps below which nearly all values are rounded as without it."""
 
 
 @lru_cache(maxsize=1)
@@ -36,93 +29,6 @@ def _transform() -> FloatArray:
     matrix[0] /= math.sqrt(2.0)
     return matrix
 
-
-def _rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
-    """Return the mean square error of rounding, in steps."""
-    found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
-    for n, cosine, _ in _harmonics(x, s):
-        found += cosine / (math.pi * n) ** 2
-    return np.asarray(np.maximum(found, 0.0))
-
-
-def _rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
-    """Return the mean of round(x) - x, in steps."""
-    found = np.rint(x) - x
-    sharp = np.broadcast_to(s < _SHARP, found.shape)
-    if sharp.all():
-        return found
-    damped = np.zeros(found.shape)
-    for n, _, sine in _harmonics(x, np.maximum(s, _SHARP)):
-        damped += sine / (math.pi * n)
-    return np.where(sharp, found, damped)
-
-
-def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[float, FloatArray, FloatArray]]:
-    """Give the number n, and (-1)^n times the damped cosine and sine, of those that noise leaves.
-
-    Each follows from the one before by the sum of the angles.
-    """
-    angle = 2.0 * math.pi * x
-    first = -np.exp(-_DAMPING * s * s)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    turn, lift = cosine, sine
-    damped, ratio, square = first, first, first * first
-    least = float(s.min()) ** 2
-    for n in range(1, _HARMONICS + 1):
-        if n > 1 and _DAMPING * n * n * least > _NEGLIGIBLE:
-            return
-        yield float(n), cosine * damped, sine * damped
-        cosine, sine = cosine * turn - sine * lift, sine * turn + cosine * lift
-        ratio = ratio * square
-        damped = damped * ratio
-
-
-def _moved_steps(change: FloatArray) -> FloatArray:
-    """Return by how much the mean square of a change grows when both values are rounded."""
-    share = np.abs(change) % 1.0
-    return share * (1.0 - share)
-
-
-def _moved_steps_of_noise(s: FloatArray) -> FloatArray:
-    """Return the same for a change by noise: by |d| - d^2 where that stays within a step."""
-    damped = np.exp(-_DAMPING * s * s)
-    found = 1.0 / 6.0 - (damped + damped**4 / 4.0) / math.pi**2
-    return np.asarray(np.where(s < 0.3, math.sqrt(2.0 / math.pi) * s - s * s, found))
-
-
-_FINEST = 2.0
-"""Noise in steps from which it is rounded like a value that lies anywhere."""
-
-
-@lru_cache(maxsize=1)
-def _rounded_noises() -> tuple[FloatArray, FloatArray]:
-    """Tabulate the mean square of rounded noise about 0, in steps."""
-    s = np.linspace(1e-3, _FINEST, 401)
-    ends = (np.arange(1.0, 17.0) - 0.5)[:, None] / s
-    passed = 1.0 - normal_share(ends)
-    return s, 2.0 * ((2.0 * np.arange(1.0, 17.0) - 1.0)[:, None] * passed).sum(axis=0)
-
-
-def _rounded_noise(s: FloatArray) -> FloatArray:
-    """Return the mean square of rounded noise about 0, in steps."""
-    return np.where(s > _FINEST, s * s + 1.0 / 12.0, np.interp(s, *_rounded_noises()))
-
-
-def _rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
-    """Return the variance of rounded values of some mean and noise, in steps."""
-    away = x - np.rint(x)
-    mean = np.zeros(np.broadcast_shapes(x.shape, s.shape))
-    square = np.zeros(mean.shape)
-    for step in (1.0, 2.0, 3.0):
-        above = normal_share((away - step + 0.5) / s)
-        below = normal_share((-away - step + 0.5) / s)
-        mean += above - below
-        square += (2.0 * step - 1.0) * (above + below)
-    return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))
-
-
-_WIDE = 0.8
-"""Noise in steps from which its rounded values vary as much wherever they lie."""
 
 _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
 """About the coefficients of an edge of one grey level across a block."""
@@ -204,6 +110,7 @@ class FileChange:
         self._along = self._spectrum_along(float(stack[0].min()), rims.is_level)
         edge = contrast * np.outer(_EDGE_SPECTRUM, self._along)
         self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
+        self._rim_weights = self._all**2 * near_half(self._of_rims) / 64.0
 
     def _in_blocks(self, values: FloatArray) -> FloatArray:
         """Return the pixels between the rims, shape (sets, blocks, 8, nodes)."""
@@ -233,11 +140,11 @@ class FileChange:
         noise = spread[:, None, None]
         even = spread < _SHARPEST
         if even.any():  # pixels are whole levels before they are in a file
-            values[even] += _rounding_mean(values[even], noise[even])
+            values[even] += rounding_mean(values[even], noise[even])
         x = self._coefficients(values)
         own = np.sqrt(noise * noise + _ROUNDING)[:, None] / self._step
         wide = np.sqrt(own * own + x.var(axis=3, keepdims=True))
-        shift = _rounding_mean(x.mean(axis=3, keepdims=True), wide) * self._step / math.sqrt(8.0)
+        shift = rounding_mean(x.mean(axis=3, keepdims=True), wide) * self._step / math.sqrt(8.0)
         back = np.matmul(_transform().T, shift)
         values[:, self._blocks.ravel()] += back.reshape(len(values), -1, 1)
         return values
@@ -245,9 +152,9 @@ class FileChange:
     def own_change(self) -> float:
         """Return the mean square of what the file changes."""
         rims = self._rims
-        along = (_rounding_square(self._x[0], self._noise / self._step) * self._step**2).sum(axis=1)
+        along = (rounding_square(self._x[0], self._noise / self._step) * self._step**2).sum(axis=1)
         noise = self._noise / self._others
-        others = (self._others**2 * _rounding_square(np.zeros(1), noise)).sum()
+        others = (self._others**2 * rounding_square(np.zeros(1), noise)).sum()
         inner = float(along.mean() + others) / 64.0
         return (1.0 - rims) * inner + rims * self._rounding_at_edges + _ROUNDING
 
@@ -279,17 +186,17 @@ class FileChange:
         moved = self._in_blocks(self._stack)
         moved = moved - moved[0] if moved.size else self._stack - self._stack[0]
         moved = moved.reshape(len(moved), -1)
-        flips = np.sqrt(_moved_steps(moved).mean(axis=1))
+        flips = np.sqrt(moved_steps(moved).mean(axis=1))
         size = np.sqrt((moved**2).mean(axis=1))
         step = self._step
-        read = self._x + _rounding_mean(self._x, self._noise / step)
+        read = self._x + rounding_mean(self._x, self._noise / step)
         shift = read - read[0]
-        by_noise = _moved_steps_of_noise(flips[:, None, None] / step)
-        spread = np.maximum(_moved_steps(shift), by_noise[:, None] * self._near_half)
+        by_noise = moved_steps_of_noise(flips[:, None, None] / step)
+        spread = np.maximum(moved_steps(shift), by_noise[:, None] * self._near_half)
         along = ((shift**2 - change**2 + spread) * step**2).sum(axis=2).mean(axis=(1, 2))
         apart = (spread * step**2).sum(axis=2).mean(axis=(1, 2))
         q = self._others
-        across = _moved_steps_of_noise(flips[:, None] / q) @ (q**2 * _near_half(self._noise / q))
+        across = moved_steps_of_noise(flips[:, None] / q) @ (q**2 * near_half(self._noise / q))
         rims = self._at_rims(np.hypot(size, flips))
         image = (1.0 - self._rims) * (along + across) / 64.0 + self._rims * rims
         return np.asarray(image), np.asarray(apart / 64.0 / self.block_rows + self._cut * rims)
@@ -298,15 +205,14 @@ class FileChange:
     def _near_half(self) -> FloatArray:
         """How near to a step's end the coefficients are, against values spread evenly."""
         away = np.abs(self._x[0] - np.rint(self._x[0]))
-        spread = np.maximum(self._noise / self._step, _SHARP)
+        spread = np.maximum(self._noise / self._step, SHARP)
         density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
         return np.asarray(np.minimum(density, 1.0))
 
     def _at_rims(self, size: FloatArray, along: FloatArray = _WHITE_SPECTRUM) -> FloatArray:
         """Return what rounding adds to changes in blocks with a rim, by their frequencies."""
-        weights = self._all**2 * _near_half(self._of_rims) / 64.0
         sizes = np.tile(along * math.sqrt(8.0), 8) / self._all
-        return np.asarray(_moved_steps_of_noise(size[..., None] * sizes) @ weights)
+        return np.asarray(moved_steps_of_noise(size[..., None] * sizes) @ self._rim_weights)
 
     def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
         """Return the shares of the horizontal frequencies in a row of the panel, as amplitudes.
@@ -323,7 +229,7 @@ class FileChange:
     @property
     def undithered_share(self) -> float:
         """The share of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
-        sharp = np.exp(-_DAMPING * (self._noise / self._step) ** 2)
+        sharp = np.exp(-DAMPING * (self._noise / self._step) ** 2)
         return float(sharp.mean())
 
     def undithered(self) -> float:
@@ -333,7 +239,7 @@ class FileChange:
         the blocks of an even picture otherwise, all at once.
         """
         step = self._step[:2, 0]
-        sharp = np.exp(-_DAMPING * (self._noise / step) ** 2)
+        sharp = np.exp(-DAMPING * (self._noise / step) ** 2)
         return float((step**2 * sharp).sum()) / 6.0 / 64.0
 
     def added_at_rims(self, share: float, square: float) -> float:
@@ -357,7 +263,7 @@ class FileChange:
         noise = np.sqrt(few**2 + _ROUNDING)[:, None]
         s = noise / step
         along = step**2 * (s * s + 1.0 / 12.0) * -np.expm1(-((s / 0.3) ** 2))
-        across = _rounded_noise(noise / q) @ q**2
+        across = rounded_noise(noise / q) @ q**2
         read = np.sqrt((along.sum(axis=1) + across) / 64.0)
         return np.asarray(np.interp(spread, few, read))
 
@@ -370,24 +276,16 @@ class FileChange:
             Root mean square of the noise that is left out, and of all other.
         """
         rest = np.sqrt(left**2 + _ROUNDING)
-        own = np.sqrt(own**2 + _moved_steps_of_noise(own))
+        own = np.sqrt(own**2 + moved_steps_of_noise(own))
         step, q = self._step[:, 0], self._others
         spreads = np.append(rest, np.hypot(own[:1], rest[:1]))[:, None]
         x = self._x[0].mean(axis=2)
-        varied = _rounded_variance(x, (spreads / step)[:, None]).mean(axis=1)
-        apart = (own[:, None] / step) ** 2 + _moved_steps_of_noise(own[:, None] / step)
+        varied = rounded_variance(x, (spreads / step)[:, None]).mean(axis=1)
+        apart = (own[:, None] / step) ** 2 + moved_steps_of_noise(own[:, None] / step)
         along = np.minimum(varied[:-1] + varied[-1], apart) @ step**2 / 64.0
-        varied = _rounded_noise(spreads / q)
-        apart = (own[:, None] / q) ** 2 + _moved_steps_of_noise(own[:, None] / q)
+        varied = rounded_noise(spreads / q)
+        apart = (own[:, None] / q) ** 2 + moved_steps_of_noise(own[:, None] / q)
         across = np.minimum(varied[:-1] + varied[-1], apart) @ q**2 / 64.0
         rims = self._at_rims(own)
         image = along + across + self._rims * rims
         return np.asarray(image), np.asarray(along / self.block_rows + self._cut * rims)
-
-
-def _near_half(s: FloatArray) -> FloatArray:
-    """Return how near to a step's end noise about 0 is, against values spread evenly; at most 1."""
-    least = np.maximum(s, 1e-3)
-    halves = np.arange(0.5, 6.0)[:, None] / least
-    density = 2.0 * (np.exp(-0.5 * halves**2) / (math.sqrt(2.0 * math.pi) * least)).sum(axis=0)
-    return np.asarray(np.where(s > 2.0, 1.0, np.minimum(density, 1.0)))

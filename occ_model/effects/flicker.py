@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from fractions import Fraction
+from functools import lru_cache
 
 import numpy as np
 
@@ -41,17 +42,20 @@ def seen_depth(scene: Scene) -> float:
     return depth * abs(response(scene)) if depth else 0.0
 
 
+@lru_cache(maxsize=4)
 def ambient_shares(scene: Scene) -> FloatArray:
     """Return the mean external illuminance in each column's exposure, as a multiple of E_v.
 
     Returns
     -------
-    ndarray of float64, shape (columns,)
+    ndarray of float64, shape (columns,); read-only
     """
     surroundings, exposure = scene.surroundings, Fraction(scene.camera.exposure_time)
     cycles = cycle_phases(scene, surroundings.flicker_frequency, exposure / 2)
     swing = np.cos(2.0 * math.pi * cycles + surroundings.flicker_phase)
-    return np.asarray(1.0 + surroundings.flicker_depth * response(scene) * swing)
+    found = np.asarray(1.0 + surroundings.flicker_depth * response(scene) * swing)
+    found.flags.writeable = False
+    return found
 
 
 def response(scene: Scene) -> float:

@@ -50,11 +50,14 @@ def edged_lit_fraction(scene: Scene) -> FloatArray:
     """
     frequency = Fraction(scene.transmitter.switching_frequency)
     exposure = Fraction(scene.camera.exposure_time) * frequency
-    waveform = EdgedWaveform(
-        sent_chips(scene.transmitter), Fraction(scene.transmitter.edge_time) * frequency
-    )
-
+    edge = Fraction(scene.transmitter.edge_time) * frequency
+    waveform = _waveform(sent_chips(scene.transmitter).tobytes(), edge)
     lit = waveform.lit_chips(lambda shift: column_phases(scene, waveform.period, shift), exposure)
     found = np.clip(lit / float(exposure), 0.0, 1.0)
     found.flags.writeable = False
     return found
+
+
+@lru_cache(maxsize=4)
+def _waveform(chips: bytes, edge: Fraction) -> EdgedWaveform:
+    return EdgedWaveform(np.frombuffer(chips, dtype=np.uint8), edge)

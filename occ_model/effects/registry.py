@@ -1,5 +1,6 @@
 """The list of all effects, in the order that light travels."""
 
+from collections.abc import Collection
 from functools import lru_cache
 from typing import TypeVar
 
@@ -37,8 +38,12 @@ _Kind = TypeVar("_Kind", bound=Effect)
 
 def planned(plan: Plan, kind: type[_Kind]) -> tuple[_Kind, ...]:
     """Return the effects of a kind that a plan includes, in order."""
-    included = plan.included
-    return tuple(effect for effect in _of_kind(kind) if effect.name in included)
+    return named(plan.included, kind)
+
+
+def named(names: Collection[str], kind: type[_Kind]) -> tuple[_Kind, ...]:
+    """Return the effects of a kind that have some names, in order."""
+    return tuple(effect for effect in _of_kind(kind) if effect.name in names)
 
 
 @lru_cache(maxsize=16)

@@ -34,6 +34,7 @@ from occ_model.effects.effect import (
 )
 from occ_model.effects.file_change import FileChange, RimBlocks
 from occ_model.effects.paper_view import PaperView
+from occ_model.effects.registry import named
 from occ_model.effects.sample import Sample, sample_of
 
 Names = frozenset[str]
@@ -60,11 +61,11 @@ class SampledPixels:
         self.scene = view.scene
         self.effects = tuple(effect for effect in effects if effect.is_present(view.scene))
         self.names = frozenset(effect.name for effect in self.effects)
-        self.lights = [e for e in self.effects if isinstance(e, LightEffect)]
-        self.lenses = [e for e in self.effects if isinstance(e, OpticsEffect)]
-        self.limits = [e for e in self.effects if isinstance(e, PixelEffect)]
-        self.noises = [e for e in self.effects if isinstance(e, NoiseEffect)]
-        self.files = [e for e in self.effects if isinstance(e, FileEffect)]
+        self.lights = named(self.names, LightEffect)
+        self.lenses = named(self.names, OpticsEffect)
+        self.limits = named(self.names, PixelEffect)
+        self.noises = named(self.names, NoiseEffect)
+        self.files = named(self.names, FileEffect)
         self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
         self._moving = frozenset(self.moving)
         self._light_of: dict[Names, ColumnLight] = {}

@@ -1,0 +1,134 @@
+"""Rounding of noisy values to whole steps, as a file rounds its coefficients.
+
+A value x, in steps, with noise of the deviation s in steps, is rounded. What rounding adds,
+round(x) - x, is a sawtooth; noise damps the n-th harmonic of its Fourier series by
+exp(-2 pi^2 n^2 s^2).
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.effects.normal import normal_share
+
+_HARMONICS = 6
+
+DAMPING = 2.0 * math.pi**2
+"""Exponent of the first harmonic, for a noise of one step; it grows as the square of the number."""
+
+_NEGLIGIBLE = 9.0
+"""Exponent from which a harmonic is damped to nothing."""
+
+SHARP = 0.08
+"""Noise in steps below which nearly all values are rounded as without it."""
+
+_FINEST = 2.0
+"""Noise in steps from which it is rounded like a value that lies anywhere."""
+
+_TINY = 1e-9
+"""Noise in steps that none is taken for."""
+
+_WIDE = 0.8
+"""Noise in steps from which its rounded values vary as much wherever they lie."""
+
+
+def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
+    """Return the mean square error of rounding, in steps."""
+    found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
+    for n, cosine, _ in _harmonics(x, s):
+        found += cosine / (math.pi * n) ** 2
+    return np.asarray(np.maximum(found, 0.0))
+
+
+def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
+    """Return the mean of round(x) - x, in steps."""
+    found = np.rint(x) - x
+    sharp = np.broadcast_to(s < SHARP, found.shape)
+    if sharp.all():
+        return found
+    damped = np.zeros(found.shape)
+    for n, _, sine in _harmonics(x, np.maximum(s, SHARP)):
+        damped += sine / (math.pi * n)
+    return np.where(sharp, found, damped)
+
+
+def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[float, FloatArray, FloatArray]]:
+    """Give the number n, and (-1)^n times the damped cosine and sine, of those that noise leaves.
+
+    Each follows from the one before by the sum of the angles.
+    """
+    least = float(s.min()) ** 2
+    angle = 2.0 * math.pi * x
+    first = -np.exp(-DAMPING * s * s)
+    cosine, sine = np.cos(angle), np.sin(angle)
+    turn, lift = cosine, sine
+    damped, ratio, square = first, first, first * first
+    for n in range(1, _HARMONICS + 1):
+        if n > 1 and DAMPING * n * n * least > _NEGLIGIBLE:
+            return
+        yield float(n), cosine * damped, sine * damped
+        cosine, sine = cosine * turn - sine * lift, sine * turn + cosine * lift
+        ratio = ratio * square
+        damped = damped * ratio
+
+
+def moved_steps(change: FloatArray) -> FloatArray:
+    """Return by how much the mean square of a change grows when both values are rounded."""
+    share = np.abs(change) % 1.0
+    return share * (1.0 - share)
+
+
+@lru_cache(maxsize=3)
+def _table(of: Callable[[FloatArray], FloatArray]) -> tuple[FloatArray, FloatArray]:
+    s = np.linspace(0.0, _FINEST, 2001)
+    return s, of(s)
+
+
+def moved_steps_of_noise(s: FloatArray) -> FloatArray:
+    """Return the same for a change by noise: by |d| - d^2 where that stays within a step."""
+    return np.interp(s, *_table(_moved_by_noise))
+
+
+def _moved_by_noise(s: FloatArray) -> FloatArray:
+    damped = np.exp(-DAMPING * s * s)
+    found = 1.0 / 6.0 - (damped + damped**4 / 4.0) / math.pi**2
+    return np.where(s < 0.3, math.sqrt(2.0 / math.pi) * s - s * s, found)
+
+
+def near_half(s: FloatArray) -> FloatArray:
+    """Return how near to a step's end noise about 0 is, against values spread evenly; at most 1."""
+    return np.interp(s, *_table(_at_halves))
+
+
+def _at_halves(s: FloatArray) -> FloatArray:
+    s = np.maximum(s, _TINY)
+    halves = np.arange(0.5, 6.0)[:, None] / s
+    density = 2.0 * (np.exp(-0.5 * halves**2) / (math.sqrt(2.0 * math.pi) * s)).sum(axis=0)
+    return np.minimum(density, 1.0)
+
+
+def rounded_noise(s: FloatArray) -> FloatArray:
+    """Return the mean square of rounded noise about 0, in steps."""
+    return np.where(s > _FINEST, s * s + 1.0 / 12.0, np.interp(s, *_table(_square_of_rounded)))
+
+
+def _square_of_rounded(s: FloatArray) -> FloatArray:
+    step = np.arange(1.0, 17.0)
+    passed = 1.0 - normal_share((step - 0.5)[:, None] / np.maximum(s, _TINY))
+    return 2.0 * ((2.0 * step - 1.0)[:, None] * passed).sum(axis=0)
+
+
+def rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
+    """Return the variance of rounded values of some mean and noise, in steps."""
+    away = x - np.rint(x)
+    mean = np.zeros(np.broadcast_shapes(x.shape, s.shape))
+    square = np.zeros(mean.shape)
+    for step in (1.0, 2.0, 3.0):
+        above = normal_share((away - step + 0.5) / s)
+        below = normal_share((-away - step + 0.5) / s)
+        mean += above - below
+        square += (2.0 * step - 1.0) * (above + below)
+    return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))

@@ -10,7 +10,7 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.effects.cost import seconds_of
 from occ_model.effects.effect import Effect
-from occ_model.effects.estimates import LIMIT_ALLOWANCE, Estimates
+from occ_model.effects.estimates import Estimates
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
 from occ_model.results.plan import Way
@@ -127,6 +127,6 @@ def _errors_of(estimates: Estimates, free: tuple[Effect, ...], left_out: FloatAr
     factors = np.array([estimates.factors[name] for name in names])
     squares = estimates.seen.of_subsets(names, left_out)
     factor = np.maximum((left_out * factors).max(axis=1), 1.0)
-    errors = np.sqrt(squares) * (LIMIT_ALLOWANCE * estimates.stretch) * factor
+    errors = np.sqrt(squares) * estimates.stretch * factor
     errors[0] = 0.0
     return np.asarray(errors)

@@ -18,11 +18,8 @@ from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.errors import ProjectionError
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
 
-ALLOWANCE = 1.2
+ALLOWANCE = 1.05
 """Factor on what a sample shows, so that hardly any change is larger than its estimate."""
-
-LIMIT_ALLOWANCE = 1.3
-"""The same for limits, which keep a plan's promise."""
 
 _PEAK, _NOISE_PEAK = 2.0, 3.0
 """Root mean squares of a smooth change, and of noise, that are to stay within a chip's margin."""
@@ -116,7 +113,7 @@ class Estimates:
         if self.seen is None:
             return math.inf
         factor = max(self.factors.get(name, 1.0) for name in left_out)
-        return math.sqrt(self.seen.together(left_out)) * LIMIT_ALLOWANCE * self.stretch * factor
+        return math.sqrt(self.seen.together(left_out)) * self.stretch * factor
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
@@ -149,10 +146,11 @@ def _estimates_of(
             if pixels.is_like_noise(name):
                 factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
     sizes, limits = {}, {}
-    for effect in pixels.effects:
-        name = effect.name
+    names = [effect.name for effect in pixels.effects]
+    most = np.sqrt(seen.of_subsets(names, np.eye(len(names)))).tolist() if names else []
+    for name, of_sample in zip(names, most, strict=True):
         unit = stretch * factors[name]
-        sizes[name] = max(math.sqrt(seen.shown(name)), _LEAST_ESTIMATE) * unit * ALLOWANCE
-        most = math.sqrt(seen.together(frozenset({name}))) * unit * LIMIT_ALLOWANCE
-        limits[name] = max(most, sizes[name])
+        allowance = 1.0 if name in seen.known else ALLOWANCE
+        sizes[name] = max(math.sqrt(seen.shown(name)), _LEAST_ESTIMATE) * unit * allowance
+        limits[name] = max(of_sample * unit, sizes[name])
     return Estimates(sizes, limits, seen, stretch, factors)

@@ -38,6 +38,9 @@ _WHITE_SPECTRUM: FloatArray = np.full(8, math.sqrt(1.0 / 8.0))
 
 _TINY = 1e-30
 
+_LEAST_SPREAD = 1e-3
+"""Noise in steps below which a coefficient surely stays on one side of a step's end."""
+
 _DITHERED = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
@@ -170,7 +173,7 @@ class FileChange:
         return float(square.sum()) / 64.0 / self.block_rows + self._cut * self._rounding_at_edges
 
     @cached_property
-    def added(self) -> tuple[FloatArray, FloatArray]:
+    def added(self) -> tuple[FloatArray, FloatArray, FloatArray]:
         """What rounding adds to the mean square of a change, for each of the sets of effects.
 
         Pixels that change by a part of a level round to another one here and there: a change of all
@@ -178,9 +181,10 @@ class FileChange:
 
         Returns
         -------
-        image, sampling : ndarray of float64, shape (sets,)
+        image, sampling, doubt : ndarray of float64, shape (sets,)
             To that of the pixels, and of the part of a column's mean that differs from block to
-            block.
+            block; and how much more to the pixels where coefficients lie a little beside the
+            sampled ones.
         """
         change = self._x - self._x[0]
         moved = self._in_blocks(self._stack)
@@ -191,21 +195,27 @@ class FileChange:
         step = self._step
         read = self._x + rounding_mean(self._x, self._noise / step)
         shift = read - read[0]
-        by_noise = moved_steps_of_noise(flips[:, None, None] / step)
-        spread = np.maximum(moved_steps(shift), by_noise[:, None] * self._near_half)
-        along = ((shift**2 - change**2 + spread) * step**2).sum(axis=2).mean(axis=(1, 2))
-        apart = (spread * step**2).sum(axis=2).mean(axis=(1, 2))
+        by_noise = moved_steps_of_noise(flips[:, None, None] / step)[:, None]
+        of_shift = moved_steps(shift)
+        apart, most = (
+            self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(least)))
+            for least in (_LEAST_SPREAD, SHARP)
+        )
+        along = self._in_pixels(shift**2 - change**2) + apart
         q = self._others
         across = moved_steps_of_noise(flips[:, None] / q) @ (q**2 * near_half(self._noise / q))
         rims = self._at_rims(np.hypot(size, flips))
-        image = (1.0 - self._rims) * (along + across) / 64.0 + self._rims * rims
-        return np.asarray(image), np.asarray(apart / 64.0 / self.block_rows + self._cut * rims)
+        image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims
+        return image, apart / self.block_rows + self._cut * rims, most - apart
 
-    @cached_property
-    def _near_half(self) -> FloatArray:
-        """How near to a step's end the coefficients are, against values spread evenly."""
+    def _in_pixels(self, squares: FloatArray) -> FloatArray:
+        """Return the mean square in pixels of coefficients, shape (sets,)."""
+        return np.asarray((squares * self._step**2).sum(axis=2).mean(axis=(1, 2)) / 64.0)
+
+    def _near_half(self, least: float) -> FloatArray:
+        """Return how near to a step's end the coefficients are, against values spread evenly."""
         away = np.abs(self._x[0] - np.rint(self._x[0]))
-        spread = np.maximum(self._noise / self._step, SHARP)
+        spread = np.maximum(self._noise / self._step, least)
         density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
         return np.asarray(np.minimum(density, 1.0))
 
@@ -236,11 +246,11 @@ class FileChange:
         """Return the mean square of what no sample can tell: rounding alike in all blocks.
 
         Where noise does not spread a block's mean over the steps, the smallest change may round
-        the blocks of an even picture otherwise, all at once.
+        the blocks of an even picture otherwise, many at once: half of them are counted.
         """
         step = self._step[:2, 0]
         sharp = np.exp(-DAMPING * (self._noise / step) ** 2)
-        return float((step**2 * sharp).sum()) / 6.0 / 64.0
+        return float((step**2 * sharp).sum()) / 2.0 / 64.0
 
     def added_at_rims(self, share: float, square: float) -> float:
         """Return what a file adds to a change that lies in some share of the blocks.

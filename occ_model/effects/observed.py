@@ -1,10 +1,17 @@
 """What is observed of a sample of pixels, and how it changes without some of the effects."""
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
 from occ_model.arrays import FloatArray
+
+LIMIT_ALLOWANCE = 1.3
+"""Factor on what a sample shows for the most that it is, which keeps a plan's promise."""
+
+_SURE_DEVIATIONS = 3.5
+"""Standard deviations by which the root mean square of finite noise may exceed its expectation."""
 
 
 class Observed:
@@ -29,6 +36,8 @@ class Observed:
         The mean square of what is independent in an effect's change, by name.
     doubt
         The mean square of what the sample may not show of it, by name.
+    known
+        Factor on the root of that for the most that it is, where its law is known, by name.
     unsure
         Share by which any mean square may be larger.
     """
@@ -44,11 +53,20 @@ class Observed:
         self._place = {name: at for at, name in enumerate(changing)}
         self.alone: dict[str, float] = {}
         self.doubt: dict[str, float] = {}
+        self.known: dict[str, float] = {}
         self.unsure = 0.0
         found = seen([names, *(names - {name} for name in changing)])
         self.complete = found[0]
         moved = found[1:] - found[0]
         self._products = moved @ moved.T
+
+    def add_noise(self, squares: Mapping[str, float], values: int) -> None:
+        """Add the mean squares of noise whose law is known, over so many independent values.
+
+        The root mean square of n normal numbers deviates by a share of 1 / sqrt(2 n) from theirs.
+        """
+        self.alone.update(squares)
+        self.known.update(dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values)))
 
     def shown(self, name: str) -> float:
         """Return the mean square of what leaving out an effect changes, as the sample shows it."""
@@ -66,9 +84,8 @@ class Observed:
         else:
             change = self._seen([self._names - left_out])[0] - self.complete
             square = float(change @ change)
-        independent = sum(self.alone.get(name, 0.0) for name in left_out)
-        doubt = max(self.doubt.get(name, 0.0) for name in left_out)
-        return max(square + independent, 0.0) * (1.0 + self.unsure) + doubt
+        (most,) = self._most(sorted(left_out), np.ones((1, len(left_out))), np.array([square]))
+        return float(most)
 
     def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
         """Return about the same for many sets of effects, as if their changes added.
@@ -80,11 +97,17 @@ class Observed:
         members : ndarray of float64, shape (sets, effects)
             1 where a set has an effect.
         """
-        alone = np.array([self.alone.get(name, 0.0) for name in names])
-        doubt = np.array([self.doubt.get(name, 0.0) for name in names])
         moving = [at for at, name in enumerate(names) if name in self._place]
         places = [self._place[names[at]] for at in moving]
         moved = members[:, moving]
         squares = ((moved @ self._products[np.ix_(places, places)]) * moved).sum(axis=1)
-        sure = np.maximum(squares + members @ alone, 0.0)
-        return np.asarray(sure * (1.0 + self.unsure) + (members * doubt).max(axis=1))
+        return self._most(names, members, squares)
+
+    def _most(self, names: Sequence[str], members: FloatArray, squares: FloatArray) -> FloatArray:
+        """Add to mean squares what is independent and in doubt, with the allowances."""
+        alone = np.array([self.alone.get(name, 0.0) for name in names])
+        known = np.array([self.known.get(name, 0.0) for name in names])
+        doubt = np.array([self.doubt.get(name, 0.0) for name in names])
+        sure = np.maximum(squares + members @ np.where(known, 0.0, alone), 0.0)
+        most = sure * (1.0 + self.unsure) + (members * doubt).max(axis=1)
+        return np.asarray(most * LIMIT_ALLOWANCE**2 + members @ (alone * known**2))

@@ -43,9 +43,12 @@ def observed_image(pixels: SampledPixels) -> Observed:
     if file is not None:
         found.alone[pixels.files[0].name] = file.own_change()
         for name in pixels.moving:
-            plain = found.together(frozenset({name}))
-            added = float(file.added[0][pixels.place(name)]) + _added_at_rims(pixels, name, plain)
-            found.alone[name] = max(added, -0.5 * plain)
+            square, doubt = found.shown(name), found.doubt.get(name, 0.0)
+            place, plain = pixels.place(name), square + doubt
+            added = float(file.added[0][place]) + _added_at_rims(pixels, name, plain)
+            most = max(added + float(file.added[2][place]), -0.5 * plain)
+            found.alone[name] = max(added, -square)
+            found.doubt[name] = doubt + most - found.alone[name]
     return found
 
 
@@ -76,17 +79,17 @@ def observed_profile(pixels: SampledPixels) -> Observed:
     if pixels.outline:
         share = pixels.contrast**2 / (region.rows**2 * region.columns)
         found.doubt.update(dict.fromkeys(pixels.outline, pixels.doubted_pixels(share)))
-    for name, variance in pixels.variances.items():
-        found.alone[name] = (
-            float(pixels.mean_at_whole(variance)) / rows
-            if file is None
-            else pixels.noise_read_back[name][1]
-        )
-    if file is not None:
+    if file is None:
+        variances = {n: float(pixels.mean_at_whole(v)) for n, v in pixels.variances.items()}
+        found.add_noise({n: v / rows for n, v in variances.items()}, region.columns)
+    else:
+        found.alone.update({n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()})
         name = pixels.files[0].name
         found.alone[name] = file.own_sampling()
-        found.doubt[name] = found.together(frozenset({name}))
+        found.doubt[name] = found.shown(name)
         for name in pixels.moving:  # what rounding adds is known to within its size
-            found.alone[name] = added = float(file.added[1][pixels.place(name)])
+            added, more = (float(of_sets[pixels.place(name)]) for of_sets in file.added[1:])
+            found.alone[name] = added
+            added += 2.0 * more / file.block_rows
             found.doubt[name] = found.doubt.get(name, 0.0) + added
     return found

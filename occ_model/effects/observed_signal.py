@@ -75,10 +75,14 @@ class _Curves:
         found = pixels.look_each(np.stack([self.curve(one) for one in sets]), values)
         for included, own, of_own in zip(sets, values, found, strict=True):
             spread, _ = self.noise(included)
-            if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
-                flat = np.clip(own.ravel(), 0.0, WHITE)
-                steps = PassedSteps.of(flat, pixels.look(spread, flat))
-                of_own[:] = pixels.enhancement(included).mean(steps).reshape(own.shape)
+            if float(spread.min()) < _LEAST_SMOOTHING_NOISE:
+                flat = np.clip(own, 0.0, WHITE)
+                filed = any(effect.name in included for effect in pixels.files)
+                noise = pixels.look(spread, flat) if filed else pixels.noise_at(included, flat)
+                sharp = noise < _LEAST_SMOOTHING_NOISE
+                if sharp.any():
+                    steps = PassedSteps.of(flat[sharp], noise[sharp])
+                    of_own[sharp] = pixels.enhancement(included).mean(steps)
         return found
 
 
@@ -100,6 +104,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     found = Observed(pixels.names, seen, sorted(pixels.names))
     sampling = SignalSampling(pixels)
     found.alone.update(sampling.of_effects())
+    fluctuations = sampling.fluctuations()
     found.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
     jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
@@ -109,6 +114,8 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     for name in pixels.outline:  # a pixel of a rim is enhanced or not
         own = pixels.moved_rims(name) * (part * jump / region.rows) ** 2
         found.doubt[name] = doubt + own
+    for name, square in fluctuations.items():
+        found.doubt[name] = found.doubt.get(name, 0.0) + square
     _doubt_sharp_steps(pixels, found)
     _doubt_large_steps(pixels, found)
     _doubt_a_cut_file(pixels, found)
@@ -167,18 +174,26 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
         return
     profile = pixels.profile(pixels.names)[region.first_column : region.last_column]
     away = np.abs(profile - large[:, None] - 0.5)
-    sampled = away[:, sample.columns - region.first_column]
+    at_step = {
+        e.name: pixels.noise_at(frozenset({e.name}), large + 0.5) ** 2 for e in pixels.noises
+    }
+    noise = np.maximum(np.sqrt(sum(at_step.values(), np.zeros(len(large)))), _ROUNDING_MARGIN)
+    reached = np.maximum(2.0 * pixels.noise_at(pixels.names, profile), _ROUNDING_MARGIN)
     moves = pixels.mean_of((pixels.stack - pixels.whole) ** 2).tolist()
     for name in pixels.names:
-        if name in pixels.variances:
-            own, rest = pixels.noise_without(name)
-            moved, share = own, min(0.5, (own / max(rest, _ROUNDING_MARGIN)) ** 2 / 8.0)
+        if name in at_step:
+            near = away < reached  # a full pixel has no noise
+            rest = np.maximum(noise**2 - at_step[name], _ROUNDING_MARGIN**2)
+            passing = np.sqrt(at_step[name]) / (3.0 * noise)
+            share = np.hypot(at_step[name] / rest / 8.0, np.sqrt(passing / region.rows))
         else:
             moved = math.sqrt(moves[pixels.place(name)])
-            share = min(0.5, 0.4 * moved / max(pixels.noise_with(pixels.names), _ROUNDING_MARGIN))
-        near = max(moved, _ROUNDING_MARGIN)
-        unseen = np.count_nonzero(sampled < near, axis=1) < _LEAST_SAMPLED_COLUMNS
-        doubt = (away < near).mean(axis=1)[unseen] @ (steps[large][unseen] * share) ** 2
+            near = away < max(moved, _ROUNDING_MARGIN)
+            share = 0.4 * moved / noise
+        sampled = np.count_nonzero(near[:, sample.columns - region.first_column], axis=1)
+        unseen = sampled < _LEAST_SAMPLED_COLUMNS
+        squares = (steps[large] * np.minimum(share, 0.5)) ** 2
+        doubt = near.mean(axis=1)[unseen] @ squares[unseen]
         found.doubt[name] = found.doubt.get(name, 0.0) + float(doubt)
 
 

@@ -107,7 +107,7 @@ def _at_halves(s: FloatArray) -> FloatArray:
     s = np.maximum(s, _TINY)
     halves = np.arange(0.5, 6.0)[:, None] / s
     density = 2.0 * (np.exp(-0.5 * halves**2) / (math.sqrt(2.0 * math.pi) * s)).sum(axis=0)
-    return np.minimum(density, 1.0)
+    return np.asarray(np.minimum(density, 1.0))
 
 
 def rounded_noise(s: FloatArray) -> FloatArray:
@@ -118,7 +118,7 @@ def rounded_noise(s: FloatArray) -> FloatArray:
 def _square_of_rounded(s: FloatArray) -> FloatArray:
     step = np.arange(1.0, 17.0)
     passed = 1.0 - normal_share((step - 0.5)[:, None] / np.maximum(s, _TINY))
-    return 2.0 * ((2.0 * step - 1.0)[:, None] * passed).sum(axis=0)
+    return np.asarray(2.0 * ((2.0 * step - 1.0)[:, None] * passed).sum(axis=0))
 
 
 def rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:

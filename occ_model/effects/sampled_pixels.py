@@ -195,6 +195,19 @@ class SampledPixels:
         own = [variance for name, variance in self.variances.items() if name in included]
         return np.sqrt(sum(own, np.zeros(_LEVELS)))
 
+    def noise_at(self, included: Names, values: FloatArray) -> FloatArray:
+        """Return the standard deviation of noise at some values, with some effects.
+
+        Just below a full well it ends within less than two levels of the table.
+        """
+        found = self.look(self.spread(included), values)
+        full = saturation_value(self.scene)
+        ends = (values < full) & (values > full - (self.levels[1] - self.levels[0]))
+        if ends.any():
+            own = (e for e in self.noises if e.name in included)
+            found[ends] = np.sqrt(sum(e.spread(self.scene, values[ends]) ** 2 for e in own))
+        return found
+
     def look(self, tables: FloatArray, values: FloatArray) -> FloatArray:
         """Interpolate tables over the levels, the last axis, at values: (..., *values.shape)."""
         below, share = self._place(values)

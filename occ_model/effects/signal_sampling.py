@@ -38,13 +38,23 @@ class SignalSampling:
 
     def of_effects(self) -> dict[str, float]:
         """Return it for each effect, by name."""
-        return {**self._of_noise(), **self._of_file(), **self._of_changes()}
+        return {**self._of_noise, **self._of_file(), **self._of_changes}
 
-    def _of_mean(self, square: float, of_means: float, added: float, moves_few: bool) -> float:
+    def fluctuations(self) -> dict[str, float]:
+        """Return by how much it may be larger for effects that move few pixels, by name."""
+        total = 0.25 * float((self._spread**2).max())
+        few = {n: v for n, v in self._of_noise.items() if self._variance_of(n) < total}
+        found = {**few, **self._of_changes}
+        return {n: _FLUCTUATION * math.sqrt(v * self._pixel) for n, v in found.items()}
+
+    def _variance_of(self, name: str) -> float:
+        return float(self._pixels.variances[name].max())
+
+    def _of_mean(self, square: float, of_means: float) -> float:
         """Return that of a mean: of its pixels' deviations, and what is known of means."""
-        found = square / self._rows + of_means * self._gain + added
-        return found + moves_few * _FLUCTUATION * math.sqrt(found * self._pixel)
+        return square / self._rows + of_means * self._gain
 
+    @cached_property
     def _of_noise(self) -> dict[str, float]:
         pixels, total = self._pixels, self._spread**2
         inside, found = pixels.inside([pixels.names]), {}
@@ -60,15 +70,14 @@ class SignalSampling:
             square = float(pixels.mean_at_whole(part, None if inside is None else inside[0]))
             if inside is not None:
                 square += float(pixels.mean_at_whole(own**2, ~inside[0]))
-            moves_few = float(variance.max()) < 0.25 * float(total.max())
-            found[name] = self._of_mean(square, of_means, self._drawn, moves_few)
+            found[name] = self._of_mean(square, of_means) + self._drawn
         return found
 
     def _of_file(self) -> dict[str, float]:
         file = self._pixels.file
         if file is None:
             return {}
-        found = self._of_mean(self._rounded, file.own_sampling(), 0.0, moves_few=False)
+        found = self._of_mean(self._rounded, file.own_sampling())
         return {self._pixels.files[0].name: found}
 
     @cached_property
@@ -84,18 +93,19 @@ class SignalSampling:
         """How much more that of a file may be, whose rounding is alike in the rows of a block."""
         return 7.0 * self._rounded / self._rows if self._pixels.files else 0.0
 
+    @cached_property
     def _of_changes(self) -> dict[str, float]:
         """Return it for effects that move the pixels' means."""
         pixels = self._pixels
         changes = np.abs(pixels.stack[1:] - pixels.whole)
         of_means: FloatArray = np.zeros(len(changes))
         if pixels.file is not None:
-            added, of_means = (of_sets[1:] for of_sets in pixels.file.added)
+            added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.added)
             changes = np.sqrt(changes**2 + np.maximum(added, 0.0)[:, None, None])
         np.minimum(changes, 0.5, out=changes)
         even, uneven = pixels.at_whole(self._even), pixels.at_whole(self._uneven)
         squares = pixels.mean_of(changes * (even * (1.0 - changes) + uneven)).tolist()
         return {
-            name: self._of_mean(square, own, 0.0, moves_few=True)
+            name: self._of_mean(square, own)
             for name, square, own in zip(pixels.moving, squares, of_means.tolist(), strict=True)
         }

@@ -1,19 +1,20 @@
 """How close estimates are, and how the promise holds: ``python tests/benchmarks/estimates.py``.
 
-``presets`` prints, for each effect and observable of the presets, what the plan estimates, what
-leaving the effect out of the complete simulation changes, and their ratio. ``scenes [number]
-[first]`` does so for random scenes of a world wider than the sliders, and tries the promise on
-them: the planned simulation against the complete one at some tolerances. ``plans`` prints what is
-taken in, and the milliseconds of a picture, at some tolerances. ``figure [file]`` draws the ratios
-that ``scenes`` has kept.
+``presets`` prints, for each effect and observable of the presets with a lens, what the plan
+estimates, what leaving the effect out of the complete simulation changes, and their ratio.
+``scenes [number] [first]`` does so for random scenes of a world wider than the sliders, keeps it,
+and tries the promise on them: the planned simulation against the complete one at some tolerances.
+``figure [file]`` draws the ratios that were kept. ``plans [folder]`` prints how many effects are
+taken in, and the milliseconds of a picture, at some tolerances; ``planning [folder]`` prints the
+milliseconds of a plan. With the folder of another state of the program both are tried in turn.
 """
 
 import json
+import subprocess
 import sys
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
-from time import perf_counter
 
 import numpy as np
 from tqdm import tqdm
@@ -28,6 +29,7 @@ from occ_model.scene.simulation_settings import Observable
 
 BEFORE_DECISION: tuple[Observable, ...] = ("image", "profile", "signal")
 TOLERANCES = (0.5, 2.0, 8.0)
+_WITH_LENS = [name for name in occ.presets() if name.endswith("-real")]
 KEPT = Path(".estimates.jsonl")
 SMALL = 0.1
 """Levels below which neither an estimate nor a change matters to any plan."""
@@ -73,7 +75,7 @@ def presets() -> None:
     print(
         "| preset | observable | effect | estimate | measured | ratio |\n|---|---|---|---|---|---|"
     )
-    for name in occ.presets():
+    for name in _WITH_LENS:
         for row in compared(occ.load_preset(name), 1):
             observable, effect, estimate, change = row
             ratio = estimate / max(change, 1e-9)
@@ -127,20 +129,71 @@ def _line(observable: str, effect: str, values: list[float]) -> str:
     )
 
 
-def plans() -> None:
-    for name in (name for name in occ.presets() if name.endswith("-real")):
-        scene = occ.load_preset(name)
-        for tolerance in (0.0, 1.0, 2.0, 5.0, 10.0):
-            chosen = occ.plan(scene, tolerance)
-            times = []
-            for _ in range(5):
-                start = perf_counter()
-                occ.render(scene, tolerance=tolerance, noise="reused")
-                times.append(perf_counter() - start)
-            print(f"{name}, {tolerance:g}: {1e3 * min(times):.0f} ms: {', '.join(chosen.included)}")
+def plans(folder: str = "") -> None:
+    """Print effects and shortest milliseconds of each state of the program, side by side."""
+    tolerances = (0.0, 1.0, 2.0, 5.0, 10.0)
+    print("| preset |" + "".join(f" {tolerance:g} |" for tolerance in tolerances))
+    print("|---" * (1 + len(tolerances)) + "|")
+    for name in _WITH_LENS:
+        tried = _in_turn(_RENDERED.format(name=name, tolerances=tolerances), folder, 3)
+        cells = [
+            " → ".join(f"{int(state[at][0])} effects, {state[at][1]:.0f} ms" for state in tried)
+            for at in range(len(tolerances))
+        ]
+        print(f"| {name} | {' | '.join(cells)} |", flush=True)
 
 
-def figure(file: str) -> None:
+def planning(folder: str = "") -> None:
+    """Print the shortest milliseconds of a plan of each state of the program, side by side."""
+    print("| scene | " + " | ".join(BEFORE_DECISION) + " |\n|---" + "|---" * 3 + "|")
+    for name in ("phone-136us", "phone-136us-real"):
+        code = _PLANNED.format(name=name, observables=BEFORE_DECISION)
+        tried = _in_turn(code, folder, 5)
+        cells = [" → ".join(f"{state[at][1]:.2f}" for state in tried) for at in range(3)]
+        print(f"| {name} | {' | '.join(cells)} |", flush=True)
+
+
+_PLANNED = """
+import time, occ_model as occ
+scene = occ.load_preset({name!r})
+for observable in {observables!r}:
+    times = []
+    for place in range(40):
+        other = scene.replace(start_time=1e-7 * place)
+        start = time.process_time()
+        occ.plan(other, 0.5, observable)
+        times.append(time.process_time() - start)
+    print(0, 1e3 * min(times))
+"""
+
+_RENDERED = """
+import time, occ_model as occ
+scene = occ.load_preset({name!r})
+for tolerance in {tolerances!r}:
+    times = []
+    for _ in range(3):
+        start = time.process_time()
+        frame = occ.render(scene, tolerance=tolerance, noise="reused")
+        times.append(time.process_time() - start)
+    print(len(frame.plan.included), 1e3 * min(times))
+"""
+
+
+def _in_turn(code: str, folder: str, rounds: int) -> list[list[tuple[float, float]]]:
+    """Run code in each state of the program in turn; give its numbers with the least times."""
+    own = str(Path(__file__).parents[2])
+    found: list[list[tuple[float, float]]] = [[] for _ in range(2 if folder else 1)]
+    for _ in range(rounds):
+        for at, state in enumerate([folder, own] if folder else [own]):
+            command = [sys.executable, "-c", code]
+            text = subprocess.run(command, cwd=state, check=True, capture_output=True).stdout
+            lines = [tuple(map(float, line.split())) for line in text.splitlines()]
+            pairs = zip(found[at] or lines, lines, strict=True)
+            found[at] = [(count, min(seconds, last)) for (_, last), (count, seconds) in pairs]
+    return found
+
+
+def figure(file: str = "estimates.png") -> None:
     import matplotlib
 
     matplotlib.use("agg")
@@ -165,7 +218,9 @@ if __name__ == "__main__":
     what, *rest = sys.argv[1:] or ["presets"]
     if what == "scenes":
         scenes(int(rest[0]) if rest else 200, int(rest[1]) if rest[1:] else 0)
-    elif what == "figure":
-        figure(rest[0] if rest else "estimates.png")
     else:
-        {"presets": presets, "summary": summary, "plans": plans}[what]()
+        commands = {
+            "presets": presets, "summary": summary, "plans": plans, "planning": planning,
+            "figure": figure,
+        }  # fmt: skip
+        commands[what](*rest)

@@ -78,14 +78,7 @@ def test_the_papers_scenes_need_sensor_noise_alone(preset: str) -> None:
     assert set(included) == {"fixed-pattern", "sensor-noise"}
 
 
-_NOISE_OF_68_US = pytest.mark.xfail(
-    strict=True, reason="noise is 0.48 levels, and the plan's allowance makes 0.5 of them"
-)
-
-
-@pytest.mark.parametrize(
-    "preset", [pytest.param(_PAPERS_PRESETS[0], marks=_NOISE_OF_68_US), *_PAPERS_PRESETS[1:]]
-)
+@pytest.mark.parametrize("preset", _PAPERS_PRESETS)
 def test_the_profile_of_the_papers_scenes_needs_nothing(preset: str) -> None:
     assert occ.plan(occ.load_preset(preset), 0.5, "profile").included == ()
 

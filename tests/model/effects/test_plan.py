@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import called_for_by_signal, ways_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
+from occ_model.simulation.render import observe
 
 LIGHTS_WAY = [
     "led-edges",
@@ -182,3 +184,26 @@ def test_a_plan_changes_at_the_error_of_each_way_and_nowhere_else(
         for tolerance in (way.error, math.nextafter(faster.error, 0.0)):
             if tolerance:
                 assert set(occ.plan(scene, tolerance, observable).included) == way.effects
+
+
+def test_the_limit_of_noise_in_the_means_of_columns_is_its_law() -> None:
+    """The RMS of n normal numbers deviates by 1 / sqrt(2 n) from theirs: 3.5 times are allowed."""
+    scene = occ.load_preset("phone-68us").replace(rows=200, columns=300)
+    everything = occ.plan(scene, 0.0, "profile")
+    (noise,) = (d for d in everything.decisions if d.effect == "sensor-noise")
+    complete, without = (
+        [observe(scene, plan, seed=seed).astype(float) for seed in range(20)]
+        for plan in (everything, occ.plan(scene, 0.0, "profile", {"sensor-noise": False}))
+    )
+    found = [
+        math.sqrt(np.mean((a - b) ** 2)) * everything.stretch
+        for a, b in zip(complete, without, strict=True)
+    ]
+    columns = paper_view_of(scene).region.columns
+    assert noise.limit == pytest.approx(
+        noise.estimate * (1.0 + 3.5 / math.sqrt(2.0 * columns)), rel=1e-3
+    )
+    assert math.sqrt(np.mean(np.square(found))) == pytest.approx(
+        noise.estimate, rel=4.0 / math.sqrt(2.0 * columns * len(found))
+    )
+    assert max(found) <= noise.limit

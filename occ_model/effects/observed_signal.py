@@ -174,9 +174,8 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
         return
     profile = pixels.profile(pixels.names)[region.first_column : region.last_column]
     away = np.abs(profile - large[:, None] - 0.5)
-    at_step = {
-        e.name: pixels.noise_at(frozenset({e.name}), large + 0.5) ** 2 for e in pixels.noises
-    }
+    middles = np.asarray(large + 0.5, dtype=np.float64)
+    at_step = {e.name: pixels.noise_at(frozenset({e.name}), middles) ** 2 for e in pixels.noises}
     noise = np.maximum(np.sqrt(sum(at_step.values(), np.zeros(len(large)))), _ROUNDING_MARGIN)
     reached = np.maximum(2.0 * pixels.noise_at(pixels.names, profile), _ROUNDING_MARGIN)
     moves = pixels.mean_of((pixels.stack - pixels.whole) ** 2).tolist()

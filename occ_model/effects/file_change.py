@@ -61,6 +61,8 @@ class RimBlocks:
         Rows that the panel spans.
     share
         Of the pixels that lie in blocks with a rim.
+    blocks
+        Blocks that it spans upwards.
     cut
         Variance of a column's sum over the rows of blocks that what is observed cuts, whose
         mean is 0, in that of a pixel.
@@ -69,6 +71,7 @@ class RimBlocks:
     """
 
     rows: int
+    blocks: int
     share: float
     cut: float
     is_level: bool
@@ -106,6 +109,7 @@ class FileChange:
         self._noise = math.sqrt(spread**2 + _ROUNDING)
         self.block_rows = max(rims.rows / 8.0, 1.0)
         self._rims = rims.share
+        self._filled = math.sqrt(rims.rows / (8.0 * rims.blocks))
         self._cut = rims.cut / rims.rows**2
         self._stack = stack
         self._x = self._coefficients(stack)
@@ -204,7 +208,7 @@ class FileChange:
         along = self._in_pixels(shift**2 - change**2) + apart
         q = self._others
         across = moved_steps_of_noise(flips[:, None] / q) @ (q**2 * near_half(self._noise / q))
-        rims = self._at_rims(np.hypot(size, flips))
+        rims = self._at_rims(np.hypot(size, flips) * self._filled)
         image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims
         return image, apart / self.block_rows + self._cut * rims, most - apart
 

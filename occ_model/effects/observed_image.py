@@ -7,9 +7,12 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
-from occ_model.effects.normal import clipped_mean, share_unclipped
+from occ_model.effects.normal import clipped_mean, normal_share, share_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import Names, SampledPixels
+
+_SHARP_NOISE = 1e-9
+"""Deviation in grey levels that none is taken for."""
 
 
 def observed_image(pixels: SampledPixels) -> Observed:
@@ -67,10 +70,13 @@ def observed_profile(pixels: SampledPixels) -> Observed:
 
     def seen(sets: Sequence[Names]) -> FloatArray:
         spread = np.stack([pixels.spread(included) for included in sets])
-        if file is not None:
-            filed = [at for at, one in enumerate(sets) if pixels.files[0].name in one]
-            spread[filed] = np.hypot(spread[filed], math.sqrt(file.own_change()))
         tables = clipped_mean(pixels.levels, spread, WHITE)
+        if file is not None:  # whose error is cut off again, also of pixels that are at an end
+            filed = [at for at, one in enumerate(sets) if pixels.files[0].name in one]
+            below = normal_share(-pixels.levels / np.maximum(spread[filed], _SHARP_NOISE))
+            above = normal_share((pixels.levels - WHITE) / np.maximum(spread[filed], _SHARP_NOISE))
+            error = math.sqrt(file.own_change())
+            tables[filed] += (below - above) * error / math.sqrt(2.0 * math.pi)
         found = pixels.look_each(tables, pixels.read_back(sets))
         return pixels.mean_of_rows(found) * weights
 

@@ -268,6 +268,7 @@ class SampledPixels:
             self.noise_with(self.names),
             RimBlocks(
                 rows=self.view.region.rows,
+                blocks=-(-self.view.region.last_row // 8) - self.view.region.first_row // 8,
                 share=self.rim_share,
                 cut=_cut_rows(self.view.region.first_row) + _cut_rows(self.view.region.last_row),
                 is_level=self.view.sides is not None,

@@ -7,14 +7,20 @@ and tries the promise on them: the planned simulation against the complete one a
 ``figure [file]`` draws the ratios that were kept. ``plans [folder]`` prints how many effects are
 taken in, and the milliseconds of a picture, at some tolerances; ``planning [folder]`` prints the
 milliseconds of a plan. With the folder of another state of the program both are tried in turn.
+``decision [images]`` prints what a threshold decoder reads of a preset with the effects that the
+signal calls for and without those that make rows differ, the processor time of an image, and how
+many images the search of a limit takes near its ends.
 """
 
 import json
 import subprocess
 import sys
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+from time import process_time
+from typing import Any
+from unittest import mock
 
 import numpy as np
 from tqdm import tqdm
@@ -24,8 +30,12 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 from physics.effect_world import present, rms, scene_of, seen
 
 import occ_model as occ
+from occ_model.effects.registry import EFFECTS
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
+from occ_model.study import sure_ends, working_range
+from occ_model.study.success_rate import right_and_whole
 
 BEFORE_DECISION: tuple[Observable, ...] = ("image", "profile", "signal")
 TOLERANCES = (0.5, 2.0, 8.0)
@@ -33,6 +43,9 @@ _WITH_LENS = [name for name in occ.presets() if name.endswith("-real")]
 KEPT = Path(".estimates.jsonl")
 SMALL = 0.1
 """Levels below which neither an estimate nor a change matters to any plan."""
+
+KNOWN = 2.0
+"""Times its estimate that the limit of an effect is at most where a plan knows what it changes."""
 
 
 class _ChangeOf:
@@ -55,8 +68,8 @@ class _ChangeOf:
 
 def compared(
     scene: Scene, seed: int, tolerances: tuple[float, ...] = ()
-) -> Iterator[tuple[str, str, float, float]]:
-    """Give observable, effect, estimate and change; for a plan its tolerance as the effect."""
+) -> Iterator[tuple[str, str, float, float, float]]:
+    """Give observable, effect, estimate, limit and change; a plan's tolerance is both of these."""
     for observable in BEFORE_DECISION:
         everything = occ.plan(scene, 0.0, observable)
         effects, stretch = present(everything), everything.stretch
@@ -65,21 +78,21 @@ def compared(
         for decision in everything.decisions:
             if decision.included:
                 name = decision.effect
-                yield observable, name, decision.estimate, change(effects - {name})
+                sizes = decision.estimate, decision.limit
+                yield observable, name, *sizes, change(effects - {name})
         for tolerance in tolerances:
             chosen = present(occ.plan(scene, tolerance, observable))
-            yield observable, f"tolerance {tolerance:g}", tolerance, change(chosen)
+            yield observable, f"tolerance {tolerance:g}", tolerance, tolerance, change(chosen)
 
 
 def presets() -> None:
-    print(
-        "| preset | observable | effect | estimate | measured | ratio |\n|---|---|---|---|---|---|"
-    )
+    print("| preset | observable | effect | estimate | limit | measured | ratio |")
+    print("|---" * 7 + "|")
     for name in _WITH_LENS:
         for row in compared(occ.load_preset(name), 1):
-            observable, effect, estimate, change = row
+            observable, effect, estimate, limit, change = row
             ratio = estimate / max(change, 1e-9)
-            sizes = f"{estimate:.3g} | {change:.3g} | {ratio:.2f}"
+            sizes = f"{estimate:.3g} | {limit:.3g} | {change:.3g} | {ratio:.2f}"
             print(f"| {name} | {observable} | {effect} | {sizes} |")
 
 
@@ -91,42 +104,35 @@ def scenes(count: int, first: int) -> None:
     summary()
 
 
-def kept() -> list[tuple[int, str, str, float, float]]:
+def kept() -> list[tuple[int, str, str, float, float, float]]:
     return [tuple(json.loads(line)) for line in KEPT.read_text(encoding="utf-8").splitlines()]
 
 
+def ratios() -> dict[tuple[str, bool], np.ndarray]:
+    """Return estimates over changes, of each observable: where the plan knows them, and of all."""
+    found: dict[tuple[str, bool], list[float]] = defaultdict(list)
+    for _, observable, effect, estimate, limit, change in kept():
+        if not effect.startswith("tolerance") and max(estimate, change) > SMALL:
+            for is_known in (True, False) if limit <= KNOWN * estimate else (False,):
+                found[observable, is_known].append(estimate / max(change, 1e-3))
+    return {key: np.array(values) for key, values in found.items()}
+
+
 def summary() -> None:
-    ratios: dict[tuple[str, str], list[float]] = defaultdict(list)
-    shares: dict[tuple[str, str], list[tuple[float, int]]] = defaultdict(list)
-    for seed, observable, effect, estimate, change in kept():
-        if effect.startswith("tolerance"):
-            shares[observable, effect].append((change / estimate, seed))
-        elif max(estimate, change) > SMALL:
-            ratios[observable, effect].append(estimate / max(change, 1e-9))
-    print("| observable | effect | scenes | 1 % | 5 % | median | 95 % | below 1 | above 1.5 |")
-    print("|---|---|---|---|---|---|---|---|---|")
-    everything = []
-    for (observable, effect), values in sorted(ratios.items()):
-        everything += values
-        print(_line(observable, effect, values))
-    print(_line("all", "all", everything))
-    held = [share <= 1.0 for values in shares.values() for share, _ in values]
-    print(f"\nThe promise holds in {100.0 * np.mean(held):.2f} % of {len(held)} plans.")
-    for (observable, effect), found in sorted(shares.items()):
-        worst = sorted(found, reverse=True)[:6]
-        text = ", ".join(f"{share:.2f} (scene {seed})" for share, seed in worst)
-        over = sum(share > 1.0 for share, _ in found)
-        print(f"{observable}, {effect}: {over} of {len(found)} above it; largest {text}")
-
-
-def _line(observable: str, effect: str, values: list[float]) -> str:
-    one, five, middle, most = np.quantile(values, (0.01, 0.05, 0.5, 0.95))
-    array = np.array(values)
-    below, above = 100.0 * np.mean(array < 1.0), 100.0 * np.mean(array > 1.5)
-    return (
-        f"| {observable} | {effect} | {len(values)} | {one:.2f} | {five:.2f} | {middle:.2f} | "
-        f"{most:.3g} | {below:.0f} % | {above:.0f} % |"
-    )
+    print("| observable | effects | number | 5 % | median | 95 % | below 0.8 | above 1.5 |")
+    print("|---" * 8 + "|")
+    for (observable, is_known), values in sorted(ratios().items()):
+        quantiles = " | ".join(f"{at:.3g}" for at in np.quantile(values, (0.05, 0.5, 0.95)))
+        ends = [100.0 * np.mean(values < 0.8), 100.0 * np.mean(values > 1.5)]
+        shares = " | ".join(f"{share:.1f} %" for share in ends)
+        which = "known" if is_known else "all"
+        print(f"| {observable} | {which} | {len(values)} | {quantiles} | {shares} |")
+    plans = [row for row in kept() if row[2].startswith("tolerance")]
+    shares = [(change / tolerance, *row) for *row, tolerance, _, change in plans]
+    held = 100.0 * np.mean([share <= 1.0 for share, *_ in shares])
+    print(f"\nThe promise holds in {held:.2f} % of {len(shares)} plans; the largest shares:")
+    for share, seed, observable, effect in sorted(shares, reverse=True)[:6]:
+        print(f"{share:.2f}: scene {seed}, {observable}, {effect}")
 
 
 def plans(folder: str = "") -> None:
@@ -135,7 +141,7 @@ def plans(folder: str = "") -> None:
     print("| preset |" + "".join(f" {tolerance:g} |" for tolerance in tolerances))
     print("|---" * (1 + len(tolerances)) + "|")
     for name in _WITH_LENS:
-        tried = _in_turn(_RENDERED.format(name=name, tolerances=tolerances), folder, 3)
+        tried = _in_turn(_RENDERED.format(name=name, tolerances=tolerances), folder, 2)
         cells = [
             " → ".join(f"{int(state[at][0])} effects, {state[at][1]:.0f} ms" for state in tried)
             for at in range(len(tolerances))
@@ -193,24 +199,65 @@ def _in_turn(code: str, folder: str, rounds: int) -> list[list[tuple[float, floa
     return found
 
 
+def decision(images: str = "20") -> None:
+    """Try whether leaving effects out changes what a threshold decoder reads."""
+    scene = occ.load_preset("phone-136us-real")
+    alike = {e.name: False for e in EFFECTS if e.kind == "image"}
+    print("| frequency | images read: all effects | rows alike | ms: all effects | rows alike |")
+    print("|---" * 5 + "|")
+    for frequency in (3.39e3, 3.6e3, 10e3, 13.5e3, 13.9e3, 14.1e3, 14.3e3):
+        read, times = [], []
+        for force in ({}, alike):
+            settings = RateSettings(int(images), ("threshold",), 77, force=force)
+            start = process_time()
+            _, (whole,) = right_and_whole(scene.replace(switching_frequency=frequency), settings)
+            times.append(f"{1e3 * (process_time() - start) / settings.images:.0f}")
+            read.append(f"{whole} of {images}")
+        print(f"| {frequency / 1e3:g} kHz | {' | '.join(read + times)} |", flush=True)
+    counted = _images_of_search(scene, RateSettings(20, ("threshold",), 5, force=alike))
+    total, ends = sum(counted.values()), ((0.0, 3.3e3), (3.3e3, 3.7e3), (3.7e3, 13e3), (13e3, 15e3))
+    for low, high in (*ends, (15e3, 1e9)):
+        there = sum(number for value, number in counted.items() if low <= value < high)
+        print(f"{there} of {total} images from {low:g} to {high:g} Hz")
+
+
+def _images_of_search(scene: Scene, settings: RateSettings) -> Counter[float]:
+    counted: Counter[float] = Counter()
+    original = working_range.right_bits_at
+
+    def counting(scene: Scene, name: str, value: float, *rest: Any) -> Iterator[int]:
+        for bits in original(scene, name, value, *rest):
+            counted[value] += 1
+            yield bits
+
+    with (
+        mock.patch.object(working_range, "right_bits_at", counting),
+        mock.patch.object(sure_ends, "right_bits_at", counting),
+    ):
+        found = working_range.working_range(scene, "switching_frequency", 99.0, settings)
+        sure_ends.with_sure_ends(scene, found, 99.0, settings)
+    return counted
+
+
 def figure(file: str = "estimates.png") -> None:
     import matplotlib
 
     matplotlib.use("agg")
     from matplotlib import pyplot
 
-    ratios = defaultdict(list)
-    for _, observable, effect, estimate, change in kept():
-        if not effect.startswith("tolerance") and max(estimate, change) > SMALL:
-            ratios[observable].append(estimate / max(change, 1e-3))
+    found = ratios()
     drawn, axes = pyplot.subplots(1, 3, figsize=(9, 2.6), sharey=True, layout="constrained")
     edges = np.geomspace(0.1, 10.0, 61)
     for axis, observable in zip(axes, BEFORE_DECISION, strict=True):
-        shown = np.clip(ratios[observable], edges[0], edges[-1])
-        axis.hist(shown, edges, weights=np.full(len(shown), 100.0 / len(shown)), color="#4477aa")
+        total = len(found[observable, False])
+        for is_known, color, label in ((False, "#bbbbbb", "all"), (True, "#4477aa", "known")):
+            shown = np.clip(found[observable, is_known], edges[0], edges[-1])
+            weights = np.full(len(shown), 100.0 / total)
+            axis.hist(shown, edges, weights=weights, color=color, label=label)
         axis.axvspan(1.0, 1.5, color="#ccbb44", alpha=0.3, lw=0)
         axis.set(xscale="log", title=observable, xlabel="estimate / measured")
     axes[0].set_ylabel("share of effects (%)")
+    axes[0].legend(frameon=False)
     drawn.savefig(file, dpi=110)
 
 
@@ -221,6 +268,6 @@ if __name__ == "__main__":
     else:
         commands = {
             "presets": presets, "summary": summary, "plans": plans, "planning": planning,
-            "figure": figure,
+            "figure": figure, "decision": decision,
         }  # fmt: skip
         commands[what](*rest)

@@ -17,9 +17,6 @@ SCENES = amount(6, 40)
 TOLERANCES = (0.5, 2.0, 8.0)
 OBSERVABLES: tuple[Observable, ...] = ("image", "profile", "signal")
 
-TOO_LARGE: dict[tuple[str, str], str] = {}
-"""Where the doubt that keeps the promise makes estimates larger than they should be."""
-
 
 def broken(observable: Observable, reason: str) -> ParameterSet:
     """Expect an observable to fail in the scenes of a whole run, which are the same each time."""
@@ -29,16 +26,8 @@ def broken(observable: Observable, reason: str) -> ParameterSet:
 SMALL = 0.1
 """Levels below which neither an estimate nor a change matters to any plan."""
 
-
-def aims(*scenes: str) -> list[ParameterSet]:
-    """List scenes and observables; those whose estimates are known to be too large must fail."""
-    return [
-        pytest.param(scene, observable, marks=[pytest.mark.xfail(reason=TOO_LARGE[pair])])
-        if (pair := (scene, observable)) in TOO_LARGE
-        else pytest.param(scene, observable)
-        for scene in scenes
-        for observable in OBSERVABLES
-    ]
+KNOWN = 2.0
+"""Times its estimate that the limit of an effect is at most where a plan knows what it changes."""
 
 
 @cache
@@ -77,19 +66,37 @@ def ratios_of(observable: Observable) -> np.ndarray:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize(("_scenes", "observable"), aims("wide"))
-def test_an_estimate_is_close_from_above(_scenes: str, observable: Observable) -> None:
+@pytest.mark.parametrize("observable", OBSERVABLES)
+def test_an_estimate_is_in_the_median_the_truth(observable: Observable) -> None:
     ratios = ratios_of(observable)
     assert len(ratios) > 3 * SCENES
-    assert 1.0 <= np.median(ratios[:, 0]) <= 1.5
+    assert 1.0 <= np.median(ratios[:, 0]) <= 1.1
 
 
 @pytest.mark.whole
 @pytest.mark.parametrize(
     "observable",
     [
-        broken("image", "1.6 of 100 limits are below 0.8 times the truth"),
-        broken("profile", "1.2 of 100 limits are below 0.8 times the truth"),
+        broken("image", "8 of 100 in these scenes, of which panels of 2 and of 10 rows are most"),
+        "profile",
+        broken("signal", "6 of 100 in these scenes"),
+    ],
+)
+def test_where_a_plan_knows_an_effect_its_estimate_is_seldom_half_too_large(
+    observable: Observable,
+) -> None:
+    ratios = ratios_of(observable)
+    known = ratios[ratios[:, 1] <= KNOWN * ratios[:, 0], 0]
+    assert len(known) > 0.6 * len(ratios)
+    assert np.mean(known > 1.5) <= 0.05
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize(
+    "observable",
+    [
+        broken("image", "1.6 of 100, all of one panel of 2 rows in a file"),
+        "profile",
         "signal",
     ],
 )
@@ -97,10 +104,7 @@ def test_a_limit_is_seldom_below_the_truth(observable: Observable) -> None:
     assert np.mean(ratios_of(observable)[:, 1] < 0.8) < 0.01
 
 
-@pytest.mark.parametrize(
-    "observable",
-    ["image", broken("profile", "one plan of 120 leaves out 1.04 times its tolerance"), "signal"],
-)
+@pytest.mark.parametrize("observable", OBSERVABLES)
 def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observable) -> None:
     shares = [share for number in range(SCENES) for share in changes(number, observable)[1]]
     assert sum(share > 0.0 for share in shares) > SCENES / 4  # the promise was put to the test
@@ -108,7 +112,8 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize(("name", "observable"), aims("phone-136us-real", "tablet-61us-real"))
+@pytest.mark.parametrize("name", ["phone-136us-real", "tablet-61us-real"])
+@pytest.mark.parametrize("observable", OBSERVABLES)
 def test_of_a_real_scene_an_estimate_is_within_half_of_the_truth(
     name: str, observable: Observable
 ) -> None:

@@ -124,11 +124,14 @@ def summary() -> None:
     for (observable, is_known), values in sorted(ratios().items()):
         quantiles = " | ".join(f"{at:.3g}" for at in np.quantile(values, (0.05, 0.5, 0.95)))
         ends = [100.0 * np.mean(values < 0.8), 100.0 * np.mean(values > 1.5)]
-        shares = " | ".join(f"{share:.1f} %" for share in ends)
+        beyond = " | ".join(f"{share:.1f} %" for share in ends)
         which = "known" if is_known else "all"
-        print(f"| {observable} | {which} | {len(values)} | {quantiles} | {shares} |")
-    plans = [row for row in kept() if row[2].startswith("tolerance")]
-    shares = [(change / tolerance, *row) for *row, tolerance, _, change in plans]
+        print(f"| {observable} | {which} | {len(values)} | {quantiles} | {beyond} |")
+    shares = [
+        (change / tolerance, seed, observable, effect)
+        for seed, observable, effect, tolerance, _, change in kept()
+        if effect.startswith("tolerance")
+    ]
     held = 100.0 * np.mean([share <= 1.0 for share, *_ in shares])
     print(f"\nThe promise holds in {held:.2f} % of {len(shares)} plans; the largest shares:")
     for share, seed, observable, effect in sorted(shares, reverse=True)[:6]:

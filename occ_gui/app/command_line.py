@@ -1,6 +1,7 @@
 """Command line of ``occ-gui``: parse the options and open the window."""
 
 import argparse
+import builtins
 import gc
 import os
 import re
@@ -35,6 +36,9 @@ if TYPE_CHECKING:
     from PySide6.QtWidgets import QApplication
 
     from occ_gui.app.application import Application
+
+_IMPORT = builtins.__import__
+"""What carries out an import before Qt is there."""
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
@@ -267,6 +271,8 @@ def start(
     from PySide6.QtCore import QLocale
     from PySide6.QtWidgets import QApplication
 
+    # Qt's own one reads the source of each module, to see whether it asks for another spelling.
+    builtins.__import__ = _IMPORT
     from occ_gui.app.application import Application
     from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector

@@ -2,25 +2,27 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Selection
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
-from occ_gui.values.photo_results import (
-    FoundMatch,
-    ListedRows,
-    OpenPhoto,
-    PhotoProfile,
-    StripeSearch,
-)
-from occ_model.photo.reading.load import Photo
-from occ_model.results.lamp import Lamp
-from occ_model.results.match import ChipReading
 from occ_model.results.plan import Decision
-from occ_model.results.video import Video
+
+if TYPE_CHECKING:  # a window without a photo or film starts without them
+    from occ_gui.values.photo_results import (
+        FoundMatch,
+        ListedRows,
+        OpenPhoto,
+        PhotoProfile,
+        StripeSearch,
+    )
+    from occ_model.photo.reading.load import Photo
+    from occ_model.results.lamp import Lamp
+    from occ_model.results.match import ChipReading
+    from occ_model.results.video import Video
 
 T = TypeVar("T")
 
@@ -44,32 +46,32 @@ class Results:
     switched: tuple[Decision, ...] = ()
     """The effects that the plan has just switched in or out."""
 
-    opened: OpenPhoto | None = None
+    opened: "OpenPhoto | None" = None
     """The photo that was read last; another one may be on its way."""
 
-    lamps: tuple[Lamp, ...] = ()
+    lamps: "tuple[Lamp, ...]" = ()
     """The lamps that were found in it."""
 
-    stripes: StripeSearch | None = None
+    stripes: "StripeSearch | None" = None
     """Its stripes, or those of the part that is matched."""
 
-    chips: ChipReading | None = None
+    chips: "ChipReading | None" = None
     """The chips in them."""
 
-    match: FoundMatch | None = None
+    match: "FoundMatch | None" = None
     """What the match that was asked for last has come to."""
 
-    listed: ListedRows | None = None
+    listed: "ListedRows | None" = None
     """What was found in the photos of the table."""
 
-    photo_profile: PhotoProfile | None = None
+    photo_profile: "PhotoProfile | None" = None
     """The profile of the open photo, beside the simulated one."""
 
-    film: Video | None = None
+    film: "Video | None" = None
     """The film of a file that was opened last."""
 
     @property
-    def photo(self) -> Photo | None:
+    def photo(self) -> "Photo | None":
         """The photo that is shown."""
         return None if self.opened is None else self.opened.photo
 

@@ -4,14 +4,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import count
 from pathlib import Path
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.placement import Placement
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.results.decoding import Region
-from occ_model.results.lamp import Lamp
 from occ_model.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from occ_model.results.lamp import Lamp
 
 _openings = count(1)
 
@@ -64,7 +66,7 @@ class MatchAsked(Asked):
 
     scene: Scene
     choice: MatchChoice
-    part: Lamp | Region | None
+    part: "Lamp | Region | None"
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +102,7 @@ class PhotoChoice:
     path: Path | None = None
     reading: PhotoReading = field(default_factory=PhotoReading)
     opening: int = 0
-    parts: Mapping[PhotoFrame, Lamp | Region] = field(default_factory=dict)
+    parts: "Mapping[PhotoFrame, Lamp | Region]" = field(default_factory=dict)
     form: MatchChoice = field(default_factory=MatchChoice)
     certain: Mapping[str, float] = field(default_factory=dict)
     forgotten: Mapping[str, float] = field(default_factory=dict)
@@ -120,7 +122,7 @@ class PhotoChoice:
         parts = [part for frame, part in self.parts.items() if frame.path == self.path]
         if not parts:
             return None
-        return parts[-1].region if isinstance(parts[-1], Lamp) else parts[-1]
+        return parts[-1] if isinstance(parts[-1], Region) else parts[-1].region
 
     def opened(self, path: Path) -> Self:
         """Open a photo: what is certain of one of the table is so of all of them."""
@@ -148,7 +150,7 @@ class PhotoChoice:
         certain = others if value is None else {**others, name: value}
         return replace(self, certain=certain, forgotten=forgotten)
 
-    def with_part(self, frame: PhotoFrame, part: Lamp | Region | None) -> Self:
+    def with_part(self, frame: PhotoFrame, part: "Lamp | Region | None") -> Self:
         """Match this part of a photo; None for all of it."""
         former = (frame, PhotoFrame(frame.path))
         parts = {known: each for known, each in self.parts.items() if known not in former}

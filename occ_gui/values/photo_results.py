@@ -1,21 +1,24 @@
 """What is computed of a photo, each with what it was computed from."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from occ_gui.values.photo_choice import PhotoFrame, PhotoReading, PhotoSource
 from occ_model.arrays import FloatArray
-from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
-from occ_model.results.lamp import Lamp
-from occ_model.results.match import Comparison, Match, Stripes
-from occ_model.results.photo_table import PhotoRow
+
+if TYPE_CHECKING:  # a window without a photo starts without them
+    from occ_model.photo.reading.load import Photo
+    from occ_model.results.lamp import Lamp
+    from occ_model.results.match import Comparison, Match, Stripes
+    from occ_model.results.photo_table import PhotoRow
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class OpenPhoto:
     """A photo that was read, and what of."""
 
-    photo: Photo
+    photo: "Photo"
     source: PhotoSource
 
     @property
@@ -28,7 +31,7 @@ class OpenPhoto:
 class StripeSearch:
     """The stripes of a photo or of a part of it, or a sentence why there are none."""
 
-    stripes: Stripes | None
+    stripes: "Stripes | None"
     sentence: str
 
 
@@ -48,16 +51,16 @@ class FoundMatch:
         The reasons why there is no match, each a sentence, and the part that they are about.
     """
 
-    photo: Photo
-    part: Lamp | Region | None
-    match: Match | None
+    photo: "Photo"
+    part: "Lamp | Region | None"
+    match: "Match | None"
     given: float
     refusal: tuple[str, ...] = ()
-    refused_part: Lamp | Region | None = None
+    refused_part: "Lamp | Region | None" = None
     is_listed: bool = False
     """Whether the table of photos has found it."""
 
-    def refusal_of(self, part: Lamp | Region | None) -> tuple[str, ...]:
+    def refusal_of(self, part: "Lamp | Region | None") -> tuple[str, ...]:
         """Give the reasons why there is no match of this part; empty where it was not refused."""
         return self.refusal if part == self.refused_part else ()
 
@@ -72,7 +75,7 @@ class ListedRows:
         The known value of the scene when they were matched, in SI units.
     """
 
-    rows: tuple[PhotoRow, ...]
+    rows: "tuple[PhotoRow, ...]"
     reading: PhotoReading
     given: float
 
@@ -101,7 +104,7 @@ class PhotoProfile:
         Why there is no comparison; also empty while the photo is searched for stripes.
     """
 
-    comparison: Comparison | None
+    comparison: "Comparison | None"
     raw: FloatArray
     first_column: float = 0.0
     scale: float = 1.0

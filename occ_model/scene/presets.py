@@ -5,7 +5,6 @@ Each value has its source, or the reason why it is assumed, in the preset's file
 
 import re
 from collections.abc import Mapping
-from difflib import get_close_matches
 from pathlib import Path
 
 import tomli_w
@@ -220,6 +219,8 @@ def _check_name(name: str) -> None:
 
 
 def _unknown(name: object, known: tuple[str, ...]) -> PresetError:
+    from difflib import get_close_matches  # takes a moment, and only a mistake needs it
+
     near = get_close_matches(name, known, n=1) if isinstance(name, str) else ()
     hint = f" Did you mean {near[0]}?" if near else ""
     names = ", ".join(known) or "none"

@@ -5,7 +5,6 @@ the manual's table are all made from these declarations. Values are in SI units.
 """
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 from typing import TypeVar
 
 from occ_model.errors import ParameterError, shown
@@ -38,6 +37,8 @@ def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
     names = list(among)
     if name in names:
         return PARAMETERS[name]
+    from difflib import get_close_matches  # takes a moment, and only a mistake needs it
+
     near = get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]}?" if near else f"known are {', '.join(names)}."
     raise ParameterError(f"There is no parameter {shown(name)}; {hint}")

@@ -1,12 +1,52 @@
-"""The pane of the map without the window around it."""
+"""The pane of the map without the window around it, with workers that a test chooses."""
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
 
 import pytest
-from gui.detection_map.map_bench import MapBench
+from gui.conftest import LazyWorkers
+from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
+from occ_gui.detection_map import wiring
+from occ_gui.detection_map.feature import detection_map
+from occ_gui.detection_map.map_view import MapView
+from occ_gui.detection_map.pane import MapPane
+from occ_gui.scene.frame_rate import FrameRate
 from occ_model.scene.scene import Scene
+
+
+class MapBench(PaneBench):
+    """Map, limits and advice; the pane is hidden until a test shows it."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
+        super().__init__(qtbot, scene)
+        self.workers: Any = LazyWorkers()
+        monkeypatch.setattr(wiring, "new_workers", lambda: self.workers)
+        self.frame_rate = FrameRate(self.store)
+        feature = detection_map(self.scenes, self.frame_rate, self.measuring, self.choose_decoder)
+        self.shell.add(feature, self.window)
+
+    @property
+    def pane(self) -> MapPane:
+        """The pane, which is made when it is first asked for."""
+        pane: MapPane = self.shell.pane("map")
+        return pane
+
+    @property
+    def view(self) -> MapView:
+        """Its view."""
+        return self.pane.view
+
+    def choose_decoder(self, name: str) -> None:
+        """Show what this decoder reads."""
+        self.store.put(replace(self.store.workspace, decoder=name))
+
+    def stop(self) -> None:
+        """End all work."""
+        self.shell.stop()
+        self.measuring.stop()
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from gui.detection_map.map_bench import MapBench
+from gui.detection_map.conftest import MapBench
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import (

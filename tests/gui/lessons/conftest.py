@@ -1,13 +1,54 @@
-"""The lessons, opened without the window around them."""
+"""The lessons with controls and a photo, without the window around them."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
-from gui.lessons.bench import Lessons
+from gui.pane_bench import ControlsBench
 from pytestqt.qtbot import QtBot
 
+from occ_gui.files.preferences import Preferences
+from occ_gui.lessons.feature import lessons
 from occ_gui.lessons.lesson_view import LessonView
+from occ_gui.lessons.pane import LessonPane
+from occ_gui.photo.photo_controller import PhotoController
 from occ_model.scene.scene import Scene
+
+
+class Lessons(ControlsBench):
+    """The pane of the lessons in front, beside the controls."""
+
+    def __init__(self, qtbot: QtBot, scene: Scene) -> None:
+        super().__init__(qtbot, scene)
+        self.photos = PhotoController(self.store, self.board)
+        feature = lessons(self.scenes, self.board, self.controls, Preferences(None))
+        self.pane: LessonPane = self.add(feature)
+        self.pane.noted.connect(self.said.append)
+        self.guide: LessonView = self.pane.view
+
+    def answer(self, text: str) -> str:
+        """Type an answer, and return what the check says."""
+        given = self.guide.step.answer_field
+        given.field.setText(text)
+        given.check.click()
+        self.wait_until_idle()
+        return given.sentence.text()
+
+    def choose_sent(self, sent: str) -> None:
+        """Choose what was sent in a photo."""
+        workspace = self.store.workspace
+        form = replace(workspace.photo.form, sent=sent)
+        self.store.put(replace(workspace, photo=replace(workspace.photo, form=form)))
+
+    def wait_until_idle(self) -> None:
+        """Wait until answers are checked, reports written and photos read."""
+        task = self.photos.work.task
+        self._qtbot.waitUntil(lambda: self.shell.is_idle and task.is_idle)
+
+    def stop(self) -> None:
+        """End all work."""
+        self.shell.stop()
+        self.photos.work.task.stop()
 
 
 @pytest.fixture

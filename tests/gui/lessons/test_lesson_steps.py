@@ -6,7 +6,7 @@ from threading import Event
 from typing import Any
 
 import pytest
-from gui.lessons.bench import Lessons
+from gui.lessons.conftest import Lessons
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QDesktopServices
 from PySide6.QtWidgets import QFileDialog, QLabel

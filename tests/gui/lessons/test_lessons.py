@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from gui.lessons.bench import Lessons
+from gui.lessons.conftest import Lessons
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 

@@ -53,8 +53,8 @@ def main() -> None:
             found += job.result()
             if done % 10 == 0:
                 print(f"{done} scenes: {so_far(found)}", file=sys.stderr, flush=True)
-    print("| decoder | preset | scenes | in doubt | mean difference, points | p |")
-    print("|---|---|---|---|---|---|")
+    print("| decoder | preset | scenes | in doubt | mean difference, points | chi-square | p |")
+    print("|---|---|---|---|---|---|---|")
     for decoder in DECODERS:
         of_decoder = [pair for pair in found if pair.decoder == decoder]
         for preset in PRESETS:
@@ -77,7 +77,7 @@ def so_far(found: list[TwoPaths]) -> str:
     """Write each decoder's p and the rates in doubt that it rests on."""
     parts = []
     for decoder in DECODERS:
-        probability, terms = significance([pair for pair in found if pair.decoder == decoder])
+        _, terms, probability = significance([pair for pair in found if pair.decoder == decoder])
         parts.append(f"{decoder} {probability:.2f} of {terms}")
     return ", ".join(parts)
 
@@ -98,9 +98,10 @@ def compare_pictures() -> None:
 
 def show(decoder: str, method: str, pairs: list[TwoPaths]) -> None:
     """Print a line of the table."""
-    probability, terms = significance(pairs)
+    square, terms, probability = significance(pairs)
     off = np.mean([100.0 * (pair.study.mean() - pair.image.mean()) for pair in pairs])
-    print(f"| {decoder} | {method} | {len(pairs)} | {terms} | {off:+.2f} | {probability:.2f} |")
+    cells = (decoder, method, len(pairs), terms, f"{off:+.2f}", f"{square:.1f}")
+    print(f"| {' | '.join(map(str, cells))} | {probability:.2f} |")
 
 
 if __name__ == "__main__":

@@ -140,11 +140,11 @@ def compared_at(scene: Scene, images: int, number: int) -> Iterator[TwoPaths]:
         yield TwoPaths(number, scene, decoder, by_study[:, place], by_image[:, place])
 
 
-def significance(found: list[TwoPaths]) -> tuple[float, int]:
-    """Test whether the rates agree: the probability of a larger chi-square, and its terms.
+def significance(found: list[TwoPaths]) -> tuple[float, int, float]:
+    """Test whether the rates agree: chi-square, its terms, and the probability of a larger one.
 
     Only rates in doubt count: elsewhere an image in hundreds differs, whose number is not normal.
     """
     counted = [pair for pair in found if pair.is_in_doubt]
     total = sum(pair.deviation**2 for pair in counted)
-    return float(stats.chi2.sf(total, len(counted))), len(counted)
+    return total, len(counted), float(stats.chi2.sf(total, len(counted)))

@@ -18,7 +18,7 @@ SETTLED = (1, 2, 3)
 @pytest.mark.whole
 def test_studies_say_of_every_decoder_what_pictures_show() -> None:
     pairs = list(compared((*IN_DOUBT, *SETTLED), images=16, seed=2))
-    probability, terms = significance(pairs)
+    _, terms, probability = significance(pairs)
     assert terms >= len(IN_DOUBT)  # rates in doubt, by which they can differ
     assert probability > 0.01
     for pair in pairs:

@@ -3,7 +3,7 @@
 python tests/benchmarks/limits.py
 python tests/benchmarks/limits.py --preset phone-136us --decoder threshold
 
-How surely the ends are known is not searched, which takes as long again.
+How surely the ends are known is not searched, which takes several times as long.
 """
 
 import argparse

@@ -153,7 +153,9 @@ def _end_text(found: WorkingRange, end: RangeEnd) -> str:
 
 def sentences(answers: Sequence[Limits]) -> list[str]:
     """Write by which images the ends were confirmed, and what theory says."""
-    lines = []
+    ranges = [each for found in answers for each in (found.frequency, found.exposure)]
+    is_sure = any(end and end.interval for each in ranges for end in (each.lowest, each.highest))
+    lines = ["By more images:"] if is_sure else []
     for found in answers:
         for each in (found.frequency, found.exposure):
             lines += _on_range(found.decoder, each)

@@ -6,7 +6,7 @@ The window and the command line put the same facts into sentences.
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from occ_model.results.limits import Limits, Trial, WorkingRange
+from occ_model.results.limits import Limits, Trial, WorkingRange, stated_end
 
 Side: TypeAlias = Literal["lowest", "highest"]
 
@@ -55,7 +55,7 @@ class EndFacts:
     @property
     def value(self) -> float:
         """The last value at which the decoder reads, in SI units."""
-        return self.works.value
+        return stated_end(self.works, self.interval)
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,9 @@ def written(parameter: str, value: float) -> str:
 
 def end_text(parameter: str, end: RangeEnd | EndFacts) -> str:
     """Say by which images an end was confirmed, and between which values it surely lies."""
-    text = f"there it read {_counted(end.works)}"
+    works = end.works.value
+    place = "there" if end.value == works else f"at {written(parameter, works)}"
+    text = f"{place} it read {_counted(end.works)}"
     if end.fails is None:
         text += ", beyond it was not tried."
     else:

@@ -37,6 +37,13 @@ class Trial:
         return 100.0 * self.right / self.sent
 
 
+def stated_end(works: Trial, interval: tuple[float, float] | None) -> float:
+    """Return the value at which an end's images read, or the nearest that more images allow."""
+    if interval is None:
+        return works.value
+    return min(max(works.value, interval[0]), interval[1])
+
+
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
     """One end of an interval in which a decoder reads.
@@ -66,8 +73,8 @@ class RangeEnd:
 
     @property
     def value(self) -> float:
-        """The last value at which the decoder reads, in SI units."""
-        return self.works.value
+        """The last value at which the decoder reads, as :func:`stated_end` gives it."""
+        return stated_end(self.works, self.interval)
 
 
 @dataclass(frozen=True, slots=True)

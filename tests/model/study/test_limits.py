@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
+from occ_model.results.advice_text import end_text
 from occ_model.results.limits import RangeEnd
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
@@ -419,7 +420,14 @@ def test_the_stated_interval_of_an_end_holds_it(
     # 381 images that are surely read and 200 that surely are not lie 2 to 5 % apart.
     assert np.median([high / low for low, high in intervals]) < widest
     # The last values that twenty images call read are no such ends: they lie beyond the true one.
-    assert sum(end is not None and end.value > 10e3 for end in found) > 0.3 * len(found)
+    known = [end for end in found if end is not None]
+    assert sum(end.works.value > 10e3 for end in known) > 0.3 * len(found)
+    # No place states an end that its own interval refutes.
+    assert all(end.interval is None or min(end.interval) <= end.value <= max(end.interval)
+               for end in known)  # fmt: skip
+    refuted = [end for end in known if end.value != end.works.value]
+    assert refuted
+    assert all(end_text("switching_frequency", end).startswith("at 10.") for end in refuted)
 
 
 def test_a_rate_that_is_reached_is_refuted_in_one_of_forty_studies_at_most() -> None:

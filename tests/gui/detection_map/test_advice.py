@@ -27,6 +27,7 @@ from occ_model.study.advice import advice_of
 
 GOOD = Trial(14.7e3, 200, 200, 83.9, 100.0, 20, 20)
 INSIDE = Trial(14.55e3, 3810, 3810, 99.0, 100.0, 381, 381)
+CERTAIN, BRIEF = (14.66e3, 14.72e3), (194.5e-6, 196.6e-6)
 BAD = Trial(14.73e3, 0, 200, 0.0, 16.1, 20, 0)
 SHORT = Trial(10e-6, 200, 200, 83.9, 100.0, 20, 20)
 LONG = Trial(196e-6, 200, 200, 83.9, 100.0, 20, 20)
@@ -41,14 +42,18 @@ def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
         (500.0, 100e3),
         1.15,
         own,
-        (ReadInterval(RangeEnd(GOOD, None), RangeEnd(GOOD, BAD, INSIDE)),),
+        (ReadInterval(RangeEnd(GOOD, None), RangeEnd(GOOD, BAD, INSIDE, True, CERTAIN)),),
     )
     exposure = WorkingRange(
         "exposure_time",
         (1e-5, 2e-3),
         1.15,
         own,
-        (ReadInterval(RangeEnd(SHORT, None, SHORT), RangeEnd(LONG, TOO_LONG, LONG_INSIDE)),),
+        (
+            ReadInterval(
+                RangeEnd(SHORT, None, SHORT), RangeEnd(LONG, TOO_LONG, LONG_INSIDE, True, BRIEF)
+            ),
+        ),
     )
     return Limits(scene, decoder, 99.0, 20, 1, frequency, exposure)
 
@@ -93,8 +98,8 @@ def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) ->
     assert lines[2] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 100 % in 20 images "
         "(83.9 to 100.0 %), at 14.73 kHz 0 % in 20 images (0.0 to 16.1 %). "
-        "At 14.55 kHz it read every bit of 381 images: the end lies between 14.55 kHz and "
-        "14.73 kHz (95 %)."
+        "At 14.55 kHz it read every bit of 381 images: the end lies between 14.66 kHz and "
+        "14.72 kHz (95 %)."
     )
     assert lines[5].startswith("The shortest exposure that it reads is 10 µs: ")
     assert "beyond it was not tried" in lines[5]

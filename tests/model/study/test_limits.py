@@ -426,8 +426,8 @@ def test_the_stated_interval_of_an_end_holds_it(
     assert all(end.interval is None or min(end.interval) <= end.value <= max(end.interval)
                for end in known)  # fmt: skip
     refuted = [end for end in known if end.value != end.works.value]
-    assert refuted
-    assert all(end_text("switching_frequency", end).startswith("at 10.") for end in refuted)
+    assert 0 < len(refuted) < len(known)
+    assert all(end_text("switching_frequency", end).startswith("at ") for end in refuted)
 
 
 def test_a_rate_that_is_reached_is_refuted_in_one_of_forty_studies_at_most() -> None:

@@ -86,8 +86,8 @@ def add_to(commands: Commands) -> None:
         )  # fmt: skip
     parser.add_argument(
         "--path", choices=SIGNAL_PATHS, default="auto",
-        help="by whole images, by the column means alone, or as the plan allows; "
-        "default: %(default)s",
+        help="by whole images, a sample of their rows, the column means alone, or as the plan "
+        "allows; default: %(default)s",
     )  # fmt: skip
     add_work_options(parser)
     parser.add_argument(

@@ -44,9 +44,6 @@ _LEAST_SPREAD = 1e-3
 _DITHERED = 0.25
 """Noise in steps from which it spreads a coefficient evenly over the steps (dithering)."""
 
-_SHARPEST = 0.5
-"""Noise in grey levels from which a pixel's rounding is nothing in the mean."""
-
 _ROUNDING = 1.0 / 12.0
 """Mean square error of rounding to whole grey levels."""
 
@@ -145,9 +142,6 @@ class FileChange:
         if not len(self._blocks):
             return values
         noise = spread[:, None, None]
-        even = spread < _SHARPEST
-        if even.any():  # pixels are whole levels before they are in a file
-            values[even] += rounding_mean(values[even], noise[even])
         x = self._coefficients(values)
         own = np.sqrt(noise * noise + _ROUNDING)[:, None] / self._step
         wide = np.sqrt(own * own + x.var(axis=3, keepdims=True))

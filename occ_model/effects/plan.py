@@ -19,7 +19,7 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
 )
 
-_CLEARLY = 1.2
+_CLEARLY = 1.3
 """Times an estimate that a limit is to be for both to be told."""
 
 

@@ -35,6 +35,7 @@ from occ_model.effects.effect import (
 from occ_model.effects.file_change import FileChange, RimBlocks
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import named
+from occ_model.effects.rounding import rounding_mean
 from occ_model.effects.sample import Sample, sample_of
 
 Names = frozenset[str]
@@ -44,6 +45,9 @@ _LEVELS = 129
 
 _UNSAMPLED_RIM_PIXELS = 1.0
 """Pixels of a rim that may change and that no sample shows."""
+
+_SHARPEST = 0.5
+"""Noise in grey levels from which a pixel's rounding is nothing in the mean."""
 
 _SEEN_SHARE = 0.003
 """Change of a pixel's light from beyond a rim that can round it otherwise."""
@@ -362,6 +366,10 @@ class SampledPixels:
         filed = [at for at, one in enumerate(sets) if self.files and self.files[0].name in one]
         if self.file is None or not filed:
             return values
+        for at in filed:  # pixels are whole levels before they are in a file
+            spread = self.spread(sets[at])
+            if float(spread.min()) < _SHARPEST:  # a full pixel has no noise
+                values[at] += rounding_mean(values[at], self.look(spread, values[at]))
         noise = np.array([self.noise_with(sets[at]) for at in filed])
         values[filed] = self.file.means(values[filed], noise)
         return values

@@ -260,7 +260,7 @@ def figure(file: str = "estimates.png") -> None:
         axis.axvspan(1.0, 1.5, color="#ccbb44", alpha=0.3, lw=0)
         axis.set(xscale="log", title=observable, xlabel="estimate / measured")
     axes[0].set_ylabel("share of effects (%)")
-    axes[0].legend(frameon=False)
+    axes[0].legend(frameon=False, loc="upper right")
     drawn.savefig(file, dpi=110)
 
 

@@ -111,6 +111,20 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
     assert max(shares) <= 1.0
 
 
+@pytest.mark.parametrize(
+    ("number", "observable"),
+    [
+        pytest.param(7, "profile", id="a file's own error is cut off at black"),
+        pytest.param(72008, "profile", id="a file rounds an even picture's blocks all alike"),
+        pytest.param(74022, "signal", id="one column beside a step of 247 levels"),
+        pytest.param(74133, "signal", id="noise that ends at a full well"),
+        pytest.param(90146, "profile", id="full pixels are rounded before they are in a file"),
+    ],
+)
+def test_the_promise_holds_where_it_was_once_broken(number: int, observable: Observable) -> None:
+    assert max(changes(number, observable)[1]) <= 1.0
+
+
 @pytest.mark.whole
 @pytest.mark.parametrize("name", ["phone-136us-real", "tablet-61us-real"])
 @pytest.mark.parametrize("observable", OBSERVABLES)

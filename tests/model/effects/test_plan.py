@@ -119,7 +119,7 @@ def test_reasons_name_the_estimate_and_the_tolerance(scene: Scene) -> None:
         if decision.estimate:
             assert decision.estimate <= decision.limit
             told = f"about {decision.estimate:.2g}"
-            if decision.limit > 1.2 * decision.estimate:
+            if decision.limit > 1.3 * decision.estimate:
                 told += f", at most {decision.limit:.2g}"
             assert decision.reason.startswith(f"{told} levels")
             assert "tolerance 3" in decision.reason

@@ -115,6 +115,11 @@ class Coverage:
             covered[:, part.columns] = part.share
         return covered
 
+    def reaches(self, rows: range) -> bool:
+        """Whether the outline, or its blur, may reach any of some rows."""
+        reach, line = self._margin + self._cell, self._starts[1]
+        return bool(line.min() - reach <= rows[-1] and line.max() + reach >= rows[0])
+
     def parts(self, rows: range, columns: slice | None = None) -> list[CoveredPart]:
         """Return some rows part by part, from the left: the rims of the panel and what is between.
 

@@ -1,8 +1,9 @@
 """The mean pixel values of a picture, some rows at a time.
 
 Rows are computed while they are in the processor's cache, and the largest picture needs little more
-memory than its own bytes. Only the rims of the panel are computed pixel by pixel: beside and within
-them the light changes smoothly from row to row, and a band of rows follows from a few.
+memory than its own bytes. Only the rims of panels are computed pixel by pixel: beside and within
+them the light changes smoothly from row to row, and a band of rows follows from a few. Where the
+light of more panels falls on the same columns of a band, it is added before the tone curve.
 """
 
 from bisect import bisect_left
@@ -14,12 +15,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray, Pixels
+from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.coverage import Coverage
-from occ_model.camera.optics import STAGE, Optics
+from occ_model.camera.optics import STAGE, Gain, Optics
 from occ_model.camera.photometry import luminance_of, pixel_value
 from occ_model.camera.row_interpolation import node_rows, row_weights, smooth_columns, weighted
-from occ_model.scene.scene import Scene
+from occ_model.scene.scene import Camera
 
 BLOCK_ROWS = 64
 """Rows that are computed at once: a whole number of blocks of a JPEG file."""
@@ -113,29 +114,86 @@ class Rows:
         return nodes if self.weights is None else weighted(self.weights, nodes)
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class LitPanel:
+    """A panel in a picture.
+
+    Parameters
+    ----------
+    values : ndarray of float64, shape (columns,)
+        Its pixel value in each column before saturation.
+    """
+
+    optics: Optics
+    values: FloatArray
+
+
+class _Panel:
+    """A panel's own light, and where it falls."""
+
+    def __init__(self, panel: LitPanel, camera: Camera, dark: FloatArray) -> None:
+        optics = panel.optics
+        self.coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
+        self.values = panel.values.astype(np.float32)[None, :]
+        self._light = (luminance_of(panel.values, camera) - dark).astype(np.float32)
+        self._emission = optics.emission
+
+    def emitted(
+        self, line: FloatArray, columns: slice, stage_ended: Callable[[str], object]
+    ) -> Pixels:
+        """Return the panel's own light, shape (rows, columns) or (columns,)."""
+        own = self._light[columns]
+        for gain in self._emission:
+            own = own * gain.at(line, columns)
+            stage_ended(gain.stage)
+        return own
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Lit:
+    """Columns of some rows that a panel lights: a share of each pixel, or all of them."""
+
+    panel: _Panel
+    columns: slice
+    share: Pixels | None
+
+    def within(self, columns: slice) -> "_Lit":
+        """Return the part in some columns."""
+        part = slice(max(self.columns.start, columns.start), min(self.columns.stop, columns.stop))
+        first = self.columns.start
+        share = (
+            None if self.share is None else self.share[:, part.start - first : part.stop - first]
+        )
+        return _Lit(self.panel, part, share)
+
+
 class PictureRows:
     """The mean pixel values of a picture, of any rows in any order.
 
     Parameters
     ----------
-    panel, surroundings : ndarray of float64, shape (columns,)
-        Pixel values of each column before saturation.
+    panels
+        The panels in the picture, through one lens: it darkens all alike.
+    surroundings : ndarray of float64, shape (columns,)
+        Pixel value of each column beside them before saturation.
     """
 
     def __init__(
-        self, scene: Scene, optics: Optics, panel: FloatArray, surroundings: FloatArray
+        self, camera: Camera, panels: Sequence[LitPanel], surroundings: FloatArray
     ) -> None:
-        camera = scene.camera
-        self._optics = optics
+        optics = [panel.optics for panel in panels]
         self._power = 1.0 / camera.gamma
         self._unit = float(pixel_value(np.ones(1), camera)[0])
-        self._coverage = Coverage(optics.outline, camera.rows, camera.columns, optics.blur)
-        self._panel = panel.astype(np.float32)[None, :]
+        self._columns = camera.columns
         self._surroundings = surroundings.astype(np.float32)[None, :]
         dark = luminance_of(surroundings, camera)
-        self._own = (luminance_of(panel, camera) - dark).astype(np.float32)
         self._around = dark.astype(np.float32)
-        self._plain: tuple[tuple[slice, ...], Pixels] = ((), self._surroundings)
+        self._panels = [_Panel(panel, camera, dark) for panel in panels]
+        self._cover_stage = optics[0].cover_stage
+        self._transmission: tuple[Gain, ...] = optics[0].transmission
+        self._is_plain = all(own.is_plain for own in optics)
+        self._is_even = not (self._transmission or any(own.emission for own in optics))
+        self._plain: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
 
     def of(self, place: range, stage_ended: Callable[[str], object] = lambda _stage: None) -> Rows:
         """Compute some rows.
@@ -145,39 +203,74 @@ class PictureRows:
         stage_ended
             Called with the name of each stage that has just ended.
         """
-        inside, covered = [], []
-        for part in self._coverage.parts(place):
-            if isinstance(part.share, np.ndarray):
-                covered.append((part.columns, part.share))
-            elif part.share:
-                inside.append(part.columns)
-        stage_ended(self._optics.cover_stage)
-        rims = tuple(self._rim(place, *part, stage_ended) for part in covered)
-        nodes, weights = self._between_rims(place, tuple(inside), stage_ended)
+        lit = [
+            _Lit(panel, part.columns, None if isinstance(part.share, float) else part.share)
+            for panel in self._panels
+            if panel.coverage.reaches(place)
+            for part in panel.coverage.parts(place)
+            if isinstance(part.share, np.ndarray) or part.share
+        ]
+        stage_ended(self._cover_stage)
+        shared = self._shared(lit)
+        alone = [piece for one in lit for piece in _without(one, shared)] if shared else lit
+        inside = [(one.panel, one.columns) for one in alone if one.share is None]
+        rims = [
+            self._rim(place, one.columns, [one], stage_ended)
+            for one in alone
+            if one.share is not None
+        ]
+        rims += [
+            self._rim(place, columns, [one.within(columns) for one in lit], stage_ended)
+            for columns in shared
+        ]
+        nodes, weights = self._between_rims(place, inside, stage_ended)
         stage_ended(STAGE)
-        return Rows(place, nodes, weights, rims, tuple(inside))
+        return Rows(place, nodes, weights, tuple(rims), tuple(columns for _, columns in inside))
+
+    def _shared(self, lit: Sequence[_Lit]) -> list[slice]:
+        """Return the columns that more than one panel lights."""
+        if len(self._panels) == 1:
+            return []
+        steps = np.zeros(self._columns + 1, dtype=np.int64)
+        for one in lit:
+            steps[one.columns.start] += 1
+            steps[one.columns.stop] -= 1
+        several = (np.cumsum(steps) > 1).astype(np.int8)
+        ends: IndexArray = np.flatnonzero(np.diff(several, prepend=0))
+        return [slice(start, stop) for start, stop in ends.reshape(-1, 2).tolist()]
 
     def _rim(
-        self, place: range, columns: slice, share: Pixels, stage_ended: Callable[[str], object]
+        self,
+        place: range,
+        columns: slice,
+        lit: Sequence[_Lit],
+        stage_ended: Callable[[str], object],
     ) -> Rim:
-        shown = share >= np.float32(0.5)
-        if self._optics.is_plain:
-            values = np.where(shown, self._panel[:, columns], self._surroundings[:, columns])
-        else:
-            line = np.asarray(place, dtype=np.float64)
-            light = share * self._emitted(line, columns, stage_ended)
-            light += self._around[columns]
-            values = self._encoded(light, line, columns, stage_ended)
-        return Rim(columns, values, shown)
+        if self._is_plain and len(lit) == 1 and lit[0].share is not None:
+            shown = lit[0].share >= np.float32(0.5)
+            panel, around = lit[0].panel.values[:, columns], self._surroundings[:, columns]
+            return Rim(columns, np.where(shown, panel, around), shown)
+        line = np.asarray(place, dtype=np.float64)
+        shape = len(place), columns.stop - columns.start
+        light, shown = np.zeros(shape, dtype=np.float32), np.zeros(shape, dtype=np.bool_)
+        for one in lit:
+            if one.columns.stop <= one.columns.start:
+                continue
+            share = np.ones(1, dtype=np.float32) if one.share is None else one.share
+            own = np.s_[:, one.columns.start - columns.start : one.columns.stop - columns.start]
+            light[own] += share * one.panel.emitted(line, one.columns, stage_ended)
+            shown[own] |= share >= np.float32(0.5)
+        light += self._around[columns]
+        return Rim(columns, self._encoded(light, line, columns, stage_ended), shown)
 
     def _between_rims(
         self,
         place: range,
-        inside: tuple[slice, ...],
+        inside: list[tuple[_Panel, slice]],
         stage_ended: Callable[[str], object],
     ) -> tuple[Pixels, Pixels | None]:
         """Return the nodes and the weights of the rows, without the rims."""
-        if not (self._optics.emission or self._optics.transmission):
+        if self._is_even:
             return self._alike(inside), None
         line = node_rows(place)
         nodes = self._even(line, inside, stage_ended)
@@ -185,37 +278,27 @@ class PictureRows:
             return nodes, row_weights(len(place))
         return self._even(np.asarray(place, np.float64), inside, stage_ended), None
 
-    def _alike(self, inside: tuple[slice, ...]) -> Pixels:
+    def _alike(self, inside: list[tuple[_Panel, slice]]) -> Pixels:
         """Return the row that all rows are like between the rims."""
         shown, row = self._plain
         if inside != shown:  # the same array again is known to have the same noise
             row = self._surroundings.copy()
-            for columns in inside:
-                row[:, columns] = self._panel[:, columns]
+            for panel, columns in inside:
+                row[:, columns] = panel.values[:, columns]
             self._plain = (inside, row)
         return row
 
     def _even(
         self,
         line: FloatArray,
-        inside: tuple[slice, ...],
+        inside: list[tuple[_Panel, slice]],
         stage_ended: Callable[[str], object],
     ) -> Pixels:
         """Return pixel values of some rows, as if there were no rims."""
         light = np.repeat(self._around[None, :], len(line), axis=0)
-        for columns in inside:
-            light[:, columns] += self._emitted(line, columns, stage_ended)
+        for panel, columns in inside:
+            light[:, columns] += panel.emitted(line, columns, stage_ended)
         return self._encoded(light, line, slice(None), stage_ended)
-
-    def _emitted(
-        self, line: FloatArray, columns: slice, stage_ended: Callable[[str], object]
-    ) -> Pixels:
-        """Return the panel's own light, shape (rows, columns) or (columns,)."""
-        own = self._own[columns]
-        for gain in self._optics.emission:
-            own = own * gain.at(line, columns)
-            stage_ended(gain.stage)
-        return own
 
     def _encoded(
         self,
@@ -225,10 +308,24 @@ class PictureRows:
         stage_ended: Callable[[str], object],
     ) -> Pixels:
         """Return the pixel values of light behind the lens, which is overwritten."""
-        for gain in self._optics.transmission:
+        for gain in self._transmission:
             light *= gain.at(line, columns)
             stage_ended(gain.stage)
         values = np.asarray(cv2.pow(light, self._power), dtype=np.float32)
         values *= np.float32(self._unit)
         stage_ended(STAGE)
         return values
+
+
+def _without(lit: _Lit, shared: Sequence[slice]) -> list[_Lit]:
+    """Return the parts whose columns are not shared."""
+    pieces, start = [], lit.columns.start
+    for columns in shared:
+        if columns.stop <= start or columns.start >= lit.columns.stop:
+            continue
+        if columns.start > start:
+            pieces.append(lit.within(slice(start, columns.start)))
+        start = columns.stop
+    if start < lit.columns.stop:
+        pieces.append(lit.within(slice(start, lit.columns.stop)))
+    return pieces

@@ -11,7 +11,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.coverage import Coverage
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
-from occ_model.camera.picture_rows import PictureRows, in_blocks, split_at
+from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks, split_at
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of
@@ -19,7 +19,6 @@ from occ_model.effects.plan import plan_of
 from occ_model.effects.registry import NAMES, planned
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
-from occ_model.room.composition import LampRows, RoomRows
 from occ_model.room.room import Room, RoomLamp, check_room
 from occ_model.room.view import LampView, lamps_in_view
 from occ_model.scene.scene import Pose, Scene
@@ -29,13 +28,10 @@ from occ_model.scene.simulation_settings import (
     Observable,
     SimulationSettings,
 )
-from occ_model.simulation.columns import Columns, expose_columns
+from occ_model.simulation.columns import expose_columns
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.render import render_plan
 from occ_model.simulation.stage_timer import StageTimer
-
-_OUTSIDE = np.array([[-9.0, -9.0], [-8.0, -9.0], [-8.0, -8.0]]) * 1e6
-"""An outline that no picture shows, in pixels."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -208,25 +204,19 @@ def _composed(
     views: list[PaperView], chosen: Plan, settings: SimulationSettings, timer: StageTimer
 ) -> tuple[list[FloatArray], ByteArray]:
     """Return the profile of each lamp, and the camera's picture of all."""
-    scene = views[0].scene
-    lamps: list[LampRows] = []
-    columns: list[Columns] = []
-    optics = [_optics_of(view, chosen) for view in views]
-    for view, own in zip(views, optics, strict=True):
-        columns.append(expose_columns(view, chosen, timer))
-        rows = PictureRows(view.scene, own, columns[-1].panel, columns[-1].surroundings)
-        lamps.append(LampRows.of(rows, own))
-    around = columns[0].surroundings
-    empty = dataclasses.replace(optics[0], outline=_OUTSIDE, blur=0.0)
-    dark = PictureRows(scene, empty, around, around)
+    camera = views[0].scene.camera
+    columns = [expose_columns(view, chosen, timer) for view in views]
+    panels = [
+        LitPanel(_optics_of(view, chosen), own.panel)
+        for view, own in zip(views, columns, strict=True)
+    ]
     timer.stage_ended("optics")
-    bands = in_blocks(range(scene.camera.rows))
-    if all(own.is_plain for own in optics) and scene.camera.jpeg_quality == 0:
+    bands = in_blocks(range(camera.rows))
+    if all(panel.optics.is_plain for panel in panels) and camera.jpeg_quality == 0:
         ends = sorted({end for v in views for end in (v.region.first_row, v.region.last_row)})
         bands = [part for band in bands for part in split_at(band, ends)]
-    exposure = PixelExposure(
-        views[0], chosen, columns[0], timer, bands, mean=RoomRows(lamps, dark, scene.camera)
-    )
+    mean = PictureRows(camera, panels, columns[0].surroundings)
+    exposure = PixelExposure(views[0], chosen, columns[0], timer, bands, mean=mean)
     plain = Enhancement(columns[0].profile, "none")
     made = exposure.pictures(plain, settings.seed, settings.noise)
     return [one.profile for one in columns], made.camera_image

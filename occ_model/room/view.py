@@ -3,6 +3,7 @@
 import dataclasses
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
@@ -80,8 +81,15 @@ def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
     pose = Pose(distance=z, offset_x=x, offset_y=y, yaw=angles[0], pitch=angles[1], roll=angles[2])
     scene = room.scene
     width, height = lamp.size
+    surroundings = scene.surroundings
+    if lamp.start_time and surroundings.flicker_depth:  # swings in the room's time, not the lamp's
+        cycles = Fraction(surroundings.flicker_frequency) * Fraction(lamp.start_time)
+        phase = surroundings.flicker_phase - 2.0 * math.pi * float(cycles % 1)
+        phase = math.remainder(phase, 2.0 * math.pi)
+        surroundings = dataclasses.replace(surroundings, flicker_phase=phase)
     return dataclasses.replace(
         scene,
+        surroundings=surroundings,
         transmitter=lamp.transmitter.replaced({"panel_width": width, "panel_height": height}),
         pose=pose,
         model=scene.model.replaced({"start_time": scene.model.start_time + lamp.start_time}),

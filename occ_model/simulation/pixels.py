@@ -12,7 +12,7 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import WHITE
-from occ_model.camera.picture_rows import PictureRows, Rows, in_blocks, split_at
+from occ_model.camera.picture_rows import LitPanel, PictureRows, Rows, in_blocks, split_at
 from occ_model.effects.effect import FileEffect, NoiseEffect, OpticsEffect, PixelEffect
 from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import PaperView
@@ -133,7 +133,9 @@ class PixelExposure:
             # All rows of a band are alike then.
             ends = self._region.first_row, self._region.last_row
             self._bands = [part for band in self._bands for part in split_at(band, ends)]
-        self._mean = mean or PictureRows(scene, self._optics, columns.panel, columns.surroundings)
+        self._mean = mean or PictureRows(
+            scene.camera, [LitPanel(self._optics, columns.panel)], columns.surroundings
+        )
         timer.stage_ended(self._optics.cover_stage)
 
     def drafted_panel(self, rows: range) -> DraftedPanel:

@@ -14,7 +14,7 @@ from occ_model.camera.photometry import (
     panel_values,
     surroundings_values,
 )
-from occ_model.camera.picture_rows import PictureRows, in_blocks
+from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks
 from occ_model.effects.defocus import Defocus, blur_of
 from occ_model.scene.scene import Scene
 
@@ -46,7 +46,7 @@ def pictured_luminance(scene: Scene) -> np.ndarray:
     light = ColumnLight.of(scene)
     panel = panel_values(scene, light)
     around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
-    rows = PictureRows(scene, optics, panel, around)
+    rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
     parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
     return luminance_of(np.concatenate(parts), scene.camera)
 

@@ -72,6 +72,26 @@ def test_where_two_lamps_overlap_their_light_adds_before_the_tone_curve() -> Non
     assert worst.max() < 4.0  # roundings of four pictures
 
 
+def test_mains_flicker_is_that_of_the_room_whenever_a_lamp_s_packet_starts() -> None:
+    scene = occ.load_preset("phone-136us").replace(
+        **SMALL, flicker_depth=0.9, illuminance=2000.0, gain_variation=0.0, luminance=100.0
+    )
+    off = {"fixed-pattern": False, "sensor-noise": False}
+    room = Room.of_scene(scene)
+    late = room.replace(lamps=(dataclasses.replace(room.lamps[0], start_time=1.7e-3),))
+    first, second = (
+        render_room(one, tolerance=0.0, force=off).camera_image for one in (room, late)
+    )
+    beside = first[0]
+    assert np.ptp(beside) > 20
+    np.testing.assert_array_equal(beside, second[0])
+    lit = render_room(room, tolerance=0.0, force=off).lamps[0].region
+    assert (
+        first[lit.first_row, lit.first_column : lit.last_column]
+        != second[lit.first_row, lit.first_column : lit.last_column]
+    ).any()
+
+
 def test_the_pixels_lit_by_a_disc_are_those_of_its_circle() -> None:
     scene = occ.load_preset("phone-136us").replace(**SMALL, switching_frequency=1e6)
     lamp = RoomLamp(name="disc", shape="disc", z=1.5, transmitter=scene.transmitter)

@@ -21,12 +21,6 @@ _FINE_CELLS_A_BLUR = 4.0
 _SAMPLED_ROWS = 16
 """Rows of a cell that are sampled where the outline is high: they are as good as all."""
 
-_FEW_ROWS = 4
-"""Rows of a rim that are not divided further."""
-
-_RIM_WIDTH_IN_BLURS = 4
-"""Width of a rim, in those of the blur, from which its rows are divided."""
-
 _MOST_EXACT_ROWS = 4096
 """Rows of an outline that are all used: a blur may be wider than the panel is high."""
 
@@ -120,27 +114,26 @@ class Coverage:
         reach, line = self._margin + self._cell, self._starts[1]
         return bool(line.min() - reach <= rows[-1] and line.max() + reach >= rows[0])
 
-    def parts(self, rows: range, columns: slice | None = None) -> list[CoveredPart]:
+    def parts(self, rows: range) -> list[CoveredPart]:
         """Return some rows part by part, from the left: the rims of the panel and what is between.
 
-        Between its rims the panel covers either all of each pixel or nothing. All columns are
+        Between its rims the panel covers either all of each pixel or nothing. The parts are
         remembered for other pictures.
         """
-        if columns is None:
-            key = (*self._key, rows)
-            whole = slice(0, self._columns)
-            return MEMORY.recall(key, lambda: self.parts(rows, whole), _shares)
-        parts, before = [], columns.start
-        for start, stop in self._rims(rows, columns):
+        return MEMORY.recall((*self._key, rows), lambda: self._parts(rows), _shares)
+
+    def _parts(self, rows: range) -> list[CoveredPart]:
+        parts, before = [], 0
+        for start, stop in self._rims(rows):
             if start > before:
                 parts.append(self._even(rows, slice(before, start)))
             parts += _divided(slice(start, stop), self._rim(rows, slice(start, stop)))
             before = stop
-        if before < columns.stop:
-            parts.append(self._even(rows, slice(before, columns.stop)))
+        if before < self._columns:
+            parts.append(self._even(rows, slice(before, self._columns)))
         return _joined(parts)
 
-    def _rims(self, rows: range, columns: slice) -> list[tuple[int, int]]:
+    def _rims(self, rows: range) -> list[tuple[int, int]]:
         """Return the columns near which the outline runs in some rows, from the left."""
         (x0, y0), (x1, y1) = self._starts, self._ends
         reach = self._margin + self._cell
@@ -150,8 +143,8 @@ class Coverage:
         ends = np.array([[0.0], [1.0]]) + np.zeros(len(x0))
         np.divide([[low], [high]] - y0, y1 - y0, out=ends, where=y0 != y1)
         x = x0 + np.clip(ends, 0.0, 1.0) * (x1 - x0)
-        start = np.clip(np.floor(x.min(axis=0)) - reach, columns.start, columns.stop)
-        stop = np.clip(np.ceil(x.max(axis=0)) + reach + 1, columns.start, columns.stop)
+        start = np.clip(np.floor(x.min(axis=0)) - reach, 0, self._columns)
+        stop = np.clip(np.ceil(x.max(axis=0)) + reach + 1, 0, self._columns)
         order = np.argsort(start)
         order = order[stop[order] > start[order]]
         start, stop = start[order].astype(np.int64), np.maximum.accumulate(stop[order])
@@ -159,14 +152,6 @@ class Coverage:
         firsts = np.flatnonzero(apart)
         lasts = np.append(firsts[1:], len(start))[: len(firsts)] - 1
         return list(zip(start[firsts].tolist(), stop[lasts].astype(int).tolist(), strict=True))
-
-    def _within(self, rows: range, columns: slice) -> Pixels:
-        share = np.empty((len(rows), columns.stop - columns.start), dtype=np.float32)
-        for part in self.parts(rows, columns):
-            share[:, part.columns.start - columns.start : part.columns.stop - columns.start] = (
-                part.share
-            )
-        return share
 
     def _even(self, rows: range, columns: slice) -> CoveredPart:
         """Return columns that the outline is not near to: inside where it runs round the first."""
@@ -182,12 +167,6 @@ class Coverage:
             return self._enlarged(self._coarse, rows, range(columns.start, columns.stop))
         margin, step = self._margin, rows.step
         width = 2 * margin + 1
-        if len(rows) > _FEW_ROWS and columns.stop - columns.start > _RIM_WIDTH_IN_BLURS * width:
-            # Most of these rows are near an outline in a small part of the columns only.
-            half = len(rows) // 2
-            return np.concatenate(
-                [self._within(rows[:half], columns), self._within(rows[half:], columns)]
-            )
         if not margin:
             return self._sharp(np.asarray(rows), columns, 1)
         if step < width:

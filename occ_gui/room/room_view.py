@@ -162,7 +162,7 @@ def _floor(found: FloorMap) -> str:
     )
     text = (
         f"Map of the floor: {len(sure)} of {len(points)} places told (blue; not orange), "
-        f"{named} lamps named of {shown} whole ones, {wrong} wrongly."
+        f"{named} of {shown} whole lamps named, {wrong} lamps named wrongly."
     )
     if sure:
         text += f" In the median {_length(float(np.median([p.error for p in sure])))} off."

@@ -3,6 +3,7 @@
 import argparse
 import math
 import sys
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from occ_model.commands.options import (
     whole_number,
 )
 from occ_model.commands.sweep import add_work_options, run_with_bar
-from occ_model.errors import ParameterError, one_line
+from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
@@ -26,7 +27,6 @@ from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import with_settings
-from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.room_map import (
     RoomMapRequest,
@@ -64,7 +64,7 @@ def add_to(commands: Commands) -> None:
         epilog="Stopped by Ctrl-C, or by anything else, what is done is in the file of --out; the "
         "same command goes on from there.",
     )  # fmt: skip
-    _add_room(floor)
+    _add_room(floor, _AXES[2:])  # x and y are those of the floor's places
     floor.add_argument(
         "--side", type=whole_number, default=5, metavar="N",
         help="places on each side of the floor below the lamps; default: %(default)s",
@@ -78,7 +78,7 @@ def add_to(commands: Commands) -> None:
     floor.set_defaults(command=_map, writes={"out": TABLE})
 
 
-def _add_room(parser: argparse.ArgumentParser) -> None:
+def _add_room(parser: argparse.ArgumentParser, axes: Sequence[str] = _AXES) -> None:
     parser.add_argument(
         "--room", default="office", help=f"{', '.join(rooms())}, or a room file; default: office"
     )
@@ -86,7 +86,7 @@ def _add_room(parser: argparse.ArgumentParser) -> None:
         "--set", action="append", default=[], dest="settings", metavar="NAME=VALUE",
         help="a parameter of the camera, or of all lamps; may be repeated",
     )  # fmt: skip
-    for name in _AXES:
+    for name in axes:
         unit = "metres" if name in "xyz" else "degrees"
         parser.add_argument(f"--{name}", type=number, help=f"of the camera, in {unit}")
 
@@ -95,15 +95,8 @@ def _room_of(options: argparse.Namespace) -> Room:
     room = load_room(options.room)
     changed = with_settings(room.scene, options.settings)
     names = [text.split("=", 1)[0].strip() for text in options.settings]
-    for name in names:
-        if name in GROUPS["pose"] and name not in _AXES:
-            raise ParameterError(
-                f"A room has no {name}: each lamp has its place, and the camera "
-                f"{', '.join(f'--{axis}' for axis in _AXES)}.",
-                parameters=(name,),
-            )
     room = room.with_sent(**{name: changed.value(name) for name in names})
-    given = {name: getattr(options, name) for name in _AXES if getattr(options, name) is not None}
+    given = {name: value for name in _AXES if (value := getattr(options, name, None)) is not None}
     return room.replace(
         **{name: v if name in "xyz" else math.radians(v) for name, v in given.items()}
     )
@@ -153,8 +146,8 @@ def _map(options: argparse.Namespace) -> int:
     median = f", in the median {1e3 * float(np.median(errors)):.3g} mm off" if errors else ""
     print(
         f"{one_line(str(options.out))}: {request.points} places, {pictures} pictures: "
-        f"{named} lamps named, {wrong} wrongly, of {shown} "
-        f"whole ones; {sure} places sure{median}"
+        f"{named} of {shown} whole lamps named, {wrong} lamps named wrongly; {sure} places "
+        f"sure{median}"
     )
     return 0
 

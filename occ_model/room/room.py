@@ -146,7 +146,7 @@ class Room:
         At most 200.
     scene
         The camera's settings, lens and sensor, the light that is not the lamps', and the model. Its
-        transmitter and its pose are not used.
+        transmitter is not used, and its pose is the first one.
     camera
         Where the camera is.
 
@@ -208,6 +208,13 @@ class Room:
         own = {name: changes.pop(name) for name in ("lamps", "scene", "camera") if name in changes}
         room = dataclasses.replace(self, **own)
         place = {name: changes.pop(name) for name in Place.__dataclass_fields__ if name in changes}
+        for name in changes:
+            if name in GROUPS["pose"]:
+                raise ParameterError(
+                    f"A room has no {name}: each lamp has its place, and the camera "
+                    f"{', '.join(Place.__dataclass_fields__)}.",
+                    parameters=(name,),
+                )
         camera = dataclasses.replace(room.camera, **place)
         return dataclasses.replace(room, camera=camera, scene=room.scene.replace(**changes))
 

@@ -14,9 +14,11 @@ import numpy as np
 
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat, Job
+from occ_model.results.decoding import Region
 from occ_model.results.sweep_csv import one_line
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.reading import ReadLamp
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Room, check_room
 from occ_model.scene.argument_checks import check_count, check_seed
@@ -29,7 +31,7 @@ from occ_model.version import __version__
 MOST_PLACES = 10_000
 
 _TITLE = "# Lamps read and place found over the floor"
-_FORMAT = 1
+_FORMAT = 2
 _START_TIMES = 0.1
 """Seconds over which the start of each picture is drawn at random."""
 
@@ -93,9 +95,13 @@ class RoomPoint:
     ----------
     index
         The place's number.
-    shown, named, wrong
-        Lamps whole in the pictures, lamps that were named, and those with another one's name, in
-        all pictures together.
+    shown, named
+        Lamps whole in the pictures, and those of them that were named rightly, in all pictures
+        together.
+    misread
+        Lamps, also of those that are cut, whose code was read, and is not the one that they send.
+    wrong
+        Those of them that were so named as another lamp of the room.
     sure
         Pictures whose place was sure.
     error, stated
@@ -108,6 +114,7 @@ class RoomPoint:
     index: int
     shown: int
     named: int
+    misread: int
     wrong: int
     sure: int
     error: float
@@ -138,7 +145,7 @@ def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float,
 def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> RoomPoint:
     """Measure one place; an error of the model becomes its note."""
     x, y = request.place(index)
-    counts = np.zeros(3, dtype=np.int64)
+    counts = np.zeros(4, dtype=np.int64)
     errors: list[tuple[float, float]] = []
     note = ""
     for number in range(request.images):
@@ -150,7 +157,7 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
             frame = render_room(room, tolerance=request.tolerance, seed=int(random.integers(2**31)))
             reading = read_room(frame.camera_image, room)
         except OccError as refusal:
-            return RoomPoint(index, 0, 0, 0, 0, math.nan, math.nan, one_line(str(refusal)))
+            return RoomPoint(index, 0, 0, 0, 0, 0, math.nan, math.nan, one_line(str(refusal)))
         counts += _counts(frame, reading)
         if reading.is_sure and reading.located is not None:
             found, camera = reading.located.place, room.camera
@@ -161,25 +168,28 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
     error, stated = (
         np.sqrt(np.mean(np.square(errors), axis=0)).tolist() if errors else (math.nan, math.nan)
     )
-    shown, named, wrong = counts.tolist()
-    return RoomPoint(index, shown, named, wrong, len(errors), error, stated, note)
+    return RoomPoint(index, *counts.tolist(), len(errors), error, stated, note)
 
 
-def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int]:
-    """Count the lamps whole in a picture, the named ones, and those named wrongly."""
-    regions = {one.lamp.name: one.region for one in frame.lamps}
-    named = wrong = 0
+def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]:
+    """Count as :class:`RoomPoint` does: shown, named, misread and wrong."""
+    named = misread = wrong = 0
     for read in reading.lamps:
-        if read.name is None:
-            continue
-        named += 1
-        column, row = read.hull.mean(axis=0)
-        own = regions.get(read.name)
-        wrong += own is None or not (
-            own.first_column - _BESIDE <= column <= own.last_column + _BESIDE
-            and own.first_row - _BESIDE <= row <= own.last_row + _BESIDE
-        )
-    return sum(not one.is_cut for one in frame.lamps), named, wrong
+        there = [one for one in frame.lamps if _is_at(one.region, read)]
+        codes = [one.lamp.transmitter.code for one in there]
+        own = [one for one in there if one.lamp.name == read.name]
+        named += any(not one.is_cut for one in own)
+        misread += read.code is not None and read.code not in codes
+        wrong += read.name is not None and not own
+    return sum(not one.is_cut for one in frame.lamps), named, misread, wrong
+
+
+def _is_at(region: Region, read: ReadLamp) -> bool:
+    column, row = read.hull.mean(axis=0)
+    return bool(
+        region.first_column - _BESIDE <= column <= region.last_column + _BESIDE
+        and region.first_row - _BESIDE <= row <= region.last_row + _BESIDE
+    )
 
 
 def measure_places(
@@ -233,7 +243,7 @@ class RoomMapText:
             *(f"# {line}".rstrip() for line in request.room.to_toml().splitlines()),
         ]  # fmt: skip
         columns = (
-            "x (m)", "y (m)", "images", "lamps in view", "lamps named", "named wrongly",
+            "x (m)", "y (m)", "images", "whole lamps", "named rightly", "misread", "named wrongly",
             "sure places", "error (m)", "stated error (m)", "note",
         )  # fmt: skip
         self.header = "\n".join(lines) + "\n" + _row(columns)
@@ -242,7 +252,7 @@ class RoomMapText:
         """Write a place."""
         return _row((
             *self._request.place(point.index), self._request.images, point.shown, point.named,
-            point.wrong, point.sure, point.error, point.stated, point.note,
+            point.misread, point.wrong, point.sure, point.error, point.stated, point.note,
         ))  # fmt: skip
 
     def read(self, lines: Sequence[str]) -> RoomPoint | None:
@@ -252,12 +262,12 @@ class RoomMapText:
             x, y, _, *counts, error, stated, note = next(csv.reader([line], strict=True))
             across = [repr(place) for place in self._request.across].index(x)
             along = [repr(place) for place in self._request.along].index(y)
-            shown, named, wrong, sure = map(int, counts)
+            shown, named, misread, wrong, sure = map(int, counts)
         except (ValueError, StopIteration, csv.Error):
             return None
         index = across * len(self._request.along) + along
         off, told = (float(text) if text else math.nan for text in (error, stated))
-        return RoomPoint(index, shown, named, wrong, sure, off, told, note)
+        return RoomPoint(index, shown, named, misread, wrong, sure, off, told, note)
 
 
 def _row(cells: Iterable[object]) -> str:

@@ -49,3 +49,9 @@ def test_a_setting_that_a_room_does_not_have_is_refused_not_ignored(
 ) -> None:
     assert main(["room", "locate", "--set", "distance=2m"]) == 2
     assert "A room has no distance: " in capsys.readouterr().err
+
+
+def test_a_map_has_no_single_place_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["room", "map", "--x", "1"])
+    assert "--x" in capsys.readouterr().err

@@ -18,6 +18,15 @@ def test_a_room_is_read_as_it_was_written(name: str) -> None:
     assert Room.from_toml(turned.to_toml()) == turned
 
 
+def test_a_scene_s_pose_is_no_part_of_a_room() -> None:
+    room = Room.of_scene(occ.load_preset("phone-136us").replace(distance=2.5, yaw=0.3))
+    assert Room.from_toml(room.to_toml()) == room
+    moved = room.replace(x=1.0, roll=0.2)
+    assert Room.from_toml(moved.to_toml()) == moved
+    with pytest.raises(occ.ParameterError, match="A room has no distance"):
+        room.replace(distance=2.0)
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [

@@ -58,7 +58,32 @@ def test_a_lamp_that_has_another_s_name_is_counted_as_wrong(
     )
     monkeypatch.setattr(study, "read_room", lambda image, _room: occ.read_room(image, other))
     (point,) = room_map(RoomMapRequest(room, (0.6,), (0.6,)))
-    assert (point.named, point.wrong) == (4, 4)
+    assert (point.shown, point.named, point.misread, point.wrong) == (4, 0, 0, 4)
+
+
+def test_lamps_that_are_cut_are_none_of_the_whole_ones_that_were_named() -> None:
+    (point,) = room_map(RoomMapRequest(_room().replace(x=0.6, y=0.6), (1.25,), (0.6,), images=2))
+    frame = occ.render_room(_room().replace(x=1.25, y=0.6))
+    read = occ.read_room(frame.camera_image, frame.room)
+    assert sum(lamp.name is not None for lamp in read.lamps) > sum(
+        not s.is_cut for s in frame.lamps
+    )
+    assert point.named <= point.shown == 2 * whole
+
+
+def test_a_code_that_no_lamp_there_sends_is_counted_as_misread(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    room = _room(1)
+    other = room.with_sent(code=700)
+    frame = occ.render_room(other)
+    monkeypatch.setattr(
+        study,
+        "render_room",
+        lambda *_, **__: dataclasses.replace(frame, lamps=occ.render_room(room).lamps),
+    )
+    (point,) = room_map(RoomMapRequest(room, (0.6,), (0.6,)))
+    assert (point.shown, point.named, point.misread, point.wrong) == (1, 0, 1, 0)
 
 
 def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
@@ -86,7 +111,7 @@ def test_the_command_measures_a_room_file_with_other_settings(
     out = tmp_path / "map.csv"
     words = ("room", "map", "--room", str(room), "--side", "1", "--out", str(out))
     assert main((*words, "--set", "switching_frequency=7kHz", "--set", "bits=12")) == 0
-    assert "1 places, 1 pictures: 1 lamps named, 0 wrongly, of 1 whole ones" in (
+    assert "1 places, 1 pictures: 1 of 1 whole lamps named, 0 lamps named wrongly" in (
         capsys.readouterr().out
     )
     assert "switching_frequency = 7000.0" in out.read_text()

@@ -16,7 +16,7 @@ from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of
 from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import NAMES, planned
+from occ_model.effects.registry import EFFECTS, NAMES, planned
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
 from occ_model.room.room import Room, RoomLamp, check_room
@@ -139,7 +139,7 @@ def render_room(
     seen = lamps_in_view(room)
     timer.stage_ended("projection")
     views = [one.view for one in seen] or [_dark_view(room.scene)]
-    chosen = _joined([plan_of(view, settings) for view in _extreme(views)])
+    chosen = _planned(views, settings)
     timer.stage_ended("plan")
     if len(views) == 1:
         frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
@@ -162,8 +162,8 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
     """Return the lamps among which any effect is largest.
 
     Of lamps in one picture effects differ by what is listed here: the depth (defocus), the place in
-    the picture (vignetting, distortion), the lamp's tilt (emission), its light (noise), the number
-    of its pixels and its frequency (LED edges, and what a stretch makes of all).
+    the picture (vignetting, distortion), the lamp's tilt and order (emission), its light (noise),
+    the number of its pixels, its frequency and its edges (and what a stretch makes of all).
     """
 
     def features(view: PaperView) -> tuple[float, ...]:
@@ -174,6 +174,7 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
             scene.pose.distance, float(np.hypot(*(corners - middle).T).max()),
             float(np.ptp(corners[:, 0]) * np.ptp(corners[:, 1])) / sent.panel_width
             / sent.panel_height, sent.luminance, sent.switching_frequency, view.swing,
+            sent.edge_time, sent.lambertian_order,
             float(np.ptp(corners[:, 0])),
         )  # fmt: skip
 
@@ -184,13 +185,26 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
     return [views[place] for place in sorted(places)]
 
 
-def _joined(plans: list[Plan]) -> Plan:
-    """Return the plan that includes what any of some plans does."""
-    decisions = zip(*(plan.decisions for plan in plans), strict=True)
-    most = tuple(max(of, key=lambda d: (d.included, d.estimate)) for of in decisions)
-    return dataclasses.replace(
-        plans[0], decisions=most, left_out=max(plan.left_out for plan in plans)
+def _planned(views: Sequence[PaperView], settings: SimulationSettings) -> Plan:
+    """Return the plan that includes what the picture of any lamp calls for."""
+    present = {each.name for each in EFFECTS if any(each.is_present(view.scene) for view in views)}
+    present -= {name for name, is_on in settings.force.items() if not is_on}
+    first, *others = _extreme(views)
+    chosen = plan_of(first, settings)
+    for view in others:
+        if present <= set(chosen.included):
+            break  # no lamp can call for more
+        chosen = _joined(chosen, plan_of(view, settings))
+    return chosen
+
+
+def _joined(one: Plan, other: Plan) -> Plan:
+    decisions = tuple(
+        max(both, key=lambda d: (d.included, d.estimate))
+        for both in zip(one.decisions, other.decisions, strict=True)
     )
+    left_out = max(one.left_out, other.left_out)
+    return dataclasses.replace(one, decisions=decisions, left_out=left_out)
 
 
 def _optics_of(view: PaperView, chosen: Plan) -> Optics:

@@ -5,12 +5,10 @@ run ``python tests/benchmarks/room_lamps.py``.
 """
 
 import argparse
-from collections.abc import Callable
 from statistics import median
 from time import process_time
 
 import occ_model as occ
-from occ_model.results.plan import Plan
 from occ_model.room.room import Place, Room, RoomLamp
 
 _SIDE, _GAP = 4, 0.08
@@ -32,40 +30,39 @@ def lamps_of(preset: str, side: int) -> Room:
     return Room(lamps=lamps, scene=scene)
 
 
-def _timed(work: Callable[[], Plan]) -> tuple[float, Plan]:
+def _timed(room: Room, seed: int, force: dict[str, bool]) -> tuple[float, frozenset[str]]:
     start = process_time()
-    made = work()
-    return process_time() - start, made
+    made = occ.render_room(room, seed=seed, force=force)
+    return process_time() - start, frozenset(made.plan.included)
+
+
+def _compared(preset: str, turn: float, rounds: int, *, all_effects: bool) -> str:
+    rooms = [lamps_of(preset, side) for side in (1, _SIDE)]
+    every = occ.plan(rooms[0].scene, 0.0).included if all_effects else ()
+    times: list[tuple[float, ...]] = []
+    for n in range(rounds + 1):
+        camera = Place(x=1e-3 * n, yaw=turn, roll=2.0 * turn)
+        force = dict.fromkeys(every, True)
+        made = [_timed(room.replace(camera=camera), n, force) for room in rooms]
+        times.append(tuple(seconds for seconds, _ in made))
+    one, many = (1e3 * median(column) for column in zip(*times[1:], strict=True))
+    ratio = median(second / first for first, second in times[1:])
+    unlike = ", ".join(made[0][1] ^ made[1][1]) or "none"
+    return f"{one:.0f} ms, {many:.0f} ms, {ratio:.2f} times; effects of only one: {unlike}"
 
 
 def main() -> None:
-    """Print the ratio of each preset."""
+    """Print the processor times and the ratio of each preset, level and turned."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--presets", nargs="+", default=["phone-136us", "phone-136us-real"])
     options = parser.parse_args()
     for preset in options.presets:
         for turn in (0.0, 0.1):
-            rooms = [lamps_of(preset, side) for side in (1, _SIDE)]
-            every = {name: True for name in occ.plan(rooms[0].scene, 0.0).included}
-            for label, force in (("planned", {}), ("all effects", every)):
-                pairs = []
-                for n in range(options.rounds + 1):
-                    camera = Place(x=1e-3 * n, yaw=turn, roll=2.0 * turn)
-                    pairs.append([
-                        _timed(
-                            lambda room=room.replace(camera=camera): occ.render_room(
-                                room, seed=n, force=force
-                            ).plan
-                        )
-                        for room in rooms
-                    ])  # fmt: skip
-                (one, plan), (many, other) = pairs[0]
-                one, many = (median(pair[k][0] for pair in pairs[1:]) for k in (0, 1))
-                ratio = median(pair[1][0] / pair[0][0] for pair in pairs[1:])
-                more = set(other.included) ^ set(plan.included)
-                print(f"{preset}, turned by {turn:g}, {label}: {1e3 * one:.0f} ms, {1e3 * many:.0f} "
-                      f"ms, {ratio:.2f} times; effects of only one: {', '.join(more) or 'none'}")  # fmt: skip
+            for all_effects in (False, True):
+                found = _compared(preset, turn, options.rounds, all_effects=all_effects)
+                which = "all effects" if all_effects else "planned"
+                print(f"{preset}, turned by {turn:g}, {which}: {found}", flush=True)
 
 
 if __name__ == "__main__":

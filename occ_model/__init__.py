@@ -87,10 +87,10 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         VideoReading as VideoReading,
     )
     from occ_model.room.locate import (
-        Located as Located,
         RoomReading as RoomReading,
         read_room as read_room,
     )
+    from occ_model.room.pose_fit import Located as Located
     from occ_model.room.reading import ReadLamp as ReadLamp
     from occ_model.room.render import (
         RoomFrame as RoomFrame,
@@ -184,7 +184,7 @@ _MODULES = {
     "Lamp": "results.lamp",
     "Limits": "results.limits",
     "LineCode": "transmitter.line_codes.line_code",
-    "Located": "room.locate",
+    "Located": "room.pose_fit",
     "Match": "results.match",
     "MatchError": "errors",
     "MostBits": "results.most_bits",

@@ -13,7 +13,7 @@ from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
-from occ_model.room.locate import Located
+from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place
 
 _DEVIATIONS = 2.0

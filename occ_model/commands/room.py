@@ -22,7 +22,8 @@ from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
-from occ_model.room.locate import Located, RoomReading, read_room
+from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.pose_fit import Located
 from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms

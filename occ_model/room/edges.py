@@ -67,10 +67,6 @@ class Edge:
     normal: FloatArray
     covariance: FloatArray
 
-    def whitened(self, off: FloatArray) -> FloatArray:
-        """Return deviations of both points as two that are independent, in their errors."""
-        return np.asarray(np.linalg.solve(np.linalg.cholesky(self.covariance), off))
-
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Points:
@@ -97,8 +93,9 @@ class EdgeFinder:
 
     def __init__(self, image: ByteArray, room: Room) -> None:
         self._scene = room.scene
-        levels = np.arange(256, dtype=np.float64)
-        self._light = luminance_of(levels, room.scene.camera)[image]
+        self._image = image
+        self._light = luminance_of(np.arange(256, dtype=np.float64), room.scene.camera)
+        self._dark = float(np.median(self._light[image[::16, ::16]]))
 
     def edges(self, read: ReadLamp, lamp: RoomLamp, corners: FloatArray) -> list[Edge]:
         """Measure the edges of a lamp that is expected between some corners."""
@@ -129,7 +126,7 @@ class EdgeFinder:
 
     def _own_light(self, read: ReadLamp, lamp: RoomLamp) -> FloatArray:
         """Return the lamp's light in every column of the picture, repeated with its packet."""
-        columns = self._light.shape[1]
+        columns = self._image.shape[1]
         sent = self._scene.replace(
             switching_frequency=lamp.transmitter.switching_frequency,
             bits=lamp.transmitter.bits, code=lamp.transmitter.code,
@@ -147,13 +144,12 @@ class EdgeFinder:
             above = np.ceil(np.maximum(place - last, 0.0) / period)
             own = place + (below - above) * period
         shown = np.arange(read.region.first_column, read.region.last_column)
-        dark = float(np.median(self._light[::16, ::16]))
-        light = np.interp(own, shown, read.signal - dark)
+        light = np.interp(own, shown, read.signal - self._dark)
         return np.asarray(np.where(own < 0.0, 0.0, light))
 
     def _across_rows(self, start: FloatArray, end: FloatArray, corners: FloatArray) -> _Points:
         """Find the row of a nearly level edge in each column, shape (points, 2)."""
-        rows, columns = self._light.shape
+        rows, columns = self._image.shape
         places = _places(start[0], end[0], columns)
         line = start[1] + (places - start[0]) * (end[1] - start[1]) / (end[0] - start[0])
         inwards = 1 if corners[:, 1].mean() > (start[1] + end[1]) / 2.0 else -1
@@ -163,7 +159,7 @@ class EdgeFinder:
         if len(places) < _LEAST_POINTS:
             return _NONE
         near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
-        light = self._light[middle[:, None] + near, places[:, None]]
+        light = self._light[self._image[middle[:, None] + near, places[:, None]]]
         inside = light[:, -_INSIDE:].mean(axis=1) - float(light[:, :_INSIDE].mean())
         lit = inside > _BRIGHT * np.percentile(inside, 95)
         if lit.sum() < _LEAST_POINTS:
@@ -176,7 +172,7 @@ class EdgeFinder:
         self, start: FloatArray, end: FloatArray, corners: FloatArray, own: FloatArray
     ) -> _Points:
         """Find the column of a nearly upright edge in each row, shape (points, 2)."""
-        rows, columns = self._light.shape
+        rows, columns = self._image.shape
         places = _places(start[1], end[1], rows)
         line = start[0] + (places - start[1]) * (end[0] - start[0]) / (end[1] - start[1])
         inwards = 1 if corners[:, 0].mean() > (start[0] + end[0]) / 2.0 else -1
@@ -187,7 +183,7 @@ class EdgeFinder:
             return _NONE
         near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
         across = middle[:, None] + near
-        light = self._light[places[:, None], across]
+        light = self._light[self._image[places[:, None], across]]
         count, shared, is_lit = _counts(light, own[across], _BRIGHT * np.percentile(own, 99))
         found = middle[is_lit] + inwards * (_REACH + 0.5 - count[is_lit])
         return _Points(np.stack([found, places[is_lit].astype(np.float64)], axis=1), shared)

@@ -1,8 +1,7 @@
 """Where am I: the camera's place and angles from the named lamps in its picture."""
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import astuple, dataclass
 from typing import Any
 
 import cv2
@@ -10,14 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.projection import image_points, image_rays
+from occ_model.camera.projection import image_rays
+from occ_model.errors import ParameterError
 from occ_model.room.edges import Edge, EdgeFinder, quadrilateral
+from occ_model.room.pose_fit import LampEdges, Located
 from occ_model.room.reading import ReadLamp, check_picture, find_and_name
-from occ_model.room.room import Place, Room, RoomLamp, check_room
+from occ_model.room.room import Room, RoomLamp, check_room
 from occ_model.room.view import angles_of, room_outline, rotation
-
-_ROUNDS = 12
-"""Rounds of the refinement; it ends sooner where a step is negligible."""
 
 _AS_GOOD = 9.0
 """Sum of squared deviations within which another place explains the picture as well."""
@@ -37,31 +35,6 @@ _ONE_LAMP = "Only one lamp tells the place: it can be farther off than the state
 
 _PLACE_TOLERANCE = 1e-3
 """Metres and radians within which two places are the same."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Located:
-    """A place of the camera that explains a picture.
-
-    Parameters
-    ----------
-    covariance : ndarray of float64, shape (6, 6)
-        Of x, y, z, yaw, pitch and roll, in metres and radians.
-    deviations
-        Sum of the squared deviations of the lamps' edges, in their standard errors.
-    freedom
-        How many numbers were measured beyond the six that were wanted.
-    """
-
-    place: Place
-    covariance: FloatArray
-    deviations: float
-    freedom: int
-
-    @property
-    def errors(self) -> FloatArray:
-        """Standard errors of x, y, z, yaw, pitch and roll, shape (6,)."""
-        return np.sqrt(np.diag(self.covariance))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -91,7 +64,7 @@ class RoomReading:
         return self.located is not None and not self.reasons
 
 
-def read_room(image: NDArray[Any], room: Room) -> RoomReading:
+def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> RoomReading:
     """Name the lamps in a picture of a room, and find where it was taken.
 
     The receiver knows the room but for the camera's place and angles: the lamps, and the camera's
@@ -104,6 +77,8 @@ def read_room(image: NDArray[Any], room: Room) -> RoomReading:
         The camera's picture.
     room
         The room; its camera's place is not used.
+    focal_share
+        Standard error of the room's focal length, as a share of it: the place's errors include it.
 
     Returns
     -------
@@ -113,8 +88,12 @@ def read_room(image: NDArray[Any], room: Room) -> RoomReading:
     ------
     DecodeInputError
         The array is no picture of the room's camera.
+    ParameterError
+        The share is none from 0 to 1.
     """
     check_room(room)
+    if not 0.0 <= focal_share < 1.0:
+        raise ParameterError.of("focal_share", f"{focal_share:g}", "from 0 to below 1")
     picture = check_picture(image, room)
     lamps = find_and_name(picture, room)
     by_name = {lamp.name: lamp for lamp in room.lamps}
@@ -128,7 +107,7 @@ def read_room(image: NDArray[Any], room: Room) -> RoomReading:
         edges = finder.edges(read, lamp, corners)
         measured.append(_Measured(lamp, corners, edges, read.is_cut))
     whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
-    found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room))
+    found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
     return RoomReading(lamps, found[0] if found else None, tuple(found[1:]), why)
 
 
@@ -143,7 +122,11 @@ class _Measured:
 
 
 def _located(
-    measured: Sequence[_Measured], room: Room, found: int, more: Sequence[FloatArray]
+    measured: Sequence[_Measured],
+    room: Room,
+    found: int,
+    more: Sequence[FloatArray],
+    focal_share: float = 0.0,
 ) -> tuple[list[Located], tuple[str, ...]]:
     if not measured:
         what = "No lamp was found" if not found else "No rectangular lamp was named"
@@ -157,7 +140,8 @@ def _located(
             f"Only {edges} edges of named lamps are bright enough to be measured; "
             f"allowed: from {_LEAST_EDGES}.",
         )
-    tried = _explanations(measured, [*more, *_starts_of(whole, room)], room)
+    table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
+    tried = _explanations(table, [*more, *_starts_of(whole, room)])
     if not tried:
         return [], (
             "No place of the camera follows from the edges of the named lamps: those that are "
@@ -178,45 +162,24 @@ def _located(
     )
 
 
-def _explanations(
-    measured: Sequence[_Measured], starts: Sequence[FloatArray], room: Room
-) -> list[Located]:
+def _explanations(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Located]:
     """Return the places that explain the edges, or all but a few of them."""
     for _ in range(_LEFT_OUT + 1):
-        tried = [
-            fitted for start in starts if (fitted := _refined(start, measured, room)) is not None
-        ]
-        fits = [one for one in tried if one.deviations <= _MOST_MEAN_SQUARE * (one.freedom + 4)]
+        tried = [fitted for start in starts if (fitted := edges.fitted(start)) is not None]
+        fits = [one for one, _ in tried if one.deviations <= _MOST_MEAN_SQUARE * (one.freedom + 4)]
         if fits or not tried:
             return fits
-        best = min(tried, key=lambda one: one.deviations)
-        measured = _without_worst(best, measured, room)
-        if sum(len(one.edges) for one in measured) < _LEAST_EDGES + 1:
+        _, off = min(tried, key=lambda each: each[0].deviations)
+        if len(off) < _LEAST_EDGES + 2:
             return []
+        edges = edges.without(int(np.argmax(off)))
     return []
 
 
-def _without_worst(
-    located: Located, measured: Sequence[_Measured], room: Room
-) -> Sequence[_Measured]:
-    """Leave out the edge that is farthest from where a place puts it."""
-    numbers = _numbers(located.place)
-    assigned = _assigned(numbers, measured, room)
-    off = None if assigned is None else _deviations(numbers, assigned, room)
-    if assigned is None or off is None:
-        return []
-    worst = assigned[int(np.argmax((off**2).reshape(-1, 2).sum(axis=1)))][2]
-    return [
-        replace(one, edges=[edge for edge in one.edges if edge is not worst]) for one in measured
-    ]
-
-
 def _is_same(one: Located, other: Located) -> bool:
-    return bool(np.abs(_numbers(one.place) - _numbers(other.place)).max() < _PLACE_TOLERANCE)
-
-
-def _numbers(place: Place) -> FloatArray:
-    return np.array([place.x, place.y, place.z, place.yaw, place.pitch, place.roll])
+    apart = np.array(astuple(one.place)) - np.array(astuple(other.place))
+    apart[3:] = np.angle(np.exp(1j * apart[3:]))
+    return bool(np.abs(apart).max() < _PLACE_TOLERANCE)
 
 
 def _start_of_centres(whole: Sequence[tuple[RoomLamp, ReadLamp]], room: Room) -> list[FloatArray]:
@@ -260,109 +223,3 @@ def _starts(anchor: _Measured, room: Room) -> list[FloatArray]:
             place = middle - camera @ np.asarray(move, dtype=np.float64).ravel()
             starts.append(np.concatenate([place, angles_of(camera)]))
     return starts
-
-
-def _outline_at(numbers: FloatArray, lamp: RoomLamp, room: Room) -> FloatArray | None:
-    """Return a lamp's corners in the picture from a place, None where it is behind the camera."""
-    turned = rotation_at(numbers)
-    placed = (room_outline(lamp) - numbers[:3]) @ turned
-    if placed[:, 2].min() <= 1e-6:
-        return None
-    return image_points(placed[:, :2] / placed[:, 2:], room.scene.camera)
-
-
-def rotation_at(numbers: FloatArray) -> FloatArray:
-    """Return the camera's rotation from six numbers, whose angles may be any."""
-    yaw, pitch, roll = numbers[3:].tolist()
-    (sx, cx), (sy, cy), (sz, cz) = ((math.sin(a), math.cos(a)) for a in (pitch, yaw, roll))
-    about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
-    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
-    about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
-    return np.asarray(about_z @ about_y @ about_x, dtype=np.float64)
-
-
-def _assigned(
-    numbers: FloatArray, measured: Sequence[_Measured], room: Room
-) -> list[tuple[RoomLamp, int, Edge]] | None:
-    """Say which side of which lamp each edge is, seen from a place."""
-    assigned: list[tuple[RoomLamp, int, Edge]] = []
-    for one in measured:
-        expected = _outline_at(numbers, one.lamp, room)
-        if expected is None:
-            return None
-        starts, ends = expected, np.roll(expected, -1, axis=0)
-        along = (ends - starts) / np.hypot(*(ends - starts).T)[:, None]
-        across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-        for edge in one.edges:
-            off = np.abs(np.einsum("psk,sk->ps", edge.points[:, None, :] - starts, across))
-            assigned.append((one.lamp, int(np.argmin(off.max(axis=0))), edge))
-    return assigned
-
-
-def _deviations(
-    numbers: FloatArray, assigned: Sequence[tuple[RoomLamp, int, Edge]], room: Room
-) -> FloatArray | None:
-    """Return how far the edges' points are from the expected edges, in their errors."""
-    outlines: dict[str, FloatArray] = {}
-    off = []
-    for lamp, side, edge in assigned:
-        if lamp.name not in outlines:
-            expected = _outline_at(numbers, lamp, room)
-            if expected is None:
-                return None
-            outlines[lamp.name] = expected
-        start, end = outlines[lamp.name][side], outlines[lamp.name][(side + 1) % 4]
-        along = (end - start) / np.hypot(*(end - start))
-        across = np.array([-along[1], along[0]])
-        off += edge.whitened((edge.points - start) @ across).tolist()
-    return np.array(off)
-
-
-def _refined(start: FloatArray, measured: Sequence[_Measured], room: Room) -> Located | None:
-    """Refine a place over the edges of all lamps, by Gauss and Newton's steps."""
-    numbers = start
-    steps = np.full(6, 1e-6)
-    inverse = np.eye(6)
-    for _ in range(_ROUNDS):
-        assigned = _assigned(numbers, measured, room)
-        off = None if assigned is None else _deviations(numbers, assigned, room)
-        if assigned is None or off is None:
-            return None
-        slopes = []
-        for axis, step in enumerate(steps):
-            moved = numbers.copy()
-            moved[axis] += step
-            other = _deviations(moved, assigned, room)
-            if other is None:
-                return None
-            slopes.append((other - off) / step)
-        slope = np.array(slopes).T
-        normal = slope.T @ slope
-        if np.linalg.cond(normal) > 1e14:
-            return None
-        inverse = np.linalg.inv(normal)
-        change = -inverse @ (slope.T @ off)
-        length = float(np.abs(change).max())
-        numbers = numbers + change * min(1.0, 0.5 / max(length, 1e-12))
-        if length < 1e-7:
-            break
-    assigned = _assigned(numbers, measured, room)
-    off = None if assigned is None else _deviations(numbers, assigned, room)
-    if off is None or not np.isfinite(numbers).all():
-        return None
-    place = _place(numbers)
-    freedom = len(off) - 6
-    total = float(off @ off)
-    wider = max(1.0, total / freedom) if freedom > 0 else 1.0
-    return None if place is None else Located(place, inverse * wider, total, freedom)
-
-
-def _place(numbers: FloatArray) -> Place | None:
-    yaw, pitch, roll = angles_of(rotation_at(numbers))
-    try:
-        return replace(
-            Place(), x=float(numbers[0]), y=float(numbers[1]), z=float(numbers[2]),
-            yaw=yaw, pitch=pitch, roll=roll,
-        )  # fmt: skip
-    except ValueError:  # beyond what a room's camera can be at
-        return None

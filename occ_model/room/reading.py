@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import luminance_of
 from occ_model.errors import DecodeInputError
@@ -26,6 +26,9 @@ _ABOVE_NOISE = 6.0
 
 _SHARE = 0.1
 """Share of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
+
+_SAMPLED = 4
+"""Every so manieth of those tells how bright the surroundings and the lamps are."""
 
 _LEAST_SIDE = 12
 """Rows and columns of the smallest lamp that is looked at."""
@@ -99,16 +102,15 @@ def _unnamed(lamp: ReadLamp, why: str) -> ReadLamp:
 
 def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
     """Give the region and the convex outline of each group of lit pixels."""
-    rows, columns = image.shape
-    low = cv2.resize(
-        image.astype(np.float32), (columns, max(1, rows // _ROWS)), interpolation=cv2.INTER_AREA
-    )
-    scale = rows / len(low)
-    dark = float(np.median(low))
-    noise = 1.48 * float(np.median(np.abs(low - dark)))
-    bright = float(np.percentile(low, 99.9))
+    scale = min(_ROWS, len(image))
+    rows = len(image) // scale
+    sums = image[: rows * scale].reshape(rows, scale, -1).sum(axis=1, dtype=np.uint16)
+    some = sums[::_SAMPLED] / scale
+    dark = float(np.median(some))
+    noise = 1.48 * float(np.median(np.abs(some - dark)))
+    bright = float(np.percentile(some, 99.9))
     level = dark + max(_ABOVE_NOISE * noise, _SHARE * (bright - dark), 2.0)
-    lit = (low > level).astype(np.uint8)
+    lit = (sums > level * scale).astype(np.uint8)
     spots = cv2.morphologyEx(lit, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
     joined = cv2.morphologyEx(spots, cv2.MORPH_CLOSE, np.ones((1, _longest_gap(room)), np.uint8))
     count, labels, stats, _ = cv2.connectedComponentsWithStats(joined, connectivity=8)
@@ -117,11 +119,20 @@ def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
         if width < _LEAST_SIDE or height * scale < _LEAST_SIDE:
             continue
         part = np.s_[y : y + height, x : x + width]
-        points = cv2.findNonZero(((labels[part] == label) & (spots[part] > 0)).astype(np.uint8))
-        hull = cv2.convexHull(points).reshape(-1, 2) + np.array([x, y], dtype=np.float64)
+        own = (labels[part] == label) & (spots[part] > 0)
+        hull = cv2.convexHull(_ends_of_rows(own)).reshape(-1, 2) + np.array([x, y], np.float64)
         hull[:, 1] = (hull[:, 1] + 0.5) * scale - 0.5
-        first, last = int(y * scale), min(rows, int((y + height) * scale + 1))
+        first, last = y * scale, min(len(image), (y + height) * scale + 1)
         yield Region(first, last, x, x + width), hull
+
+
+def _ends_of_rows(lit: BoolArray) -> NDArray[np.int32]:
+    """Return the first and the last lit pixel of each row: the others are within their hull."""
+    rows = np.flatnonzero(lit.any(axis=1))
+    first = lit[rows].argmax(axis=1)
+    last = lit.shape[1] - 1 - lit[rows, ::-1].argmax(axis=1)
+    ends = np.stack([np.concatenate([first, last]), np.concatenate([rows, rows])], axis=1)
+    return ends.astype(np.int32)
 
 
 def _longest_gap(room: Room) -> int:

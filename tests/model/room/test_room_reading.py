@@ -8,6 +8,7 @@ import pytest
 import occ_model as occ
 from occ_model.room import locate
 from occ_model.room.edges import Edge
+from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place, Room, RoomLamp
 
 
@@ -122,7 +123,7 @@ def test_a_picture_of_another_size_is_refused() -> None:
 
 def test_a_place_that_one_lamp_tells_is_not_sure(monkeypatch: pytest.MonkeyPatch) -> None:
     room = _room(5, 1)
-    there = locate.Located(room.camera, np.eye(6), 1.0, 2)
+    there = Located(room.camera, np.eye(6), 1.0, 2)
     corners = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]])
     edge = Edge(0, corners[:2], np.array([0.0, 1.0]), np.eye(2))
     measured = [locate._Measured(room.lamps[0], corners, [edge] * 4, is_cut=False)]

@@ -1,0 +1,237 @@
+"""Fit a camera's place to the edges of lamps: least squares by Gauss and Newton's steps."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.camera.projection import image_points
+from occ_model.room.edges import Edge
+from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.view import angles_of, room_outline
+from occ_model.scene.scene import Camera
+
+_ROUNDS = 12
+"""Rounds of the refinement; it ends sooner where a step is negligible."""
+
+_LEAST_DEPTH = 1e-6
+"""Metres before the camera from which a corner is seen."""
+
+_STEP = 1e-6
+"""Of each number, for its slope."""
+
+_ALONE = 1e14
+"""Ratio of what is told best and worst from which some of it is not told at all."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Located:
+    """A place of the camera that explains a picture.
+
+    Parameters
+    ----------
+    covariance : ndarray of float64, shape (6, 6)
+        Of x, y, z, yaw, pitch and roll, in metres and radians.
+    deviations
+        Sum of the squared deviations of the lamps' edges, in their standard errors.
+    freedom
+        How many numbers were measured beyond those that were wanted.
+    focal_length, focal_error
+        The equivalent focal length that explains the picture, in metres, and its standard error: 0
+        where it was known.
+    """
+
+    place: Place
+    covariance: FloatArray
+    deviations: float
+    freedom: int
+    focal_length: float = 0.0
+    focal_error: float = 0.0
+
+    @property
+    def errors(self) -> FloatArray:
+        """Standard errors of x, y, z, yaw, pitch and roll, shape (6,)."""
+        return np.sqrt(np.diag(self.covariance))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LampEdges:
+    """The edges of some lamps in a picture, as arrays.
+
+    A place is six numbers, those of :class:`occ_model.Place`. Where the focal length is not known
+    exactly, a seventh is its share above the one assumed.
+
+    Parameters
+    ----------
+    outlines : ndarray of float64, shape (lamps, 4, 3)
+        The lamps' corners in the room.
+    lamp : ndarray of int64, shape (edges,)
+        Which of them each edge is of.
+    points : ndarray of float64, shape (edges, 2, 2)
+        Two points of each edge.
+    whitening : ndarray of float64, shape (edges, 2, 2)
+        What makes deviations of both two independent ones, in their standard errors.
+    focal_share
+        Standard error of the focal length, as a share of it.
+    """
+
+    outlines: FloatArray
+    lamp: IndexArray
+    points: FloatArray
+    whitening: FloatArray
+    camera: Camera
+    focal_share: float
+
+    @classmethod
+    def of(
+        cls, measured: Sequence[tuple[RoomLamp, Sequence[Edge]]], room: Room, focal_share: float
+    ) -> Self:
+        """Return the edges of lamps that were measured."""
+        edges = [edge for _, own in measured for edge in own]
+        return cls(
+            np.array([room_outline(lamp) for lamp, _ in measured]),
+            np.repeat(np.arange(len(measured)), [len(own) for _, own in measured]),
+            np.array([edge.points for edge in edges]).reshape(-1, 2, 2),
+            np.array([np.linalg.inv(np.linalg.cholesky(edge.covariance)) for edge in edges]),
+            room.scene.camera,
+            focal_share,
+        )
+
+    def without(self, edge: int) -> "LampEdges":
+        """Return all but one of the edges."""
+        kept = np.arange(len(self.lamp)) != edge
+        return replace(
+            self, lamp=self.lamp[kept], points=self.points[kept], whitening=self.whitening[kept]
+        )
+
+    def fitted(self, start: FloatArray) -> tuple[Located, FloatArray] | None:
+        """Refine a place; with it each edge's squared deviation, None where there is no such place.
+
+        Parameters
+        ----------
+        start : ndarray of float64, shape (6,)
+        """
+        numbers = np.append(start, 0.0) if self.focal_share else start
+        inverse = np.eye(len(numbers))
+        for _ in range(_ROUNDS):
+            sides = self._sides(numbers)
+            if sides is None:
+                return None
+            moved = numbers + np.vstack([np.zeros_like(numbers), _STEP * np.eye(len(numbers))])
+            found = self._deviations(moved, sides)
+            if found is None:
+                return None
+            slope = (found[1:] - found[0]).T / _STEP
+            normal = slope.T @ slope
+            if not np.isfinite(normal).all() or np.linalg.cond(normal) > _ALONE:
+                return None
+            inverse = np.linalg.inv(normal)
+            change = -inverse @ (slope.T @ found[0])
+            length = float(np.abs(change).max())
+            numbers = numbers + change * min(1.0, 0.5 / max(length, 1e-12))
+            if length < 1e-7:
+                break
+        sides = self._sides(numbers)
+        found = None if sides is None else self._deviations(numbers[None], sides)
+        place = None if found is None else _place(numbers)
+        if found is None or place is None:
+            return None
+        off = found[0]
+        total, freedom = float(off @ off), len(off) - len(numbers)
+        wider = max(1.0, total / freedom) if freedom > 0 else 1.0
+        covariance = inverse * wider
+        focal, error = self.camera.equivalent_focal_length, 0.0
+        if self.focal_share:
+            error = focal * math.sqrt(covariance[6, 6])
+            focal *= 1.0 + float(numbers[6])
+        located = Located(place, covariance[:6, :6], total, freedom, focal, error)
+        return located, (off[: 2 * len(self.lamp)] ** 2).reshape(-1, 2).sum(axis=1)
+
+    def _outlines_at(self, numbers: FloatArray) -> FloatArray | None:
+        """Return the corners in the picture from some places; None where one is behind the camera.
+
+        Parameters
+        ----------
+        numbers : ndarray of float64, shape (places, 6 or 7)
+
+        Returns
+        -------
+        ndarray of float64, shape (places, lamps, 4, 2)
+        """
+        placed = self.outlines[None] - numbers[:, None, None, :3]
+        placed = np.einsum("plci,pij->plcj", placed, _rotations(numbers))
+        depth = placed[..., 2:]
+        if not depth.min() > _LEAST_DEPTH:
+            return None
+        rays = placed[..., :2] / depth
+        if numbers.shape[1] > 6:
+            rays = rays * (1.0 + numbers[:, 6, None, None, None])
+        return image_points(rays, self.camera)
+
+    def _sides(self, numbers: FloatArray) -> IndexArray | None:
+        """Say which side of its lamp each edge is, seen from a place; None where none is seen."""
+        outlines = self._outlines_at(numbers[None])
+        if outlines is None:
+            return None
+        off = _off(outlines[0][self.lamp], self.points)
+        return np.asarray(np.argmin(np.abs(off).max(axis=-1), axis=-1))
+
+    def _deviations(self, numbers: FloatArray, sides: IndexArray) -> FloatArray | None:
+        """Return how far edges are from where places put them, in standard errors.
+
+        Returns
+        -------
+        ndarray of float64, shape (places, 2 edges), or one more for the focal length
+        """
+        outlines = self._outlines_at(numbers)
+        if outlines is None:
+            return None
+        off = _off(outlines[:, self.lamp], self.points)
+        own = off[:, np.arange(len(sides)), sides]
+        whitened = np.einsum("eij,pej->pei", self.whitening, own).reshape(len(numbers), -1)
+        if not self.focal_share:
+            return np.asarray(whitened)
+        return np.column_stack([whitened, numbers[:, 6] / self.focal_share])
+
+
+def _off(outlines: FloatArray, points: FloatArray) -> FloatArray:
+    """Return how far points are from each side of an outline, to its left.
+
+    Parameters
+    ----------
+    outlines : ndarray of float64, shape (..., edges, 4, 2)
+    points : ndarray of float64, shape (edges, 2, 2)
+
+    Returns
+    -------
+    ndarray of float64, shape (..., edges, 4, 2)
+        Of each edge and each side both points' distances.
+    """
+    along = np.roll(outlines, -1, axis=-2) - outlines
+    along = along / np.hypot(along[..., 0], along[..., 1])[..., None]
+    apart = points[:, None] - outlines[..., None, :]
+    return np.asarray(apart[..., 1] * along[..., None, 0] - apart[..., 0] * along[..., None, 1])
+
+
+def _rotations(numbers: FloatArray) -> FloatArray:
+    """Return the camera's rotation of some places, shape (places, 3, 3); angles may be any."""
+    (sy, sx, sz), (cy, cx, cz) = np.sin(numbers[:, 3:6]).T, np.cos(numbers[:, 3:6]).T
+    return np.stack([
+        cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx,
+        sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx,
+        -sy, cy * sx, cy * cx,
+    ], axis=-1).reshape(-1, 3, 3)  # fmt: skip
+
+
+def _place(numbers: FloatArray) -> Place | None:
+    if not np.isfinite(numbers).all():
+        return None
+    yaw, pitch, roll = angles_of(_rotations(numbers[None])[0])
+    x, y, z = numbers[:3].tolist()
+    try:
+        return Place(x=x, y=y, z=z, yaw=yaw, pitch=pitch, roll=roll)
+    except ValueError:  # beyond what a room's camera can be at
+        return None

@@ -4,12 +4,15 @@ Dark chips hide a lamp's edge: it is measured only where the lamp's light, which
 packet, is bright.
 """
 
-from dataclasses import dataclass
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 
-from occ_model.arrays import BoolArray, ByteArray, FloatArray
+from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
+from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.room.reading import ReadLamp
@@ -32,12 +35,18 @@ _ENDS = 0.06
 _LEAST_POINTS = 16
 """Points from which a line is fitted."""
 
+_LEAST_ROWS = 16
+"""Rows from which the lamp's light in a column is told."""
+
 _LEAST_TOLD = 4
 """Bright pixels inside a lamp from which the level of its light is told."""
 
 _MOST_DEVIATIONS = 3.5
 """Deviations beyond which a point is left out of a line."""
 
+
+_LEAST_VARIANCE = 1e-8
+"""Of a line's point, in square pixels: points can be as straight as a ruler."""
 
 _PHASES = 16
 """Places of an edge on the pixel grid that its error is counted over."""
@@ -99,8 +108,8 @@ class EdgeFinder:
 
     def edges(self, read: ReadLamp, lamp: RoomLamp, corners: FloatArray) -> list[Edge]:
         """Measure the edges of a lamp that is expected between some corners."""
-        found = []
-        own = self._own_light(read, lamp)
+        lines = []
+        own = self._own_light(corners, lamp)
         for side in range(4):
             start, end = corners[side], corners[(side + 1) % 4]
             along = np.abs(end - start)
@@ -112,10 +121,11 @@ class EdgeFinder:
                 for point in (start, end):
                     point[1 - axis] = np.polyval(line, point[axis])
                 points = self._across(axis, start, end, corners, own)
-            edge = _fitted(side, points, self._scene)
-            if edge is not None:
-                found.append(edge)
-        return found
+            line = _fitted(side, points, self._scene)
+            if line is not None:
+                lines.append(line)
+        alike = _alike(lines)
+        return [line.edge(alike) for line in lines]
 
     def _across(
         self, axis: int, start: FloatArray, end: FloatArray, corners: FloatArray, own: FloatArray
@@ -124,9 +134,8 @@ class EdgeFinder:
             return self._across_rows(start, end, corners)
         return self._across_columns(start, end, corners, own)
 
-    def _own_light(self, read: ReadLamp, lamp: RoomLamp) -> FloatArray:
+    def _own_light(self, corners: FloatArray, lamp: RoomLamp) -> FloatArray:
         """Return the lamp's light in every column of the picture, repeated with its packet."""
-        columns = self._image.shape[1]
         sent = self._scene.replace(
             switching_frequency=lamp.transmitter.switching_frequency,
             bits=lamp.transmitter.bits, code=lamp.transmitter.code,
@@ -135,17 +144,33 @@ class EdgeFinder:
         )  # fmt: skip
         period = len(packet(sent)) * sent.transmitter.switching_period
         period /= sent.camera.readout_time
-        place = np.arange(columns, dtype=np.float64)
-        first, last = read.region.first_column + 4, read.region.last_column - 5
+        shown, light = self._inner_light(corners)
+        place = np.arange(self._image.shape[1], dtype=np.float64)
+        if not len(shown):
+            return np.zeros(len(place))
+        first, last = float(shown[0]), float(shown[-1])
         if last - first < period:
             own = np.where((place >= first) & (place <= last), place, -1.0)
         else:
             below = np.ceil(np.maximum(first - place, 0.0) / period)
             above = np.ceil(np.maximum(place - last, 0.0) / period)
             own = place + (below - above) * period
-        shown = np.arange(read.region.first_column, read.region.last_column)
-        light = np.interp(own, shown, read.signal - self._dark)
-        return np.asarray(np.where(own < 0.0, 0.0, light))
+        return np.asarray(np.where(own < 0.0, 0.0, np.interp(own, shown, light)))
+
+    def _inner_light(self, corners: FloatArray) -> tuple[IndexArray, FloatArray]:
+        """Return the columns well within some corners, and the mean light there above the dark."""
+        first, last = column_spans(corners, *self._image.shape)
+        first, last = first + _REACH, last - _REACH
+        shown = np.flatnonzero(last - first >= _LEAST_ROWS)
+        if not len(shown):
+            return shown, np.empty(0)
+        shown = np.arange(shown[0], shown[-1] + 1)
+        first, last = first[shown], np.maximum(last[shown], first[shown] + 1)
+        top, bottom = int(first.min()), int(last.max())
+        light = self._light[self._image[top:bottom, shown[0] : shown[-1] + 1]]
+        row = np.arange(top, bottom)[:, None]
+        light[(row < first) | (row >= last)] = 0.0
+        return shown, np.asarray(light.sum(axis=0) / (last - first) - self._dark)
 
     def _across_rows(self, start: FloatArray, end: FloatArray, corners: FloatArray) -> _Points:
         """Find the row of a nearly level edge in each column, shape (points, 2)."""
@@ -245,18 +270,96 @@ def _places(start: float, end: float, size: int) -> "np.ndarray[tuple[int], np.d
     return np.arange(int(max(low + cut, 0.0)) + 1, int(min(high - cut, size - 1.0)) + 1)
 
 
-def _fitted(side: int, found: _Points, scene: Scene) -> Edge | None:
-    """Fit a line through points, and give it by two points on it."""
+@dataclass(frozen=True, eq=False, slots=True)
+class _Line:
+    """A straight line through the points of an edge.
+
+    Parameters
+    ----------
+    level
+        Whether ``x`` counts columns; rows else.
+    x, y : ndarray of float64, shape (points,)
+        The points along the edge's axis and across it.
+    known : ndarray of float64, shape (2, 2)
+        Covariance at both of the line's points of what the points' scatter does not show.
+    scatter
+        Variance of the points that is known already.
+    """
+
+    side: int
+    level: bool
+    x: FloatArray
+    y: FloatArray
+    known: FloatArray
+    scatter: float = 0.0
+
+    @property
+    def slope(self) -> float:
+        return float(self.along @ self.y / (self.along @ self.along))
+
+    @property
+    def along(self) -> FloatArray:
+        """The points' places from their mean, in standard deviations of them."""
+        return np.asarray((self.x - self.x.mean()) / self.x.std())
+
+    @property
+    def off(self) -> FloatArray:
+        """How far the points are from the line, across the axis."""
+        return np.asarray(self.y - self.y.mean() - self.slope * self.along)
+
+    @property
+    def variance(self) -> float:
+        """Of a point about the line."""
+        return float(self.off @ self.off) / (len(self.x) - 2)
+
+    def sums_of_blocks(self) -> tuple[float, float]:
+        """Return the squares of both ends' sums over blocks, and what unlike errors would make."""
+        block = ((self.x - self.x.min()) // _BLOCK).astype(np.int64)
+        lines = np.stack([np.ones(len(self.x)), self.along]) / math.sqrt(len(self.x))
+        found = expected = 0.0
+        for weight in (1.0 - self.along, 1.0 + self.along):
+            found += float(np.square(np.bincount(block, self.off * weight)).sum())
+            taken = [np.bincount(block, own * weight) for own in lines]
+            expected += float(weight @ weight - np.square(taken).sum()) * self.variance
+        return found, expected
+
+    def edge(self, alike: float) -> Edge:
+        """Return the edge; the errors of neighbouring points add up as so many times unlike ones'.
+
+        One standard deviation before and behind the middle a line's errors are independent.
+        """
+        ends = self.x.mean() + np.array([-1.0, 1.0]) * self.x.std()
+        at = self.y.mean() + np.array([-1.0, 1.0]) * self.slope
+        slope = self.slope / float(self.x.std())
+        noise = 2.0 * alike * max(self.variance - self.scatter, 0.0) / len(self.x) + _LEAST_VARIANCE
+        covariance = (noise * np.eye(2) + self.known) / (1.0 + slope**2)
+        points, normal = np.stack([ends, at], axis=1), np.array([-slope, 1.0])
+        normal /= np.hypot(1.0, slope)
+        if not self.level:
+            points, normal = points[:, ::-1], normal[::-1]
+        return Edge(self.side, points, normal, covariance)
+
+
+def _alike(lines: Sequence[_Line]) -> float:
+    """Return how many times the variance of sums over neighbours is that of unlike errors.
+
+    Over all edges of a lamp: one has too few blocks to tell.
+    """
+    sums = np.array([line.sums_of_blocks() for line in lines]).reshape(-1, 2).sum(axis=0)
+    return max(1.0, float(sums[0] / sums[1])) if sums[1] > 0.0 else 1.0
+
+
+def _fitted(side: int, found: _Points, scene: Scene) -> _Line | None:
+    """Fit a line through points; None where too few are left near it."""
     if len(found.places) < _LEAST_POINTS:
         return None
     points = undistorted(found.places, scene)
-    level = np.ptp(points[:, 0]) >= np.ptp(points[:, 1])
+    level = bool(np.ptp(points[:, 0]) >= np.ptp(points[:, 1]))
     along = 0 if level else 1
-    x, y = points.T if level else points.T[::-1]
-    grid = found.places[:, along]
+    x, y, grid = points[:, along], points[:, 1 - along], found.places[:, along]
     for _ in range(4):
-        slope, offset = np.polyfit(x - x.mean(), y, 1)
-        off = y - offset - slope * (x - x.mean())
+        line = _Line(side, level, x, y, np.zeros((2, 2)))
+        off = line.off
         if off.std() < 1e-9:
             break
         spread = 1.48 * float(np.median(np.abs(off))) + 1e-6
@@ -264,47 +367,27 @@ def _fitted(side: int, found: _Points, scene: Scene) -> Edge | None:
         if kept.sum() < _LEAST_POINTS:
             return None
         x, y, grid = x[kept], y[kept], grid[kept]
-    slope, offset = np.polyfit(x - x.mean(), y, 1)
-    off = y - offset - slope * (x - x.mean())
-    if off.std() > 2.0:
+    line = _Line(side, level, x, y, np.zeros((2, 2)))
+    if line.off.std() > 2.0:
         return None
-    stretch = float(x.std())
-    ends = x.mean() + np.array([-stretch, stretch])
-    at = offset + slope * (ends - x.mean())
-    covariance = _of_noise(off, x, stretch) + _of_grid(grid, slope, stretch) + found.shared**2
-    points = np.stack([ends, at], axis=1)
-    normal = np.array([-slope, 1.0]) / np.hypot(1.0, slope)
-    if not level:
-        points, normal = points[:, ::-1], normal[::-1]
-    return Edge(side, points, normal, covariance / (1.0 + slope**2))
+    of_grid, scatter = _of_grid(grid, line.slope / float(x.std()), scene.lens.point_spread)
+    return replace(line, known=of_grid + found.shared**2, scatter=scatter)
 
 
-def _ends_of(off: FloatArray, x: FloatArray, stretch: float) -> FloatArray:
-    """Return the line through deviations at both of its points, shape (..., 2)."""
-    apart = x - x.mean()
-    turn = (off * apart).mean(axis=-1) / stretch
-    middle = off.mean(axis=-1)
-    return np.stack([middle - turn, middle + turn], axis=-1)
+def _of_grid(grid: FloatArray, slope: float, blur: float) -> tuple[FloatArray, float]:
+    """Return the covariance that whole pixels leave, and how much of the scatter is theirs.
 
-
-def _of_noise(off: FloatArray, x: FloatArray, stretch: float) -> FloatArray:
-    """Return the covariance that the points' own errors leave, alike within blocks of pixels."""
-    block = ((x - x.min()) // _BLOCK).astype(np.int64)
-    apart = (x - x.mean()) / stretch
-    sums = [np.bincount(block, off * weight) for weight in (1.0 - apart, 1.0 + apart)]
-    return np.asarray(np.stack(sums) @ np.stack(sums).T / len(off) ** 2) + 1e-8 * np.eye(2)
-
-
-def _of_grid(grid: FloatArray, slope: float, stretch: float) -> FloatArray:
-    """Return the covariance that whole pixels leave: each is lit, or not, by its centre.
-
-    The scatter of the points shows what differs from point to point; where an edge runs along the
-    grid all are off by the same. Counted over the edge's places on the grid, less the scatter.
+    A pixel is lit, or not, by its centre. Counted over the edge's places on the grid: where it runs
+    along the grid, all points are off by the same. A blur of s pixels leaves exp(-2 pi^2 s^2) of
+    the first harmonic of that error.
     """
+    apart = grid - grid.mean()
     phase = (np.arange(_PHASES) + 0.5)[:, None] / _PHASES
-    off = (phase + slope * (grid - grid.mean())) % 1.0 - 0.5
-    ends = _ends_of(off, grid, max(stretch, 1e-9))
-    return np.asarray(ends.T @ ends / _PHASES)
+    off = ((phase + slope * apart) % 1.0 - 0.5) * math.exp(-2.0 * math.pi**2 * blur**2)
+    middle, turn = off.mean(axis=1), (off * apart).mean(axis=1) / max(float(grid.std()), 1e-9)
+    ends = np.stack([middle - turn, middle + turn])
+    scatter = np.square(off).mean() - np.square(middle).mean() - np.square(turn).mean()
+    return np.asarray(ends @ ends.T / _PHASES), float(scatter)
 
 
 def undistorted(points: FloatArray, scene: Scene) -> FloatArray:

@@ -23,6 +23,7 @@ from occ_model.files.writing import check_replaceable, write_image
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.photo import read_room_photo
 from occ_model.room.pose_fit import Located
 from occ_model.room.render import render_room
 from occ_model.room.room import Place, Room
@@ -39,6 +40,7 @@ from occ_model.study.room_map import (
 from occ_model.study.sweep.sweep import Progress
 
 _AXES = tuple(Place.__dataclass_fields__)
+_FOCAL_LENGTH = "equivalent_focal_length"
 
 
 def add_to(commands: Commands) -> None:
@@ -55,7 +57,11 @@ def add_to(commands: Commands) -> None:
     )
     _add_room(locate)
     locate.add_argument(
-        "file", nargs="?", type=Path, help="the picture; default: simulate it and compare"
+        "file",
+        nargs="?",
+        type=Path,
+        help="a photo, whose focal length is that of its EXIF data, or else that of the room; "
+        "default: simulate a picture and compare",
     )
     add_simulation_options(locate)
     locate.set_defaults(command=_locate)
@@ -160,12 +166,14 @@ def _locate(options: argparse.Namespace) -> int:
             room, tolerance=settings.tolerance, seed=settings.seed, observable=settings.observable,
             force=settings.force, noise=settings.noise,
         ).camera_image  # fmt: skip
+        reading = read_room(image, room)
     else:
-        image = load_photo(options.file).image
-        focal = room.scene.camera.equivalent_focal_length
-        bends = "with the room's distortion" if room.scene.lens.distorts else "without distortion"
-        print(f"Assumed of the lens: {1e3 * focal:.3g} mm equivalent, {bends}, as the room says.")
-    reading = read_room(image, room)
+        given = any(text.split("=")[0].strip() == _FOCAL_LENGTH for text in options.settings)
+        focal_length = room.scene.camera.equivalent_focal_length if given else None
+        found = read_room_photo(load_photo(options.file), room, focal_length)
+        reading = found.reading
+        for sentence in found.assumed:
+            print(f"Assumed. {sentence}")
     _print(reading)
     if options.file is None:
         print("True place: " + _numbers_of(room.camera))
@@ -181,6 +189,9 @@ def _print(reading: RoomReading) -> None:
         print(reason)
     for one in filter(None, (reading.located, *reading.alternatives)):
         print("I am here:  " + _numbers_of(one.place, one))
+        if one.focal_error:
+            focal, error = 1e3 * one.focal_length, 1e3 * one.focal_error
+            print(f"Focal length that fits: {focal:.2f} ± {error:.2g} mm equivalent.")
 
 
 def _numbers_of(place: Place, located: Located | None = None) -> str:

@@ -15,7 +15,6 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_points, image_rays
-from occ_model.room.reading import ReadLamp
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Camera, Scene
 from occ_model.transmitter.packet import packet
@@ -106,7 +105,7 @@ class EdgeFinder:
         self._light = luminance_of(np.arange(256, dtype=np.float64), room.scene.camera)
         self._dark = float(np.median(self._light[image[::16, ::16]]))
 
-    def edges(self, read: ReadLamp, lamp: RoomLamp, corners: FloatArray) -> list[Edge]:
+    def edges(self, lamp: RoomLamp, corners: FloatArray) -> list[Edge]:
         """Measure the edges of a lamp that is expected between some corners."""
         lines = []
         own = self._own_light(corners, lamp)
@@ -282,8 +281,6 @@ class _Line:
         The points along the edge's axis and across it.
     known : ndarray of float64, shape (2, 2)
         Covariance at both of the line's points of what the points' scatter does not show.
-    scatter
-        Variance of the points that is known already.
     """
 
     side: int
@@ -291,7 +288,6 @@ class _Line:
     x: FloatArray
     y: FloatArray
     known: FloatArray
-    scatter: float = 0.0
 
     @property
     def slope(self) -> float:
@@ -331,7 +327,7 @@ class _Line:
         ends = self.x.mean() + np.array([-1.0, 1.0]) * self.x.std()
         at = self.y.mean() + np.array([-1.0, 1.0]) * self.slope
         slope = self.slope / float(self.x.std())
-        noise = 2.0 * alike * max(self.variance - self.scatter, 0.0) / len(self.x) + _LEAST_VARIANCE
+        noise = 2.0 * alike * self.variance / len(self.x) + _LEAST_VARIANCE
         covariance = (noise * np.eye(2) + self.known) / (1.0 + slope**2)
         points, normal = np.stack([ends, at], axis=1), np.array([-slope, 1.0])
         normal /= np.hypot(1.0, slope)
@@ -370,12 +366,12 @@ def _fitted(side: int, found: _Points, scene: Scene) -> _Line | None:
     line = _Line(side, level, x, y, np.zeros((2, 2)))
     if line.off.std() > 2.0:
         return None
-    of_grid, scatter = _of_grid(grid, line.slope / float(x.std()), scene.lens.point_spread)
-    return replace(line, known=of_grid + found.shared**2, scatter=scatter)
+    of_grid = _of_grid(grid, line.slope / float(x.std()), scene.lens.point_spread)
+    return replace(line, known=of_grid + found.shared**2)
 
 
-def _of_grid(grid: FloatArray, slope: float, blur: float) -> tuple[FloatArray, float]:
-    """Return the covariance that whole pixels leave, and how much of the scatter is theirs.
+def _of_grid(grid: FloatArray, slope: float, blur: float) -> FloatArray:
+    """Return the covariance that whole pixels leave beyond what the points' scatter shows.
 
     A pixel is lit, or not, by its centre. Counted over the edge's places on the grid: where it runs
     along the grid, all points are off by the same. A blur of s pixels leaves exp(-2 pi^2 s^2) of
@@ -386,8 +382,10 @@ def _of_grid(grid: FloatArray, slope: float, blur: float) -> tuple[FloatArray, f
     off = ((phase + slope * apart) % 1.0 - 0.5) * math.exp(-2.0 * math.pi**2 * blur**2)
     middle, turn = off.mean(axis=1), (off * apart).mean(axis=1) / max(float(grid.std()), 1e-9)
     ends = np.stack([middle - turn, middle + turn])
-    scatter = np.square(off).mean() - np.square(middle).mean() - np.square(turn).mean()
-    return np.asarray(ends @ ends.T / _PHASES), float(scatter)
+    scatter = float(np.square(off).mean() - np.square(middle).mean() - np.square(turn).mean())
+    beyond = ends @ ends.T / _PHASES - 2.0 * scatter / len(grid) * np.eye(2)
+    sizes, axes = np.linalg.eigh(beyond)
+    return np.asarray((axes * np.maximum(sizes, 0.0)) @ axes.T)
 
 
 def undistorted(points: FloatArray, scene: Scene) -> FloatArray:

@@ -104,7 +104,7 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
         if lamp is None or lamp.shape != "rectangle":
             continue
         corners = quadrilateral(read.hull)
-        edges = finder.edges(read, lamp, corners)
+        edges = finder.edges(lamp, corners)
         measured.append(_Measured(lamp, corners, edges, read.is_cut))
     whole = [(by_name[one.name], one) for one in lamps if one.name and not one.is_cut]
     found, why = _located(measured, room, len(lamps), _start_of_centres(whole, room), focal_share)
@@ -145,7 +145,8 @@ def _located(
     if not tried:
         return [], (
             "No place of the camera follows from the edges of the named lamps: those that are "
-            "bright are all parallel, or they are not where the room's lamps are.",
+            "bright are all parallel, or they are not where the room's lamps are, or the picture "
+            "is mirrored.",
         )
     tried.sort(key=lambda one: one.deviations)
     best = tried[0]

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.coverage import column_spans
-from occ_model.camera.photometry import luminance_of
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decode import decode
 from occ_model.results.decoding import Region
@@ -58,8 +57,6 @@ class ReadLamp:
         Whether it reaches the picture's edge.
     note
         Why it has no name, or that it is cut; empty where all is well.
-    signal : ndarray of float64, shape (region's columns,)
-        Mean light of its pixels in each column above that of the surroundings, cd/m2.
     """
 
     name: str | None
@@ -68,7 +65,6 @@ class ReadLamp:
     hull: FloatArray
     is_cut: bool
     note: str
-    signal: FloatArray
 
 
 def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
@@ -97,7 +93,7 @@ def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
 
 
 def _unnamed(lamp: ReadLamp, why: str) -> ReadLamp:
-    return ReadLamp(None, lamp.code, lamp.region, lamp.hull, lamp.is_cut, why, lamp.signal)
+    return ReadLamp(None, lamp.code, lamp.region, lamp.hull, lamp.is_cut, why)
 
 
 def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
@@ -185,7 +181,6 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
         or region.last_row >= rows - _ROWS or region.last_column >= columns - 1
     )  # fmt: skip
     signal = _signal(image, region, hull)
-    light = luminance_of(signal, room.scene.camera)
     codes: list[tuple[int, list[str]]] = []
     failure = ""
     for scene in _settings(room):
@@ -203,11 +198,11 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
     code = codes[0][0] if codes else None
     cut = "It is cut by the picture's edge." if is_cut else ""
     if len(known) == 1:
-        return ReadLamp(known[0][1], known[0][0], region, hull, is_cut, cut, light)
+        return ReadLamp(known[0][1], known[0][0], region, hull, is_cut, cut)
     if known:
         why = f"{' and '.join(name for _, name in known)} would look the same."
     elif codes:
         why = f"No lamp of the room has the code {code}."
     else:
         why = f"No code was read: {failure}"
-    return ReadLamp(None, code, region, hull, is_cut, f"{why} {cut}".strip(), light)
+    return ReadLamp(None, code, region, hull, is_cut, f"{why} {cut}".strip())

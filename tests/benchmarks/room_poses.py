@@ -92,7 +92,7 @@ def edges_off(room: Room, image: ByteArray) -> Iterator[tuple[bool, float, float
         starts, ends = corners, np.roll(corners, -1, axis=0)
         along = (ends - starts) / np.hypot(*(ends - starts).T)[:, None]
         across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-        for edge in finder.edges(read, lamp, quadrilateral(read.hull)):
+        for edge in finder.edges(lamp, quadrilateral(read.hull)):
             off = np.einsum("psk,sk->ps", edge.points[:, None] - starts, across)
             own = off[:, int(np.abs(off).max(axis=0).argmin())]
             upright = bool(abs(edge.normal[0]) > abs(edge.normal[1]))

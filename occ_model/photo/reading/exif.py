@@ -1,4 +1,4 @@
-"""Read a photo's EXIF data: exposure time, f-number, ISO, camera and orientation."""
+"""Read a photo's EXIF data: exposure, focal length, camera and orientation."""
 
 import math
 from collections.abc import Mapping
@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from occ_model.errors import ParameterError
 from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters.camera import DIAGONAL_35MM
 
 if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
@@ -17,6 +18,18 @@ _MAKE, _MODEL, _ORIENTATION = 0x010F, 0x0110, 0x0112
 EXPOSURE_TIME, F_NUMBER, ISO = 0x829A, 0x829D, 0x8827
 _SHUTTER_SPEED_APEX, _APERTURE_APEX = 0x9201, 0x9202
 _ISO_SPEED, _ISO_RECOMMENDED, _ISO_OUTPUT = 0x8833, 0x8832, 0x8831
+
+FOCAL_LENGTH, EQUIVALENT_FOCAL_LENGTH = 0x920A, 0xA405
+_WIDTH, _HEIGHT = 0xA002, 0xA003
+_PIXELS_ACROSS, _PIXELS_DOWN, _PIXELS_UNIT = 0xA20E, 0xA20F, 0xA210
+_UNITS = {2.0: 25.4e-3, 3.0: 1e-2, 4.0: 1e-3}
+"""Metres in which the pixels of the sensor are counted."""
+
+_SQUARE = 0.02
+"""Share by which a pixel's sides may differ."""
+
+_DECIMALS = 3
+"""Decimals of millimetres that a focal length is written in at most."""
 
 _ISO_OR_MORE = 65535
 """Value of the oldest tag, of 16 bits, where the ISO speed is larger."""
@@ -33,14 +46,18 @@ class CameraNotes:
 
     Parameters
     ----------
-    exposure_time, f_number, iso
+    exposure_time, f_number, iso, equivalent_focal_length
         In SI units, within the range that a scene's parameter of that name has.
+    focal_length_step
+        What the equivalent focal length is rounded to, in metres.
     """
 
     exposure_time: float | None = None
     f_number: float | None = None
     iso: float | None = None
     camera: str | None = None
+    equivalent_focal_length: float | None = None
+    focal_length_step: float = 0.0
 
 
 def camera_notes(picture: "PillowImage") -> CameraNotes:
@@ -59,6 +76,7 @@ def camera_notes(picture: "PillowImage") -> CameraNotes:
 
 def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
     """Return the camera's notes of EXIF tags, by their numbers."""
+    focal_length, step = _focal_length(tags)
     return CameraNotes(
         exposure_time=_within("exposure_time", _number(tags.get(EXPOSURE_TIME)))
         or _within("exposure_time", _power_of_two(tags.get(_SHUTTER_SPEED_APEX), -1.0)),
@@ -66,6 +84,8 @@ def notes_of(tags: Mapping[int, Any]) -> CameraNotes:
         or _within("f_number", _power_of_two(tags.get(_APERTURE_APEX), 0.5)),
         iso=_iso(tags),
         camera=_camera(_text(tags.get(_MAKE)), _text(tags.get(_MODEL))),
+        equivalent_focal_length=focal_length,
+        focal_length_step=step,
     )
 
 
@@ -88,6 +108,33 @@ def turns_of(orientation: int) -> tuple[bool, bool, bool]:
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)
     return orientation >= _FIRST_LYING, mirror_rows, mirror_columns
+
+
+def _focal_length(tags: Mapping[int, Any]) -> tuple[float | None, float]:
+    """Return the equivalent focal length and its step: as noted, or by the sensor's size."""
+    noted = _number(tags.get(EQUIVALENT_FOCAL_LENGTH))
+    if noted and (found := _within("equivalent_focal_length", noted / 1e3)):
+        return found, 1e-3
+    own, diagonal = _number(tags.get(FOCAL_LENGTH)), _sensor_diagonal(tags)
+    if own is None or diagonal is None or not math.isfinite(own):
+        return None, 0.0
+    steps = [10.0**-n for n in range(_DECIMALS + 1)]
+    whole = [step for step in steps if math.isclose(own / step, round(own / step), abs_tol=1e-6)]
+    scale = 1e-3 * DIAGONAL_35MM / diagonal
+    found = _within("equivalent_focal_length", own * scale)
+    return found, 0.0 if found is None else max([*whole, steps[-1]]) * scale
+
+
+def _sensor_diagonal(tags: Mapping[int, Any]) -> float | None:
+    """Return the sensor's diagonal in metres: of its pixels, and how many are in a length."""
+    unit = _UNITS.get(_number(tags.get(_PIXELS_UNIT, 2)) or 0.0)
+    width, height, across, down = (
+        _number(tags.get(tag)) or 0.0 for tag in (_WIDTH, _HEIGHT, _PIXELS_ACROSS, _PIXELS_DOWN)
+    )
+    is_sensible = unit and min(width, height) >= 1.0 and 0.0 < across < math.inf
+    if not is_sensible or not math.isclose(across, down, rel_tol=_SQUARE):
+        return None
+    return math.hypot(width, height) / across * unit
 
 
 def _iso(tags: Mapping[int, Any]) -> float | None:

@@ -51,6 +51,8 @@ class Photo:
     is_linear
         Whether the samples are in proportion to the light, as those of a RAW file are: the camera
         has not applied its gamma.
+    equivalent_focal_length, focal_length_step
+        From the EXIF data, None where it is missing, and what it is rounded to, in metres.
     """
 
     path: Path
@@ -65,6 +67,8 @@ class Photo:
     iso: float | None = None
     camera: str | None = None
     is_linear: bool = False
+    equivalent_focal_length: float | None = None
+    focal_length_step: float = 0.0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -147,6 +151,8 @@ def _loaded(path: Path, read: _Read) -> Photo:
         iso=notes.iso,
         camera=notes.camera,
         is_linear=read.is_linear,
+        equivalent_focal_length=notes.equivalent_focal_length,
+        focal_length_step=notes.focal_length_step,
     )
 
 

@@ -9,7 +9,7 @@ from occ_model.scene.parameters.group import (
 )
 from occ_model.scene.units import ELECTRON, METRE, NONE, PIXEL, SECOND
 
-_DIAGONAL_35MM = 0.04327
+DIAGONAL_35MM = 0.04327
 """Diagonal of a 24 mm x 36 mm picture in metres, to which equivalent focal lengths refer."""
 
 
@@ -76,7 +76,7 @@ class Camera(Group):
     def focal_length_pixels(self) -> float:
         """Focal length in pixels; it does not depend on the size of a pixel."""
         diagonal: float = (self.rows**2 + self.columns**2) ** 0.5
-        return self.equivalent_focal_length / _DIAGONAL_35MM * diagonal
+        return self.equivalent_focal_length / DIAGONAL_35MM * diagonal
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,7 +27,8 @@ def test_a_picture_that_was_drawn_is_located(
         assert written.size == (3456, 4608)
     assert main(["room", "locate", picture, "--room", room]) == 0
     said = capsys.readouterr().out
-    assert "Assumed of the lens: 26 mm equivalent, without distortion" in said
+    assert "Focal length: 26 mm equivalent, as the room says: the photo has no EXIF data" in said
+    assert "Distortion: none" in said
     assert "I am here:  x 0.5" in said
     assert "yaw 10.0" in said or "yaw 9.9" in said
 

@@ -71,6 +71,37 @@ def test_what_the_camera_did_not_note_is_none(tmp_path: Path, name: str) -> None
     assert read == (None, None, None, None)
 
 
+FOCAL, EQUIVALENT = 0x920A, 0xA405
+SENSOR = {0xA002: 4000, 0xA003: 3000, 0xA20E: 800.0, 0xA20F: 800.0, 0xA210: 4}
+"""4000 x 3000 pixels, 800 of them a millimetre: 5 mm x 3.75 mm, its diagonal 6.25 mm."""
+
+
+def test_the_equivalent_focal_length_is_read_with_its_step(tmp_path: Path) -> None:
+    photo = photo_with(tmp_path, {}, {EQUIVALENT: 26})
+    assert (photo.equivalent_focal_length, photo.focal_length_step) == (0.026, 0.001)
+
+
+@pytest.mark.parametrize(
+    ("unit", "density"), [(4, 800.0), (3, 8000.0), (2, 20320.0), (None, 20320.0)]
+)
+def test_a_focal_length_and_the_sensor_s_size_give_the_equivalent_one(
+    unit: int | None, density: float
+) -> None:
+    tags = SENSOR | {FOCAL: IFDRational(425, 100), 0xA20E: density, 0xA20F: density, 0xA210: unit}
+    if unit is None:
+        del tags[0xA210]
+    notes = camera_notes(Tagged({}, tags))  # type: ignore[arg-type]
+    times = math.hypot(24.0, 36.0) / 6.25
+    assert notes.equivalent_focal_length == pytest.approx(4.25e-3 * times, rel=1e-4)
+    assert notes.focal_length_step == pytest.approx(0.01e-3 * times, rel=1e-4)
+
+
+@pytest.mark.parametrize("missing", [FOCAL, *SENSOR.keys() - {0xA210}])
+def test_without_the_sensor_s_size_no_equivalent_focal_length_is_known(missing: int) -> None:
+    tags = {n: v for n, v in (SENSOR | {FOCAL: 4.25}).items() if n != missing}
+    assert camera_notes(Tagged({}, tags)).equivalent_focal_length is None  # type: ignore[arg-type]
+
+
 NONSENSE = [
     0,
     -1,
@@ -100,6 +131,14 @@ def test_nonsense_is_none_and_the_rest_is_read(value: object) -> None:
         notes = camera_notes(Tagged({}, good | {tag: value}))  # type: ignore[arg-type]
         read = {"exposure_time": 0.01, "f_number": 2.0, "iso": 100.0} | {name: None}
         assert {each: getattr(notes, each) for each in read} == read
+
+
+@pytest.mark.parametrize("value", NONSENSE, ids=repr)
+def test_a_nonsensical_focal_length_is_none(value: object) -> None:
+    for tag in (EQUIVALENT, FOCAL, *SENSOR):
+        tags = {} if tag == EQUIVALENT else SENSOR | {FOCAL: 4.25}
+        notes = camera_notes(Tagged({}, tags | {tag: value}))  # type: ignore[arg-type]
+        assert notes.equivalent_focal_length is None
 
 
 def test_a_value_noted_as_several_is_the_first_of_them() -> None:

@@ -1,0 +1,113 @@
+"""Where a photo of a room was taken, and what is assumed of its camera."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+from occ_model.camera.projection import check_size
+from occ_model.photo.fitted_scene import with_notes
+from occ_model.photo.reading.load import Photo
+from occ_model.room.locate import RoomReading, read_room
+from occ_model.room.room import Room, check_room
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.units import SECOND
+
+_SAME_SHAPE = 0.01
+"""Share by which the sides of two pictures may differ for one to be the other, scaled."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RoomPhoto:
+    """What a photo says of its room.
+
+    Parameters
+    ----------
+    room
+        The room as it was read: its camera has the photo's size and settings.
+    image : ndarray of uint8, shape (rows, columns)
+        The photo as it was read: the columns are in the order of their exposure.
+    assumed
+        What is taken as given of camera and lens, and from where; sentences.
+    """
+
+    room: Room
+    image: ByteArray
+    reading: RoomReading
+    assumed: tuple[str, ...]
+
+
+def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None) -> RoomPhoto:
+    """Name the lamps in a photo of a room, and find where it was taken.
+
+    Exposure time, ISO speed and aperture are those of the EXIF data, where there are any, all else
+    is the room's. A photo in which the stripes lie is turned by a right angle, and one in which no
+    lamp is named is also tried the other way round.
+
+    Parameters
+    ----------
+    focal_length
+        Equivalent focal length in metres; None for that of the EXIF data, whose rounding the
+        place's errors then include, or else for the room's.
+
+    Raises
+    ------
+    ParameterError
+        The focal length is out of range.
+    ProjectionError
+        The photo is too large.
+    """
+    check_room(room)
+    upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)
+    scene, assumed = _camera_of(photo, upright, room.scene)
+    scene, share, said = _with_focal_length(photo, scene, focal_length)
+    seen = room.replace(scene=scene)
+    check_size(scene.camera)
+    reading, image, turned = read_room(upright, seen, share), upright, 90 if photo.turned else 0
+    if not any(lamp.name for lamp in reading.lamps):
+        around = np.ascontiguousarray(upright[::-1, ::-1])
+        other = read_room(around, seen, share)
+        if any(lamp.name for lamp in other.lamps):
+            reading, image, turned = other, around, turned + 180
+    if turned:
+        assumed.append(f"The photo is read turned by {turned}°, and the angles are those of that.")
+    return RoomPhoto(seen, image, reading, (said, *assumed))
+
+
+def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, list[str]]:
+    """Return the scene with the photo's size and settings, and what is assumed of them."""
+    camera, (rows, columns) = scene.camera, image.shape
+    readout, scaled = camera.readout_time, ""
+    is_scaled = math.isclose(rows / columns, camera.rows / camera.columns, rel_tol=_SAME_SHAPE)
+    if is_scaled and columns != camera.columns:
+        readout *= camera.columns / columns
+        scaled = f", for a picture of {columns} columns in place of {camera.columns}"
+    scene = with_notes(scene.replace(rows=rows, columns=columns, readout_time=readout), photo)
+    if photo.is_linear:
+        scene = scene.replace(gamma=1.0)
+    said = "EXIF data say" if photo.exposure_time == scene.camera.exposure_time else "room says"
+    bends = "that of the room" if scene.lens.distorts else "none"
+    return scene, [
+        f"Readout time: {SECOND.format(readout)} a column, as the room says{scaled}.",
+        f"Exposure time: {SECOND.format(scene.camera.exposure_time)}, as the {said}.",
+        f"Distortion: {bends}; the lens's axis is in the middle of the picture.",
+    ]
+
+
+def _with_focal_length(photo: Photo, scene: Scene, given: float | None) -> tuple[Scene, float, str]:
+    """Return the scene with a focal length, its error's share of it, and where it is from."""
+    noted, share = photo.equivalent_focal_length, 0.0
+    if given is not None:
+        PARAMETERS["equivalent_focal_length"].check(given)
+        value, source = given, "as given"
+    elif noted is not None:
+        error = photo.focal_length_step / math.sqrt(12.0)  # of what is rounded to it
+        value, share = noted, error / noted
+        source = f"± {1e3 * error:.2g} mm, as the EXIF data say, of a picture that is not cropped"
+    else:
+        value = scene.camera.equivalent_focal_length
+        source = "as the room says: the photo has no EXIF data of it"
+    scene = scene.replace(equivalent_focal_length=value)
+    return scene, share, f"Focal length: {1e3 * value:.4g} mm equivalent, {source}."

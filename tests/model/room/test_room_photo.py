@@ -1,0 +1,128 @@
+"""A photo of a room is read as a picture of it, with what its file says of the camera."""
+
+import dataclasses
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH, EXPOSURE_TIME
+from occ_model.room.photo import RoomPhoto, read_room_photo
+from occ_model.room.room import Place, Room, RoomLamp
+
+
+def _room(focal_length: float = 0.026) -> Room:
+    scene = occ.load_preset("phone-68us").replace(
+        rows=1024, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
+        switching_frequency=8e3, equivalent_focal_length=focal_length,
+    )  # fmt: skip
+    lamps = tuple(
+        RoomLamp(
+            name=f"L{n}", x=1.1 * (n % 2), y=1.2 * (n // 2), z=2.6, start_time=3e-4 * n,
+            roll=0.1 * n,
+            transmitter=scene.transmitter.replaced(
+                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
+            ),
+        )
+        for n in range(4)
+    )  # fmt: skip
+    camera = Place(x=0.5, y=0.7, z=-0.2, yaw=0.1, pitch=-0.1, roll=0.4)
+    return Room(lamps=lamps, scene=scene, camera=camera)
+
+
+def _saved(path: Path, image: np.ndarray, **tags: Any) -> Path:
+    notes = Image.Exif()
+    known = {"focal_length": EQUIVALENT_FOCAL_LENGTH, "exposure_time": EXPOSURE_TIME}
+    notes.get_ifd(0x8769).update({known[name]: value for name, value in tags.items()})
+    Image.fromarray(image).save(path, quality=92, exif=notes.tobytes())
+    return path
+
+
+def _off(found: RoomPhoto, true: Place) -> np.ndarray:
+    assert found.reading.is_sure, found.reading.reasons
+    assert found.reading.located is not None
+    off = np.array(dataclasses.astuple(found.reading.located.place)) - dataclasses.astuple(true)
+    off[3:] = (off[3:] + np.pi) % (2.0 * np.pi) - np.pi
+    return np.abs(off)
+
+
+@pytest.mark.parametrize("true_focal_length", [0.0256, 0.0264])
+def test_a_rounded_focal_length_is_part_of_the_stated_errors(
+    tmp_path: Path, true_focal_length: float
+) -> None:
+    room = _room(true_focal_length)
+    path = _saved(
+        tmp_path / "room.jpg", occ.render_room(room).camera_image,
+        focal_length=26, exposure_time=60e-6,
+    )  # fmt: skip
+    photo, known = occ.load_photo(path), _room(0.03)
+    found = read_room_photo(photo, known)
+    assert {lamp.name for lamp in found.reading.lamps} == {"L0", "L1", "L2", "L3"}
+    located = found.reading.located
+    assert located is not None
+    assert (_off(found, room.camera) < 4.0 * located.errors).all()
+    assert located.focal_length == pytest.approx(true_focal_length, abs=4.0 * located.focal_error)
+    assert 0.0 < located.focal_error < 2e-3 / np.sqrt(12.0)
+    assert "26 mm equivalent, ± 0.29 mm, as the EXIF data say" in found.assumed[0]
+    # As if it were exact, the height is surely wrong; given rightly, it is told more exactly.
+    exact = read_room_photo(photo, known, 0.026).reading.located
+    right = read_room_photo(photo, known, true_focal_length)
+    assert exact is None or abs(exact.place.z + 0.2) > 5.0 * exact.errors[2]
+    assert right.reading.located is not None
+    assert right.reading.located.errors[2] < 0.5 * located.errors[2]
+    assert (_off(right, room.camera) < 4.0 * right.reading.located.errors).all()
+    assert "as given" in right.assumed[0]
+
+
+@pytest.mark.parametrize("quarters", [0, 1, 2, 3])
+def test_a_photo_is_read_however_it_lies(tmp_path: Path, quarters: int) -> None:
+    room = _room()
+    image = np.rot90(occ.render_room(room).camera_image, quarters)
+    found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
+    assert found.reading.located is not None
+    assert (_off(found, room.camera) < 4.0 * found.reading.located.errors).all()
+    assert ("turned" in found.assumed[-1]) == bool(quarters)
+
+
+def test_a_photo_of_half_the_size_has_twice_the_readout_time_a_column(tmp_path: Path) -> None:
+    room = _room()
+    image = Image.fromarray(occ.render_room(room).camera_image).resize(
+        (384, 512), Image.Resampling.BOX
+    )
+    found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", np.asarray(image))), room)
+    assert found.room.scene.camera.readout_time == pytest.approx(72e-6)
+    assert "for a picture of 384 columns in place of 768" in found.assumed[1]
+    assert {lamp.name for lamp in found.reading.lamps if lamp.name} == {"L0", "L1", "L2", "L3"}
+    assert found.reading.located is not None
+    assert (_off(found, room.camera) < 4.0 * found.reading.located.errors).all()
+
+
+def test_a_mirrored_photo_has_no_place(tmp_path: Path) -> None:
+    room = _room()
+    image = occ.render_room(room).camera_image[::-1]
+    found = read_room_photo(occ.load_photo(_saved(tmp_path / "room.jpg", image)), room)
+    assert any(lamp.name for lamp in found.reading.lamps)
+    assert found.reading.located is None
+    assert "mirrored" in found.reading.reasons[0]
+
+
+def test_the_command_says_what_it_assumes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    room = _room()
+    path = _saved(tmp_path / "room.jpg", occ.render_room(room).camera_image, focal_length=26)
+    file = tmp_path / "room.toml"
+    file.write_text(room.to_toml(), encoding="utf-8")
+    words = ["room", "locate", str(path), "--room", str(file)]
+    assert main(words) == 0
+    said = capsys.readouterr().out
+    assert "Assumed. Focal length: 26 mm equivalent, ± 0.29 mm, as the EXIF data say" in said
+    assert "Focal length that fits: 2" in said
+    assert main([*words, "--set", "equivalent_focal_length=26mm"]) == 0
+    said = capsys.readouterr().out
+    assert "26 mm equivalent, as given" in said
+    assert "that fits" not in said

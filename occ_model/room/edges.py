@@ -96,6 +96,25 @@ def quadrilateral(hull: FloatArray) -> FloatArray:
     return corners if area > 0.0 else corners[::-1].copy()
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class _OwnLight:
+    """A lamp's light in every column, at its middle row, and its fall from row to row.
+
+    Parameters
+    ----------
+    light : ndarray of float64, shape (columns,)
+        Above the dark; 0 where it is not known.
+    """
+
+    light: FloatArray
+    fall: float
+    middle: float
+
+    def at(self, rows: IndexArray, columns: IndexArray) -> FloatArray:
+        """Return the light in some columns of each row, shape as ``columns``."""
+        return np.asarray(self.light[columns] * (1.0 + self.fall * (rows - self.middle))[:, None])
+
+
 class EdgeFinder:
     """Measures the edges of lamps in a picture."""
 
@@ -127,13 +146,13 @@ class EdgeFinder:
         return [line.edge(alike) for line in lines]
 
     def _across(
-        self, axis: int, start: FloatArray, end: FloatArray, corners: FloatArray, own: FloatArray
+        self, axis: int, start: FloatArray, end: FloatArray, corners: FloatArray, own: _OwnLight
     ) -> _Points:
         if axis == 0:
             return self._across_rows(start, end, corners)
         return self._across_columns(start, end, corners, own)
 
-    def _own_light(self, corners: FloatArray, lamp: RoomLamp) -> FloatArray:
+    def _own_light(self, corners: FloatArray, lamp: RoomLamp) -> _OwnLight:
         """Return the lamp's light in every column of the picture, repeated with its packet."""
         sent = self._scene.replace(
             switching_frequency=lamp.transmitter.switching_frequency,
@@ -143,10 +162,10 @@ class EdgeFinder:
         )  # fmt: skip
         period = len(packet(sent)) * sent.transmitter.switching_period
         period /= sent.camera.readout_time
-        shown, light = self._inner_light(corners)
+        shown, light, fall = self._inner_light(corners)
         place = np.arange(self._image.shape[1], dtype=np.float64)
         if not len(shown):
-            return np.zeros(len(place))
+            return _OwnLight(np.zeros(len(place)), 0.0, 0.0)
         first, last = float(shown[0]), float(shown[-1])
         if last - first < period:
             own = np.where((place >= first) & (place <= last), place, -1.0)
@@ -154,22 +173,32 @@ class EdgeFinder:
             below = np.ceil(np.maximum(first - place, 0.0) / period)
             above = np.ceil(np.maximum(place - last, 0.0) / period)
             own = place + (below - above) * period
-        return np.asarray(np.where(own < 0.0, 0.0, np.interp(own, shown, light)))
+        repeated = np.where(own < 0.0, 0.0, np.interp(own, shown, light))
+        return _OwnLight(repeated, fall, float(corners[:, 1].mean()))
 
-    def _inner_light(self, corners: FloatArray) -> tuple[IndexArray, FloatArray]:
-        """Return the columns well within some corners, and the mean light there above the dark."""
+    def _inner_light(self, corners: FloatArray) -> tuple[IndexArray, FloatArray, float]:
+        """Return the columns well within some corners, the light there above the dark, its fall.
+
+        The light is that at the corners' middle row. From row to row it grows by a share of it that
+        is the same in all columns: the fall.
+        """
         first, last = column_spans(corners, *self._image.shape)
         first, last = first + _REACH, last - _REACH
         shown = np.flatnonzero(last - first >= _LEAST_ROWS)
         if not len(shown):
-            return shown, np.empty(0)
+            return shown, np.empty(0), 0.0
         shown = np.arange(shown[0], shown[-1] + 1)
         first, last = first[shown], np.maximum(last[shown], first[shown] + 1)
         top, bottom = int(first.min()), int(last.max())
-        light = self._light[self._image[top:bottom, shown[0] : shown[-1] + 1]]
+        light = self._light[self._image[top:bottom, shown[0] : shown[-1] + 1]] - self._dark
         row = np.arange(top, bottom)[:, None]
-        light[(row < first) | (row >= last)] = 0.0
-        return shown, np.asarray(light.sum(axis=0) / (last - first) - self._dark)
+        within = (row >= first) & (row < last)
+        light[~within] = 0.0
+        mean, middle = light.sum(axis=0) / (last - first), (first + last - 1) / 2.0
+        apart = np.where(within, row - middle, 0.0)
+        fall = float((apart * light).sum(axis=0) @ mean)
+        fall /= max(float(np.square(apart).sum(axis=0) @ np.square(mean)), 1e-12)
+        return shown, mean / (1.0 + fall * (middle - corners[:, 1].mean())), fall
 
     def _across_rows(self, start: FloatArray, end: FloatArray, corners: FloatArray) -> _Points:
         """Find the row of a nearly level edge in each column, shape (points, 2)."""
@@ -193,7 +222,7 @@ class EdgeFinder:
         return _Points(np.stack([places[lit].astype(np.float64), found], axis=1), shared)
 
     def _across_columns(
-        self, start: FloatArray, end: FloatArray, corners: FloatArray, own: FloatArray
+        self, start: FloatArray, end: FloatArray, corners: FloatArray, own: _OwnLight
     ) -> _Points:
         """Find the column of a nearly upright edge in each row, shape (points, 2)."""
         rows, columns = self._image.shape
@@ -208,7 +237,8 @@ class EdgeFinder:
         near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
         across = middle[:, None] + near
         light = self._light[self._image[places[:, None], across]]
-        count, shared, is_lit = _counts(light, own[across], _BRIGHT * np.percentile(own, 99))
+        bright = _BRIGHT * np.percentile(own.light, 99)
+        count, shared, is_lit = _counts(light, own.at(places, across), bright)
         found = middle[is_lit] + inwards * (_REACH + 0.5 - count[is_lit])
         return _Points(np.stack([found, places[is_lit].astype(np.float64)], axis=1), shared)
 

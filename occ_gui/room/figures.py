@@ -19,11 +19,12 @@ def _figure(pane: "RoomPane | None", _shown: Snapshot) -> Draw:
     there = None if pane is None else pane.shown
     if there is None or there.reading is None:
         raise NothingToDraw("The room's picture is not read yet: open its pane and wait a moment.")
-    frame, reading = there.frame, there.reading
+    shown, reading = there, there.reading
 
     def draw() -> "Drawing":
         from occ_model.figures.room import room_drawing
 
-        return room_drawing(frame, reading)
+        is_photo = shown.look.photo is not None
+        return room_drawing(shown.room, shown.image, reading, is_photo=is_photo)
 
     return draw

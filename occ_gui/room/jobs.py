@@ -1,15 +1,18 @@
 """What the pane of the room shows: the picture from a place, and what is read of it."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import cv2
 import numpy as np
 
 from occ_gui.background.task import Reporter
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.reading.load import load_photo
 from occ_model.room.locate import RoomReading, read_room
-from occ_model.room.render import RoomFrame, render_room
+from occ_model.room.photo import read_room_photo
+from occ_model.room.render import render_room
 from occ_model.room.room import Room
 from occ_model.room.view import aim_of, room_outline, seen_outline
 from occ_model.study.room_map import RoomMapRequest, RoomPoint, floor_under, room_map
@@ -43,15 +46,39 @@ class RoomPlan:
     height: float
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class ShownRoom:
-    """A picture of a room, small enough for the screen, and its reading once it is there."""
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What is looked at: what the room's camera sees, or a photo of the room.
+
+    Parameters
+    ----------
+    focal_length
+        Equivalent focal length of the photo in metres; None for that of its file, or the room's.
+    """
 
     room: Room
-    frame: RoomFrame
+    photo: Path | None = None
+    focal_length: float | None = None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ShownRoom:
+    """A picture of a room, one of it for the screen, and its reading once it is there.
+
+    Parameters
+    ----------
+    room
+        As it was read: at a photo's camera is the place that was found.
+    assumed
+        What is taken as given of a photo's camera; sentences.
+    """
+
+    look: Look
+    room: Room
+    image: ByteArray
     picture: ByteArray
-    scale: float
     reading: RoomReading | None
+    assumed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,15 +96,30 @@ def plan_of(room: Room) -> RoomPlan:
     return RoomPlan(outlines, seen_outline(room, height), aim_of(room.camera, height), height)
 
 
-def show_room(room: Room, report: Reporter) -> ShownRoom:
-    """Take the picture, report it, and read it."""
-    frame = render_room(room, noise="reused")
-    image = frame.camera_image
+def show_room(look: Look, report: Reporter) -> ShownRoom:
+    """Take the picture, or open the photo, report it, and read it."""
+    if look.photo is not None:
+        return _photo(look, look.photo, report)
+    room = look.room
+    image = render_room(room, noise="reused").camera_image
+    shown = ShownRoom(look, room, image, _small(image), None)
+    report(shown)
+    return replace(shown, reading=read_room(image, room))
+
+
+def _photo(look: Look, path: Path, report: Reporter) -> ShownRoom:
+    photo = load_photo(path)
+    report(ShownRoom(look, look.room, photo.image, _small(photo.image), None))
+    found = read_room_photo(photo, look.room, look.focal_length)
+    located = found.reading.located
+    room = found.room if located is None else found.room.replace(camera=located.place)
+    return ShownRoom(look, room, found.image, _small(found.image), found.reading, found.assumed)
+
+
+def _small(image: ByteArray) -> ByteArray:
     scale = min(1.0, _WIDTH / image.shape[1])
     size = (round(image.shape[1] * scale), max(1, round(image.shape[0] * scale)))
-    small = np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    report(ShownRoom(room, frame, small, scale, None))
-    return ShownRoom(room, frame, small, scale, read_room(image, room))
+    return np.asarray(cv2.resize(image, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
 
 
 def map_room(room: Room, report: Callable[[float], object]) -> FloorMap:

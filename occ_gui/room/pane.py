@@ -1,12 +1,13 @@
 """The pane of the room: pictures are taken and read on one thread, the map measured on another."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QFileDialog
 
 from occ_gui.background.task import Reporter, Task
-from occ_gui.room.jobs import FloorMap, ShownRoom, map_room, plan_of, show_room
+from occ_gui.room.jobs import FloorMap, Look, ShownRoom, map_room, plan_of, show_room
 from occ_gui.room.room_view import RoomView
 from occ_gui.shell.feature import Pane
 from occ_gui.widgets.scroll_pane import ScrollPane
@@ -26,9 +27,11 @@ class RoomPane(Pane[None]):
         self.view = RoomView(rooms())
         super().__init__(ScrollPane(self.view, _LEAST))
         self.room = load_room(_FIRST)
+        self.look = Look(self.room)
+        """What is shown, or looked at."""
         self.shown: ShownRoom | None = None
         """The last picture of the present place, once it is read."""
-        self._look: Task[Room, ShownRoom] = Task(show_room, "room")
+        self._look: Task[Look, ShownRoom] = Task(show_room, "room")
         self._look.reported.connect(self._show)
         self._look.finished.connect(self._show)
         self._look.failed.connect(self.view.show_failure)
@@ -41,6 +44,9 @@ class RoomPane(Pane[None]):
         """The room whose map is shown or measured."""
         self.view.room_chosen.connect(lambda name: self.take(load_room(name)))
         self.view.file_asked.connect(self._ask_for_file)
+        self.view.photo_asked.connect(self._ask_for_photo)
+        self.view.photo_closed.connect(lambda: self.move(self.room))
+        self.view.focal_length_given.connect(self._with_focal_length)
         self.view.map_asked.connect(self._measure)
         self.view.plan.camera_moved.connect(lambda x, y: self.move(self.room.replace(x=x, y=y)))
         self.view.plan.aim_moved.connect(self._aim)
@@ -48,12 +54,19 @@ class RoomPane(Pane[None]):
         self.take(self.room)
 
     def take(self, room: Room) -> None:
-        """Show another room."""
-        self._show_room(room, is_new=True)
+        """Show another room; a photo that is shown is read as one of it."""
+        self._show_room(replace(self.look, room=room), is_new=True)
 
     def move(self, room: Room) -> None:
-        """Show the room from another place."""
-        self._show_room(room, is_new=False)
+        """Show the room from another place: no photo."""
+        self._show_room(Look(room), is_new=False)
+
+    def open_photo(self, path: Path) -> None:
+        """Show a photo of the room, and where it was taken."""
+        self._show_room(Look(self.room, path), is_new=False)
+
+    def _with_focal_length(self, focal_length: float) -> None:
+        self._show_room(replace(self.look, focal_length=focal_length), is_new=False)
 
     def open(self, path: Path) -> None:
         """Show the room of a file; a sentence says why it cannot be read."""
@@ -68,14 +81,15 @@ class RoomPane(Pane[None]):
         height = plan_of(self.room).height
         self.move(self.room.replace(camera=aimed_at(self.room.camera, x, y, height)))
 
-    def _show_room(self, room: Room, *, is_new: bool) -> None:
-        self.room, self.shown = room, None
+    def _show_room(self, look: Look, *, is_new: bool) -> None:
+        room = look.room
+        self.look, self.room, self.shown = look, room, None
         self.view.show_plan(room, plan_of(room), is_new=is_new)
         if self._mapped is not None and not _have_one_map(room, self._mapped):
             self._map.cancel()
             self._mapped = None
             self.view.show_map(None)
-        self._look.ask(room)
+        self._look.ask(look)
 
     def _measure(self) -> None:
         self._mapped = self.room
@@ -88,8 +102,15 @@ class RoomPane(Pane[None]):
         if chosen:
             self.open(Path(chosen))
 
+    def _ask_for_photo(self) -> None:
+        chosen, _ = QFileDialog.getOpenFileName(self.widget, "Open a photo of the room")
+        if chosen:
+            self.open_photo(Path(chosen))
+
     def _show(self, shown: ShownRoom) -> None:
-        is_present = shown.room == self.room
+        is_present = shown.look == self.look
+        if is_present and shown.look.photo is not None:
+            self.view.show_plan(shown.room, plan_of(shown.room), is_new=False)
         self.view.show_picture(shown, is_present=is_present)
         if is_present and shown.reading is not None:
             self.shown = shown

@@ -28,7 +28,7 @@ class PicturePlot(QWidget):
 
     def show_room(self, shown: ShownRoom) -> None:
         """Show a picture; its lamps have names once it is read."""
-        rows, columns = shown.frame.camera_image.shape
+        rows, columns = shown.image.shape
         self.image.setImage(shown.picture, levels=(0, 255))
         self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
         self.plot.setXRange(0, columns, padding=0)

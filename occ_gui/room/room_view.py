@@ -4,9 +4,10 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
+    QDoubleSpinBox,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -20,7 +21,7 @@ from occ_gui.room.plan_plot import PlanPlot
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.errors import one_line
 from occ_model.room.locate import RoomReading
-from occ_model.room.room import Place, Room
+from occ_model.room.room import Room
 
 _LEAST_HEIGHT = 260
 
@@ -39,6 +40,15 @@ class RoomView(QWidget):
     file_asked = Signal()
     """The user wants to choose a room file."""
 
+    photo_asked = Signal()
+    """The user wants to choose a photo of the room."""
+
+    photo_closed = Signal()
+    """The user wants to see what the camera sees in place of the photo."""
+
+    focal_length_given = Signal(float)
+    """The user gives the photo's equivalent focal length, in metres."""
+
     map_asked = Signal()
     """The user wants the map over the floor measured."""
 
@@ -52,6 +62,21 @@ class RoomView(QWidget):
         self.open = QPushButton("&Open a room file…")
         self.open.setToolTip("Show a room of your own: a file of its lamps and its camera.")
         self.open.clicked.connect(self.file_asked)
+        self.photo = QPushButton("Open a &photo…")
+        self.photo.setToolTip("Name the lamps in a photo of this room, and see where it was taken.")
+        self.photo.clicked.connect(self.photo_asked)
+        self.close_photo = QPushButton("&Close the photo")
+        self.close_photo.setToolTip("Show what the camera of the plan sees.")
+        self.close_photo.clicked.connect(self.photo_closed)
+        self.focal_length = QDoubleSpinBox()
+        self.focal_length.setRange(5.0, 500.0)
+        self.focal_length.setDecimals(2)
+        self.focal_length.setPrefix("Focal length: ")
+        self.focal_length.setSuffix(" mm equivalent")
+        self.focal_length.setKeyboardTracking(False)
+        self.focal_length.setAccessibleName("Equivalent focal length of the photo")
+        self.focal_length.setToolTip("That of the photo's lens; what you give is taken as exact.")
+        self.focal_length.valueChanged.connect(lambda mm: self.focal_length_given.emit(1e-3 * mm))
         self.measure = QPushButton("&Measure the floor")
         self.measure.setToolTip(
             "Take a picture at each of 25 places below the lamps, and see where the place is told."
@@ -67,7 +92,9 @@ class RoomView(QWidget):
             label.setWordWrap(True)
             label.setTextFormat(Qt.TextFormat.PlainText)
         chosen, row, layout = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
-        for button in (self.rooms, self.open, self.measure):
+        for button in (
+            self.rooms, self.open, self.photo, self.close_photo, self.focal_length, self.measure
+        ):  # fmt: skip
             chosen.addWidget(button)
         chosen.addStretch()
         row.addWidget(self.plan, 1)
@@ -94,11 +121,20 @@ class RoomView(QWidget):
     def show_picture(self, shown: ShownRoom, *, is_present: bool) -> None:
         """Show a picture, and what is read of it if that is of the present place."""
         self.picture.show_room(shown)
+        self._show_photo(shown)
         if shown.reading is None or not is_present:
             return
         self.headline.setText(_headline(shown.reading))
         enlarged = self.plan.show_located(shown.reading.located, shown.room.camera)
-        self.sentences.setText(_sentences(shown.room.camera, shown.reading, enlarged))
+        self.sentences.setText(_sentences(shown, shown.reading, enlarged))
+
+    def _show_photo(self, shown: ShownRoom) -> None:
+        is_photo = shown.look.photo is not None
+        self.close_photo.setVisible(is_photo)
+        self.focal_length.setVisible(is_photo)
+        self.measure.setVisible(not is_photo)
+        with QSignalBlocker(self.focal_length):
+            self.focal_length.setValue(1e3 * shown.room.scene.camera.equivalent_focal_length)
 
     def show_failure(self, sentence: str) -> None:
         """Show why there is no picture."""
@@ -135,19 +171,22 @@ def _length(metres: float) -> str:
     return f"{100.0 * metres:.2g} cm" if metres >= 1e-2 else f"{1e3 * metres:.2g} mm"
 
 
-def _sentences(true: Place, reading: RoomReading, enlarged: float) -> str:
+def _sentences(shown: ShownRoom, reading: RoomReading, enlarged: float) -> str:
     named = [read.name for read in reading.lamps if read.name]
     lines = [f"{len(named)} of {len(reading.lamps)} lamps named: {', '.join(named) or 'none'}."]
     lines += reading.reasons
     if reading.located is not None:
-        place, errors = reading.located.place, reading.located.errors
+        place, errors, true = reading.located.place, reading.located.errors, shown.room.camera
         off = math.dist((place.x, place.y, place.z), (true.x, true.y, true.z))
         angles = " ± ".join((
             ", ".join(_degrees(getattr(place, name)) for name in _ANGLES),
             f"{math.degrees(float(errors[3:].max())):.2g}°",
         ))  # fmt: skip
-        times = f"; drawn {enlarged:g} times larger" if enlarged > 1.0 else ""
-        lines.append(f"{_length(off)} from the true place{times}. Yaw, pitch, roll: {angles}.")
+        parts = [] if shown.look.photo else [f"{_length(off)} from the true place"]
+        parts += [f"drawn {enlarged:g} times larger"] if enlarged > 1.0 else []
+        lines.append("; ".join([*parts, f"yaw, pitch, roll: {angles}"]).capitalize() + ".")
+    if shown.assumed:
+        lines.append("Assumed: " + " ".join(shown.assumed))
     return "\n".join(lines)
 
 

@@ -17,7 +17,7 @@ from occ_model.commands.options import (
     simulation_settings_of,
     whole_number,
 )
-from occ_model.commands.sweep import add_work_options, run_with_bar
+from occ_model.commands.sweep import add_work_options, add_worker_options, run_with_bar
 from occ_model.errors import one_line
 from occ_model.files.writing import check_replaceable, write_image
 from occ_model.photo.reading.load import load_photo
@@ -30,6 +30,7 @@ from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import with_settings
 from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.study.code_length import CodeLength, code_lengths
 from occ_model.study.room_map import (
     RoomMapRequest,
     RoomMapText,
@@ -72,17 +73,41 @@ def add_to(commands: Commands) -> None:
         "same command goes on from there.",
     )  # fmt: skip
     _add_room(floor, _AXES[2:])  # x and y are those of the floor's places
-    floor.add_argument(
-        "--side", type=whole_number, default=5, metavar="N",
-        help="places on each side of the floor below the lamps; default: %(default)s",
-    )  # fmt: skip
-    floor.add_argument(
-        "--images", type=whole_number, default=1, help="a place; default: %(default)s"
-    )
-    floor.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
-    floor.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
+    _add_floor(floor, 5)
     add_work_options(floor)
     floor.set_defaults(command=_map, writes={"out": TABLE})
+    _add_codes(kinds)
+
+
+def _add_codes(kinds: Commands) -> None:
+    parser = kinds.add_parser(
+        "codes",
+        help="compare lengths of codes for many lamps: how alike they are, and what is read",
+    )
+    _add_room(parser, _AXES[2:])
+    parser.add_argument(
+        "--lamps", type=whole_number, default=1024,
+        help="lamps that have a code each, of which the room holds some; default: %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--bits", type=whole_number, action="append", default=[],
+        help="a length of code, may be repeated; default: the shortest, and 2 and 4 bits more",
+    )  # fmt: skip
+    _add_floor(parser, 3)
+    add_worker_options(parser)
+    parser.set_defaults(command=_codes)
+
+
+def _add_floor(parser: argparse.ArgumentParser, side: int) -> None:
+    parser.add_argument(
+        "--side", type=whole_number, default=side, metavar="N",
+        help="places on each side of the floor below the lamps; default: %(default)s",
+    )  # fmt: skip
+    parser.add_argument(
+        "--images", type=whole_number, default=1, help="a place; default: %(default)s"
+    )
+    parser.add_argument("--seed", type=whole_number, default=1, help="default: %(default)s")
+    parser.add_argument("--tolerance", type=number, default=TOLERANCE.default, metavar="LEVELS")
 
 
 def _add_room(parser: argparse.ArgumentParser, axes: Sequence[str] = _AXES) -> None:
@@ -126,11 +151,14 @@ def _render(options: argparse.Namespace) -> int:
     return 0
 
 
-def _map(options: argparse.Namespace) -> int:
+def _request(options: argparse.Namespace) -> RoomMapRequest:
     room = _room_of(options)
-    request = RoomMapRequest(
-        room, *floor_under(room, options.side), options.images, options.seed, options.tolerance
-    )
+    places = floor_under(room, options.side)
+    return RoomMapRequest(room, *places, options.images, options.seed, options.tolerance)
+
+
+def _map(options: argparse.Namespace) -> int:
+    request = _request(options)
 
     def run(executor: Executor | None, progress: Progress) -> tuple[RoomPoint, ...]:
         return room_map(
@@ -155,6 +183,33 @@ def _map(options: argparse.Namespace) -> int:
         f"{one_line(str(options.out))}: {request.points} places, {pictures} pictures: "
         f"{named} of {shown} whole lamps named, {wrong} lamps named wrongly; {sure} places "
         f"sure{median}"
+    )
+    return 0
+
+
+def _codes(options: argparse.Namespace) -> int:
+    request = _request(options)
+
+    def run(executor: Executor | None, progress: Progress) -> tuple[CodeLength, ...]:
+        return code_lengths(
+            request, options.lamps, options.bits, executor=executor, jobs=options.jobs,
+            progress=progress,
+        )  # fmt: skip
+
+    found = run_with_bar(run, max(len(options.bits), 1) * request.points, options)
+    if found is None:
+        return EXIT_INTERRUPTED
+    print("bits    codes  chips  columns  packets  distance     named  misread  named wrongly")
+    for one in found:
+        print(
+            f"{one.bits:4} {one.codes:8} {one.chips:6} {one.columns:8.0f} {one.packets:8.2f} "
+            f"{one.distance:9} {one.named:5}/{one.whole:<4} {one.misread:7} "
+            f"{one.named_wrongly(options.lamps):14.2g}"
+        )
+    best = max(found, key=lambda one: one.named - one.named_wrongly(options.lamps))
+    print(
+        f"Of these, {best.bits} bits serve {options.lamps} lamps best: {best.named} of "
+        f"{best.whole} whole lamps named rightly in these pictures."
     )
     return 0
 

@@ -101,13 +101,18 @@ def add_to(commands: Commands) -> None:
     parser.set_defaults(command=_run, writes={"out": TABLE})
 
 
-def add_work_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options that say where a study's work is done, and where its results go."""
+def add_worker_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where a study's work is done."""
     work = parser.add_mutually_exclusive_group()
     work.add_argument(
         "--jobs", type=whole_number, default=1, metavar="N", help="processes; default: %(default)s"
     )
     work.add_argument("--cluster", metavar="ADDRESS", help="workers of a dask scheduler instead")
+
+
+def add_work_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that say where a study's work is done, and where its results go."""
+    add_worker_options(parser)
     parser.add_argument(
         "--out", type=Path, metavar="FILE.csv",
         help="results, point by point; where a part of them is there, the rest is measured",
@@ -201,8 +206,11 @@ def run_with_bar(
             return run(stack.enter_context(workers), progress)
         except KeyboardInterrupt:
             pass
-    kept = f"they are in {one_line(str(options.out))}, and the same command goes on from there."
-    if not options.out:
+    out = getattr(options, "out", "")
+    kept = f"they are in {one_line(str(out))}, and the same command goes on from there."
+    if out == "":
+        kept = "none is kept."
+    elif not out:
         kept = "with --out FILE.csv they would be kept."
     print(f"occ-model: stopped after {reached} of {points} points; {kept}", file=sys.stderr)
     return None

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from occ_model import colours
+from occ_model.arrays import ByteArray
 from occ_model.figures.drawing import Drawing
 from occ_model.room.locate import RoomReading
-from occ_model.room.render import RoomFrame
 from occ_model.room.room import Place, Room
 from occ_model.room.view import room_outline, seen_outline
 from occ_model.scene.provenance import Provenance
@@ -18,8 +18,10 @@ _TITLE = "Room, its picture and the place that it tells"
 _NUMBERS = tuple(Place.__dataclass_fields__)
 
 
-def room_drawing(frame: RoomFrame, reading: RoomReading) -> Drawing:
-    """Draw a room and what was read of its picture.
+def room_drawing(
+    room: Room, image: ByteArray, reading: RoomReading, *, is_photo: bool = False
+) -> Drawing:
+    """Draw a room and what was read of its picture, or of a photo, whose true place is not known.
 
     The table has the true place, the one found with its standard errors, and the lamps read.
     """
@@ -29,15 +31,16 @@ def room_drawing(frame: RoomFrame, reading: RoomReading) -> Drawing:
         errors = [None] * 6 if found is None else found.errors.tolist()
         for name, error in zip(_NUMBERS, errors, strict=True):
             value = None if found is None else getattr(found.place, name)
-            yield name, getattr(frame.room.camera, name), value, error, None, None
+            true = None if is_photo else getattr(room.camera, name)
+            yield name, true, value, error, None, None
         for read in reading.lamps:
             column, row = read.hull.mean(axis=0).tolist()
             yield read.name or "unnamed", None, None, None, column, row
 
     header = ("what", "true (m, rad)", "found", "standard error", "column", "row")
     return Drawing(
-        "room", _TITLE, lambda: _draw(frame, reading), header, rows,
-        lambda date: _provenance(frame.room, date),
+        "room", _TITLE, lambda: _draw(room, image, reading, is_photo), header, rows,
+        lambda date: _provenance(room, date),
     )  # fmt: skip
 
 
@@ -46,14 +49,14 @@ def _provenance(room: Room, date: str) -> Provenance:
     return Provenance(_TITLE, {"the camera's": room.scene}, 1, notes, date)
 
 
-def _draw(frame: RoomFrame, reading: RoomReading) -> Figure:
+def _draw(room: Room, image: ByteArray, reading: RoomReading, is_photo: bool) -> Figure:
     figure = Figure(figsize=(7.2, 3.8))
     plan, picture = figure.subplots(1, 2)
-    _draw_plan(plan, frame.room, reading)
-    step = max(1, frame.camera_image.shape[1] // 900)
-    rows, columns = frame.camera_image.shape
+    _draw_plan(plan, room, reading, is_photo)
+    step = max(1, image.shape[1] // 900)
+    rows, columns = image.shape
     picture.imshow(
-        frame.camera_image[::step, ::step], cmap="gray", vmin=0, vmax=255,
+        image[::step, ::step], cmap="gray", vmin=0, vmax=255,
         extent=(-0.5, columns - 0.5, rows - 0.5, -0.5), interpolation="antialiased",
     )  # fmt: skip
     for read in reading.lamps:
@@ -68,7 +71,7 @@ def _draw(frame: RoomFrame, reading: RoomReading) -> Figure:
     return figure
 
 
-def _draw_plan(ax: Axes, room: Room, reading: RoomReading) -> None:
+def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> None:
     for lamp in room.lamps:
         outline = room_outline(lamp)[:, :2]
         ax.fill(outline[:, 0], outline[:, 1], facecolor="none", edgecolor=colours.SIMULATION)
@@ -79,7 +82,9 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading) -> None:
     if len(seen):
         ax.fill(seen[:, 0], seen[:, 1], fill=False, linestyle="--", edgecolor=colours.PHOTO)
     camera = room.camera
-    ax.plot([camera.x], [camera.y], "o", color=colours.PHOTO, fillstyle="none", label="true place")
+    if not is_photo:
+        ring = {"color": colours.PHOTO, "fillstyle": "none", "label": "true place"}
+        ax.plot([camera.x], [camera.y], "o", **ring)
     if reading.located is not None:
         found, errors = reading.located.place, reading.located.errors
         ax.errorbar(

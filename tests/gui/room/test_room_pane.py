@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -15,6 +16,7 @@ from occ_gui.room.jobs import map_room, plan_of
 from occ_gui.room.pane import RoomPane
 from occ_model.figures.drawing import house_style
 from occ_model.figures.room import room_drawing
+from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import aim_of, aimed_at, rotation
 
@@ -125,7 +127,7 @@ def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane) -> None
     shown = pane.shown
     assert shown is not None
     assert shown.reading is not None
-    drawing = room_drawing(shown.frame, shown.reading)
+    drawing = room_drawing(shown.room, shown.image, shown.reading)
     rows = {row[0]: row for row in drawing.rows()}
     assert rows["x"][1] == 0.6
     assert rows["x"][2] == pytest.approx(0.6, abs=0.02)
@@ -151,3 +153,61 @@ def test_a_map_goes_with_the_turn_that_it_is_of(
         assert len(view.plan.floor.points()) == 0
         qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
         assert view.floor.text() == ""
+
+
+def _photo(path: Path, **tags: float) -> Path:
+    notes = Image.Exif()
+    known = {"focal_length": EQUIVALENT_FOCAL_LENGTH}
+    notes.get_ifd(0x8769).update({known[name]: value for name, value in tags.items()})
+    image = occ.render_room(small_room().replace(x=0.4, y=0.8)).camera_image
+    Image.fromarray(image).save(path, quality=92, exif=notes.tobytes())
+    return path
+
+
+def test_a_photo_is_located_and_what_is_assumed_of_its_lens_can_be_given(
+    pane: RoomPane, qtbot: QtBot, tmp_path: Path
+) -> None:
+    view = pane.view
+    assert not view.focal_length.isVisible()
+    pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    assert view.headline.text().startswith("I am here: x 0.")
+    assert "as the EXIF data say" in view.sentences.text()
+    assert "true place" not in view.sentences.text()
+    assert view.plan.camera.pos().x() == pytest.approx(0.4, abs=0.03)
+    assert view.focal_length.isVisible()
+    assert view.focal_length.value() == 26.0
+    view.focal_length.setValue(26.5)
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    assert "26.5 mm equivalent, as given" in view.sentences.text()
+    assert pane.shown is not None
+    rows = {
+        row[0]: row
+        for row in room_drawing(
+            pane.shown.room, pane.shown.image, pane.shown.reading, is_photo=True
+        ).rows()
+    }
+    assert rows["x"][1] is None
+    view.close_photo.click()
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    assert "from the true place" in view.sentences.text()
+    assert not view.focal_length.isVisible()
+
+
+def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
+    pane: RoomPane, qtbot: QtBot, tmp_path: Path
+) -> None:
+    pane.open_photo(_photo(tmp_path / "room.jpg"))
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    assert "the photo has no EXIF data of it" in pane.view.sentences.text()
+    other = small_room().with_sent(code=900)
+    pane.take(other)
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    assert pane.view.headline.text() == "The place is not told"
+    pane.view.plan.camera.setPos(0.3, 0.5)
+    assert pane.look.photo is None
+
+
+def test_what_is_no_photo_is_said(pane: RoomPane, qtbot: QtBot, tmp_path: Path) -> None:
+    pane.open_photo(tmp_path / "none.jpg")
+    qtbot.waitUntil(lambda: "none.jpg" in pane.view.headline.text())

@@ -1,0 +1,191 @@
+"""Which length of code serves many lamps: how many codes there are, how alike, and what is read.
+
+A longer code leaves most of its words unused, so that a wrong one is seldom another lamp's; but its
+packet is longer, and a picture shows fewer of them. A room has at most 200 lamps; those of a larger
+house send other codes of the same length, and what they change is counted, not simulated.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, IndexArray
+from occ_model.errors import ParameterError
+from occ_model.results.sweep_request import MOST_JOBS
+from occ_model.room.room import Room
+from occ_model.room.view import lamps_in_view
+from occ_model.scene.argument_checks import check_count
+from occ_model.study.room_map import RoomMapRequest, room_map
+from occ_model.study.sweep.sweep import Progress
+from occ_model.transmitter.packet import sent_chips
+
+MOST_CODES = 4096
+"""Lamps beyond which codes are not compared with each other."""
+
+_LONGER = (0, 2, 4)
+"""Bits beyond the fewest that have a code for each lamp, tried by themselves."""
+
+
+@dataclass(frozen=True, slots=True)
+class CodeLength:
+    """What codes of one length give.
+
+    Parameters
+    ----------
+    bits, chips
+        Of a code, and of its packet.
+    columns
+        Columns of a picture that one packet takes.
+    packets
+        Packets that a whole lamp shows in the median.
+    distance
+        Chips in which two lamps' packets differ at the least, at any shift of one against the
+        other.
+    whole, named, misread
+        Lamps whole in the pictures, those of them named rightly, and those whose code was read
+        wrongly.
+    """
+
+    bits: int
+    chips: int
+    columns: float
+    packets: float
+    distance: int
+    whole: int
+    named: int
+    misread: int
+
+    @property
+    def codes(self) -> int:
+        """How many codes there are."""
+        return 2**self.bits
+
+    def named_wrongly(self, lamps: int) -> float:
+        """Return how many of the misread lamps are expected to be named as another one of many.
+
+        As if a code that is misread were any of the others.
+        """
+        return self.misread * (lamps - 1) / (self.codes - 1)
+
+
+def code_lengths(
+    request: RoomMapRequest,
+    lamps: int = 1024,
+    bits: Sequence[int] = (),
+    *,
+    executor: Executor | None = None,
+    jobs: int = 1,
+    progress: Progress | None = None,
+) -> tuple[CodeLength, ...]:
+    """Compare lengths of codes for many lamps in a room.
+
+    The lamps' codes are drawn at random among all of a length, those of the room among them; its
+    lamps are read in pictures over its floor.
+
+    Parameters
+    ----------
+    request
+        The map of the room, a part of the house that has so many lamps.
+    lamps
+        Lamps that have a code each.
+    bits
+        Lengths of code; by default the shortest that suffices, and 2 and 4 bits more.
+    executor, jobs, progress
+        As for :func:`occ_model.study.room_map.room_map`.
+
+    Returns
+    -------
+    tuple of CodeLength
+        In the order of the lengths.
+
+    Raises
+    ------
+    ParameterError
+        A length has fewer codes than there are lamps, or an argument is out of range.
+    """
+    room = request.room
+    check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    lengths = tuple(bits) or tuple((lamps - 1).bit_length() + more for more in _LONGER)
+    for length in lengths:
+        if 2**length < lamps:
+            raise ParameterError.of("bits", f"{length}", f"from {(lamps - 1).bit_length()}",
+                                    condition=f"for {lamps} lamps")  # fmt: skip
+    found = []
+    for number, length in enumerate(lengths):
+        sent = _codes(length, lamps, request.seed)
+        own = _sending(room, length, sent)
+        asked = replace(request, room=own)
+        told = progress and partial(_told, progress, number, len(lengths))
+        points = room_map(asked, executor=executor, jobs=jobs, progress=told)
+        whole, named, misread = (
+            sum(getattr(point, count) for point in points)
+            for count in ("shown", "named", "misread")
+        )
+        chips = _chips(own, sent)
+        camera, frequency = own.scene.camera, own.lamps[0].transmitter.switching_frequency
+        columns = chips.shape[1] / frequency / camera.readout_time
+        found.append(CodeLength(
+            length, chips.shape[1], columns, _shown_columns(asked) / columns,
+            least_distance(chips), whole, named, misread,
+        ))  # fmt: skip
+    return tuple(found)
+
+
+def _told(
+    progress: Progress, number: int, lengths: int, done: int, points: int, left: float
+) -> None:
+    there, total = number * points + done, lengths * points
+    progress(there, total, left * (total - there) / max(points - done, 1))
+
+
+def _codes(bits: int, lamps: int, seed: int) -> IndexArray:
+    random = np.random.default_rng([seed, bits])
+    return random.choice(2**bits, lamps, replace=False).astype(np.int64)
+
+
+def _sending(room: Room, bits: int, sent: IndexArray) -> Room:
+    """Return the room whose lamps send the first of some codes."""
+    lamps = tuple(
+        replace(lamp, transmitter=lamp.transmitter.replaced({"bits": bits, "code": int(code)}))
+        for lamp, code in zip(room.lamps, sent, strict=False)
+    )
+    return room.replace(lamps=lamps, code=0, bits=bits)
+
+
+def _chips(room: Room, sent: IndexArray) -> ByteArray:
+    """Return the packets of the codes, shape (codes, chips)."""
+    first = room.lamps[0].transmitter
+    return np.array([sent_chips(first.replaced({"code": int(code)})) for code in sent])
+
+
+def least_distance(packets: ByteArray) -> int:
+    """Return in how many chips two packets sent over and over differ at the least.
+
+    Parameters
+    ----------
+    packets : ndarray of uint8, shape (packets, chips)
+    """
+    signs = 2.0 * packets - 1.0
+    most = -float(packets.shape[1])
+    for shift in range(packets.shape[1]):
+        alike = signs @ np.roll(signs, shift, axis=1).T
+        np.fill_diagonal(alike, most)
+        most = max(most, float(alike.max()))
+    return round((packets.shape[1] - most) / 2.0)
+
+
+def _shown_columns(request: RoomMapRequest) -> float:
+    """Return the columns of a whole lamp in the median over the places; 0 without one."""
+    camera = request.room.scene.camera
+    columns = []
+    for index in range(request.points):
+        x, y = request.place(index)
+        for seen in lamps_in_view(request.room.replace(x=x, y=y)):
+            low, high = seen.view.corners.min(axis=0), seen.view.corners.max(axis=0)
+            if low.min() >= 0 and high[0] < camera.columns and high[1] < camera.rows:
+                columns.append(float(high[0] - low[0]))
+    return float(np.median(columns)) if columns else 0.0

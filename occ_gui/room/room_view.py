@@ -77,6 +77,8 @@ class RoomView(QWidget):
         self.focal_length.setAccessibleName("Equivalent focal length of the photo")
         self.focal_length.setToolTip("That of the photo's lens; what you give is taken as exact.")
         self.focal_length.valueChanged.connect(lambda mm: self.focal_length_given.emit(1e-3 * mm))
+        for widget in (self.close_photo, self.focal_length):
+            widget.hide()
         self.measure = QPushButton("&Measure the floor")
         self.measure.setToolTip(
             "Take a picture at each of 25 places below the lamps, and see where the place is told."

@@ -83,8 +83,9 @@ def _draw_plan(ax: Axes, room: Room, reading: RoomReading, is_photo: bool) -> No
         ax.fill(seen[:, 0], seen[:, 1], fill=False, linestyle="--", edgecolor=colours.PHOTO)
     camera = room.camera
     if not is_photo:
-        ring = {"color": colours.PHOTO, "fillstyle": "none", "label": "true place"}
-        ax.plot([camera.x], [camera.y], "o", **ring)
+        ax.plot(
+            [camera.x], [camera.y], "o", color=colours.PHOTO, fillstyle="none", label="true place"
+        )
     if reading.located is not None:
         found, errors = reading.located.place, reading.located.errors
         ax.errorbar(

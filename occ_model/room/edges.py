@@ -43,7 +43,6 @@ _LEAST_TOLD = 4
 _MOST_DEVIATIONS = 3.5
 """Deviations beyond which a point is left out of a line."""
 
-
 _LEAST_VARIANCE = 1e-8
 """Of a line's point, in square pixels: points can be as straight as a ruler."""
 
@@ -134,10 +133,10 @@ class EdgeFinder:
             axis = int(along[0] < along[1])
             points = self._across(axis, start, end, corners, own)
             if len(points.places) >= _LEAST_POINTS:  # the outline was rough: about the edge itself
-                line = np.polyfit(points.places[:, axis], points.places[:, 1 - axis], 1)
+                course = np.polyfit(points.places[:, axis], points.places[:, 1 - axis], 1)
                 start, end = start.copy(), end.copy()
                 for point in (start, end):
-                    point[1 - axis] = np.polyval(line, point[axis])
+                    point[1 - axis] = np.polyval(course, point[axis])
                 points = self._across(axis, start, end, corners, own)
             line = _fitted(side, points, self._scene)
             if line is not None:

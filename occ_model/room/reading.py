@@ -116,7 +116,8 @@ def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
             continue
         part = np.s_[y : y + height, x : x + width]
         own = (labels[part] == label) & (spots[part] > 0)
-        hull = cv2.convexHull(_ends_of_rows(own)).reshape(-1, 2) + np.array([x, y], np.float64)
+        corners = cv2.convexHull(_ends_of_rows(own)).reshape(-1, 2)
+        hull = corners.astype(np.float64) + np.array([x, y])
         hull[:, 1] = (hull[:, 1] + 0.5) * scale - 0.5
         first, last = y * scale, min(len(image), (y + height) * scale + 1)
         yield Region(first, last, x, x + width), hull

@@ -131,8 +131,8 @@ def _sensor_diagonal(tags: Mapping[int, Any]) -> float | None:
     width, height, across, down = (
         _number(tags.get(tag)) or 0.0 for tag in (_WIDTH, _HEIGHT, _PIXELS_ACROSS, _PIXELS_DOWN)
     )
-    is_sensible = unit and min(width, height) >= 1.0 and 0.0 < across < math.inf
-    if not is_sensible or not math.isclose(across, down, rel_tol=_SQUARE):
+    is_sensible = min(width, height) >= 1.0 and 0.0 < across < math.inf
+    if unit is None or not is_sensible or not math.isclose(across, down, rel_tol=_SQUARE):
         return None
     return math.hypot(width, height) / across * unit
 

@@ -58,7 +58,7 @@ def test_a_misread_code_is_another_lamp_s_as_often_as_codes_are_used() -> None:
 
 
 def test_a_length_with_fewer_codes_than_lamps_is_refused() -> None:
-    with pytest.raises(occ.ParameterError, match=r"bits is 9; allowed: from 10 for 1024 lamps"):
+    with pytest.raises(occ.ParameterError, match=r"bits is 9; allowed for 1024 lamps: from 10"):
         code_lengths(RoomMapRequest(_room(), (0.6,), (0.0,)), 1024, (9,))
 
 

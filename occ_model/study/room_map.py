@@ -168,7 +168,8 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
     error, stated = (
         np.sqrt(np.mean(np.square(errors), axis=0)).tolist() if errors else (math.nan, math.nan)
     )
-    return RoomPoint(index, *counts.tolist(), len(errors), error, stated, note)
+    shown, named, misread, wrong = counts.tolist()
+    return RoomPoint(index, shown, named, misread, wrong, len(errors), error, stated, note)
 
 
 def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]:

@@ -61,7 +61,7 @@ class CodeLength:
     @property
     def codes(self) -> int:
         """How many codes there are."""
-        return 2**self.bits
+        return 1 << self.bits
 
     def named_wrongly(self, lamps: int) -> float:
         """Return how many of the misread lamps are expected to be named as another one of many.
@@ -169,13 +169,13 @@ def least_distance(packets: ByteArray) -> int:
     ----------
     packets : ndarray of uint8, shape (packets, chips)
     """
-    signs = 2.0 * packets - 1.0
-    most = -float(packets.shape[1])
-    for shift in range(packets.shape[1]):
+    signs, chips = 2.0 * packets - 1.0, int(packets.shape[1])
+    most = -float(chips)
+    for shift in range(chips):
         alike = signs @ np.roll(signs, shift, axis=1).T
         np.fill_diagonal(alike, most)
         most = max(most, float(alike.max()))
-    return round((packets.shape[1] - most) / 2.0)
+    return round((chips - most) / 2.0)
 
 
 def _shown_columns(request: RoomMapRequest) -> float:

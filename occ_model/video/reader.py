@@ -22,6 +22,7 @@ from occ_model.video.partial_payload import known_bits, written
 from occ_model.video.period import period_of
 from occ_model.video.placed_frames import FIRST_FIT, PlacedFrames
 from occ_model.video.read_frame import FrameReader
+from occ_model.video.without_packets import WithoutPackets
 
 
 class VideoReader:
@@ -53,6 +54,8 @@ class VideoReader:
         readout = scene.camera.readout_time
         self._placed = PlacedFrames(self._period, readout, readout_tolerance)
         self._joined = self._placed.joined
+        self._readout_tolerance = readout_tolerance
+        self._without_packets = WithoutPackets()
         self._seen = -1
         self._shape: tuple[int, ...] | None = None
         self._complete_with: int | None = None
@@ -86,6 +89,8 @@ class VideoReader:
         self._shape, self._placed.columns = frame.image.shape, frame.image.shape[1]
         if self._placed.add(timed):
             self._seen = -1
+        if self._placed.placed == 0:
+            self._without_packets.add(frame.time, frame.image, timed.reading.region)
         self._read_on()
         frames = len(self._placed.frames)
         return FilmProgress(
@@ -107,12 +112,15 @@ class VideoReader:
         soft = self._soft_frame()
         failure = self._failure(soft)
         bits = soft.framed.bits if soft is not None and failure is None else np.empty(0, np.uint8)
-        times = placed.times()
+        times, clock = placed.times(), placed.clock
+        if placed.placed == 0 and placed.columns:
+            readout, tolerance = self._scene.camera.readout_time, self._readout_tolerance
+            clock = self._without_packets.clock(times, readout, tolerance, placed.columns)
         number = self._complete_with if failure is None else None
         return VideoReading(
             frames=tuple(placed.reading(number) for number in range(len(placed.frames))),
             packets=self._packets(bits),
-            clock=placed.clock,
+            clock=clock,
             bits=bits,
             known=self._joined.known,
             payload=self._written(bits) if bits.size else "",
@@ -120,17 +128,15 @@ class VideoReader:
             complete_at=None if number is None else placed.frames[number].reading.time,
             duration=0.0 if times is None else sum(part.duration for part in times.parts),
             failure=failure,
-            problems=self._problems(times),
+            problems=self._problems(times) if clock is None else clock.problems,
             complete_after=None
             if number is None or times is None or placed.clock is None
             else times.elapsed(number),
         )
 
     def _problems(self, times: FrameTimes | None) -> tuple[str, ...]:
-        """Say what is not regular in the times of the frames, and what the clock is not sure of."""
+        """Say what is not regular in the times of frames that tell no clock."""
         placed = self._placed
-        if placed.clock is not None:
-            return placed.clock.problems
         found = () if times is None else times.problems
         if times is None and len(placed.frames) > 1:
             found = ("The frame times do not rise.",)
@@ -181,6 +187,9 @@ class VideoReader:
     def _failure(self, soft: SoftFrame | None) -> str | None:
         """Say why the payload is not read."""
         if self._placed.placed == 0:
+            described = self._without_packets.described(self._scene.camera.readout_time)
+            if described:
+                return f"{described} Packets as the scene sends them are in none of the frames."
             return why_unplaced(self._placed.frames)
         return why_not_read(soft, self._joined, self._period)
 

@@ -1,0 +1,170 @@
+"""What a film shows that holds no packets: whole frames that blink, bursts, or a square wave."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.period import correlated_columns, repeat_period, unrepeated_share
+from occ_model.receiver.signal import column_means
+from occ_model.results.decoding import Region
+from occ_model.results.video_reading import Clock, Measured
+from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
+from occ_model.scene.units import HERTZ, SECOND, Unit
+from occ_model.video.clock import fits_of, state
+from occ_model.video.frame_times import FrameTimes
+from occ_model.video.phases import Phases
+
+_LEAST_PERIODS = 3.0
+"""Periods in a frame from which stripes repeat, and are not by chance alike twice."""
+
+_MOST_UNREPEATED = 0.1
+"""Share of the variance of stripes that no repeated wave explains, above which they are others."""
+
+_LEAST_CHANGE = 0.2
+"""Share of the brightest frames' light by which dark ones are darker where whole frames blink."""
+
+_MOST = 0.9
+"""Share of frames from which all are said to show the same."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Look:
+    """One frame: its time and mean level, and its stripes where they repeat."""
+
+    time: float
+    level: float
+    period: float = 0.0
+    place: float = 0.0
+    place_error: float = 0.0
+    period_error: float = 0.0
+    column: float = 0.0
+    is_pulse: bool = False
+
+    @property
+    def repeats(self) -> bool:
+        """Whether it has stripes that repeat."""
+        return self.period > 0.0
+
+
+class WithoutPackets:
+    """Looks at the frames of a film in which no packet was found."""
+
+    def __init__(self) -> None:
+        self._looks: list[_Look] = []
+
+    def add(self, time: float, image: ByteArray, region: Region | None) -> None:
+        """Look at the next frame."""
+        region = region or Region(0, image.shape[0], 0, image.shape[1])
+        even = without_trend(column_means(image, region))
+        self._looks.append(_look(time, float(image.mean()), even, region.first_column))
+
+    def clock(
+        self, times: FrameTimes | None, readout_time: float, tolerance: float, columns: int
+    ) -> Clock | None:
+        """State the clock of a square wave; None where the frames show none."""
+        seen = [look for look in self._looks if look.is_pulse]
+        if times is None or len(times.parts) != 1 or len(seen) < _MOST * len(self._looks):
+            return None
+        phases = Phases(
+            times=np.array([look.time for look in seen]),
+            columns=np.array([look.column for look in seen]),
+            places=np.array([look.place for look in seen]),
+            errors=np.array([look.place_error for look in seen]),
+            steps=np.array([CHIPS_OF_A_CYCLE / look.period for look in seen]),
+            step_errors=np.array(
+                [CHIPS_OF_A_CYCLE / look.period**2 * look.period_error for look in seen]
+            ),
+            period=float(CHIPS_OF_A_CYCLE),
+        )
+        fits = fits_of(phases, readout_time, tolerance, columns, times.period.value)
+        if not fits:
+            return None
+        clock = state(fits, phases, times, times.parts[0], columns)
+        # The shape of the lamp shifts the stripes of all frames alike: that does not scatter.
+        readout, shared = clock.readout_time, self._period_error(seen)
+        error = math.hypot(readout.error, shared * readout.value)
+        gap_error = math.hypot(clock.gap.error, columns * shared * readout.value)
+        return replace(
+            clock,
+            readout_time=Measured(readout.value, error),
+            gap=Measured(clock.gap.value, gap_error),
+        )
+
+    @staticmethod
+    def _period_error(seen: Sequence[_Look]) -> float:
+        """Give the relative error of a period that many frames show, as that of one of them."""
+        return float(np.median([look.period_error / look.period for look in seen]))
+
+    def described(self, readout_time: float) -> str:
+        """Say what the frames show, in a sentence or two; nothing where it is neither of these.
+
+        Parameters
+        ----------
+        readout_time
+            A rough value in seconds, by which a frequency is told.
+        """
+        seen = [look for look in self._looks if look.repeats]
+        count = len(self._looks)
+        if not seen:
+            return self._of_levels()
+        pulses = [look for look in seen if look.is_pulse]
+        what = "The stripes repeat"
+        if len(pulses) >= _MOST * len(seen):
+            seen, what = pulses, "The lamp sends a plain square wave or pulse: its stripes repeat"
+        period = float(np.median([look.period for look in seen]))
+        columns = Unit("columns").format_estimate(period, period * self._period_error(seen))
+        text = (
+            f"{what} after {columns}, {HERTZ.format(1.0 / (period * readout_time), 4)} by a "
+            f"readout time of {SECOND.format(readout_time)}."
+        )
+        if len(seen) >= _MOST * count:
+            return text
+        return f"{text} They are in {len(seen)} of {count} frames only: it is sent in bursts."
+
+    def _of_levels(self) -> str:
+        """Say whether whole frames are bright or dark."""
+        levels = np.array([look.level for look in self._looks])
+        low, high = (float(level) for level in np.quantile(levels, (0.1, 0.9)))
+        if len(levels) < 3 or high - low < _LEAST_CHANGE * high:
+            return ""
+        bright = levels > 0.5 * (low + high)
+        changes = int(np.count_nonzero(bright[1:] != bright[:-1]))
+        lasts = self._looks[-1].time - self._looks[0].time
+        return (
+            f"Whole frames are bright or dark: {int(bright.sum())} of {len(levels)} are bright, "
+            f"and that changes {changes} times in {SECOND.format(lasts, 3)}. So the lamp blinks "
+            "more slowly than a frame is read out, and no frame shows stripes of it."
+        )
+
+
+def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Look:
+    """Look for stripes that repeat, and for the phase of their first harmonic in the middle."""
+    columns = len(even)
+    found = repeat_period(even) if columns > 2 and float(np.ptp(even)) > 0.0 else None
+    if found is None or found[0] * _LEAST_PERIODS > columns:
+        return _Look(time, level)
+    period, error = found
+    left = unrepeated_share(even, period)
+    if left > _MOST_UNREPEATED:
+        return _Look(time, level)
+    middle = 0.5 * (columns - 1)
+    window = np.hanning(columns + 2)[1:-1]
+    turned = np.exp(-2j * np.pi * (np.arange(columns) - middle) / period)
+    phase = float(np.angle((window * even) @ turned))
+    # Of a wave whose first harmonic has most of its variance, by the columns that are independent.
+    independent = columns / correlated_columns(even)
+    rising = int(np.count_nonzero((even[1:] > 0.0) & (even[:-1] <= 0.0)))
+    return _Look(
+        time,
+        level,
+        period,
+        CHIPS_OF_A_CYCLE * (phase / (2.0 * math.pi) % 1.0),
+        CHIPS_OF_A_CYCLE / (2.0 * math.pi) * math.sqrt(left / max(independent, 1.0)),
+        error,
+        first_column + middle,
+        is_pulse=abs(rising - columns / period) <= 1.0,
+    )

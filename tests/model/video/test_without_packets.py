@@ -1,0 +1,89 @@
+"""A film without packets is described: a square wave and its clock, bursts, frames that blink."""
+
+import numpy as np
+import pytest
+
+import occ_model as occ
+from occ_model.results.video import VideoFrame
+from occ_model.results.video_reading import VideoReading
+from occ_model.video.reader import VideoReader
+
+COLUMNS, FRAME_RATE, READOUT = 600, 30.0, 25e-6
+SCENE = occ.load_preset("phone-136us").replace(
+    rows=40, columns=COLUMNS, readout_time=1.004 * READOUT, switching_frequency=8e3
+)
+"""What a receiver supposes: the readout time is 0.4 % off."""
+
+
+def stripes(frame: int, chips: str, frequency: float) -> np.ndarray:
+    """Draw a frame: the lamp's level at each column's own time, averaged over a tenth of a chip."""
+    times = frame / FRAME_RATE + READOUT * np.arange(COLUMNS)
+    parts = [times * frequency + part / 100.0 for part in range(10)]
+    levels = np.array([int(chip) for chip in chips])
+    lit = np.mean([levels[np.floor(part).astype(int) % len(levels)] for part in parts], axis=0)
+    return np.asarray(30.0 + 180.0 * lit)
+
+
+def read(pictures: list[np.ndarray]) -> VideoReading:
+    random = np.random.default_rng(38)
+    frames = [
+        VideoFrame(
+            number,
+            number / FRAME_RATE,
+            np.clip(np.tile(line, (40, 1)) + random.normal(0.0, 2.0, (40, COLUMNS)), 0, 255).astype(
+                np.uint8
+            ),
+        )
+        for number, line in enumerate(pictures)
+    ]
+    reader = VideoReader(SCENE)
+    for frame in frames:
+        reader.add(frame)
+    return reader.reading()
+
+
+@pytest.mark.parametrize(
+    ("chips", "chip_rate"), [("10", 2345.0), ("1110000000", 6000.0), ("1111111100", 5123.0)]
+)
+def test_a_square_wave_or_pulse_tells_its_clock(chips: str, chip_rate: float) -> None:
+    found = read([stripes(number, chips, chip_rate) for number in range(20)])
+    assert found.failure is not None
+    assert found.failure.startswith("The lamp sends a plain square wave or pulse: its stripes")
+    assert "header" not in found.failure
+    assert found.clock is not None
+    frequency, readout = found.clock.switching_frequency, found.clock.readout_time
+    cycles = 2.0 * chip_rate / len(chips)
+    others = [frequency.value, *(one for one, _ in found.clock.alternatives)]
+    assert min(abs(one - cycles) for one in others) < 4.0 * frequency.error + 1e-6 * cycles
+    if len(others) == 1:
+        assert readout.value == pytest.approx(READOUT, abs=3.0 * readout.error)
+    assert 0.0 < readout.error < 0.005 * READOUT
+
+
+def test_stripes_in_some_frames_are_bursts() -> None:
+    square, dark = stripes(0, "10", 2345.0), np.full(COLUMNS, 30.0)
+    found = read([square if number // 5 % 2 else dark for number in range(20)])
+    assert found.failure is not None
+    assert "They are in 10 of 20 frames only: it is sent in bursts." in found.failure
+    assert found.clock is None
+
+
+def test_whole_frames_that_blink_are_described() -> None:
+    found = read([np.full(COLUMNS, 200.0 if number // 4 % 2 else 30.0) for number in range(20)])
+    assert found.failure is not None
+    assert found.failure.startswith(
+        "Whole frames are bright or dark: 8 of 20 are bright, and that changes 4 times"
+    )
+
+
+def test_a_pattern_that_repeats_is_no_square_wave() -> None:
+    found = read([stripes(number, "1101000", 5000.0) for number in range(12)])
+    assert found.failure is not None
+    assert found.failure.startswith("The stripes repeat after 56.")
+    assert found.clock is None
+
+
+def test_frames_that_show_nothing_are_refused_as_before() -> None:
+    found = read([np.full(COLUMNS, 30.0)] * 5)
+    assert found.failure is not None
+    assert found.failure.startswith("None of 5 frames shows chips")

@@ -88,7 +88,7 @@ class MatchController(QObject):
 
     def _tell_refusal(self, found: FoundMatch) -> None:
         if found.refusal:
-            self.failed.emit(" ".join(found.refusal))
+            self.failed.emit(found.refusal[0])  # which the verdict shows, however short it is
 
     @property
     def photo(self) -> Photo | None:

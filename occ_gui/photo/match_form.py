@@ -137,6 +137,14 @@ class MatchForm(QWidget):
             field.edited.connect(notice.end)
             field.edited.connect(self.mended)
 
+    def match_square(self) -> None:
+        """Match with a square wave, of a frequency that is only assumed until it is entered."""
+        self.sent.show_key("square")
+        self._show_known()
+        self.start.click()
+        self.square.setFocus()
+        self.square.selectAll()
+
     def end_refusals(self) -> None:
         """Remove the sentences: the fields show other values."""
         for notice in self.notices.values():

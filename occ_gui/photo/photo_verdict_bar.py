@@ -10,6 +10,7 @@ from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.photo.estimate_text import estimate_text
+from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
@@ -28,6 +29,7 @@ class PhotoVerdictBar(StateBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName("Verdict on the photo")
+        self.step.setToolTip("Match the photo as that of a lamp that only blinks.")
         self._photo: Photo | None = None
         self._match: Match | None = None
         self._row: PhotoRow | None = None
@@ -97,6 +99,8 @@ class PhotoVerdictBar(StateBar):
             meaning = "The simulation is of another scene. Apply takes the match over."
             chips = (Chip("applied", "not applied", meaning, State.DOUBTFUL), *chips)
         self.show_state(state, title, *sentences, chips=chips)
+        is_plain = PLAIN_STRIPES in self._why_not
+        self.offer_step("It sends a &square wave" if is_plain else "")
 
     def _verdict(self) -> tuple[State, tuple[str, ...]]:
         if self._is_running:

@@ -98,6 +98,7 @@ class StateBar(QWidget):
         self.title.set_full_text(self._title)
         self.sentence.set_full_text(text)
         self.wrapped.setText(text)
+        self.wrapped.setToolTip("" if text == self._sentences[0] else self._sentences[0])
         self.wrapped.setVisible(self._lines > 1)
         self.sentence.setVisible(self._lines == 1)
 

@@ -9,7 +9,7 @@ from photo_world.negatives import negative
 from simulated_photos import random_scene, take
 
 import occ_model as occ
-from occ_model.photo.fit.read_pattern import canonical
+from occ_model.photo.fit.chip_runs import canonical
 from occ_model.scene.scene import Scene
 
 SHORTEST_VIEW, LONGEST_VIEW = 1.5, 20.0

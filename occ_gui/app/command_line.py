@@ -44,7 +44,7 @@ _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
 
 PANES = (
-    "controls", "decode", "photo", "profile", "accuracy", "map", "bench", "bands",
+    "controls", "decode", "photo", "photos", "profile", "accuracy", "map", "bench", "bands",
     "equations", "spectrum", "compare", "lessons", "video", "room",
 )  # fmt: skip
 """Names of the panes."""

@@ -15,7 +15,7 @@ from occ_gui.explanation.feature import equations
 from occ_gui.export.feature import animation, export
 from occ_gui.help.feature import manual
 from occ_gui.lessons.feature import lessons
-from occ_gui.photo.feature import photo
+from occ_gui.photo.feature import photo, photos
 from occ_gui.picture.feature import picture
 from occ_gui.pins.feature import compare
 from occ_gui.profile.feature import profile
@@ -44,7 +44,7 @@ def about_photo(parts: Parts) -> str:
     return "" if pane is None else str(pane.verdict.about())
 
 
-def features(parts: Parts, photos: PhotoInWindow) -> tuple[Feature[Any], ...]:
+def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
     """Declare what stands in docks, and what the menus offer besides."""
     store, shell, window = parts.store, parts.shell, parts.window
     preferences, workspace = parts.preferences, parts.store.store
@@ -59,6 +59,7 @@ def features(parts: Parts, photos: PhotoInWindow) -> tuple[Feature[Any], ...]:
         decoding(workspace),
         photo(store, parts.photos, lambda: shell.pane("picture").view, parts.board),
         profile(workspace, parts.board, lambda: about_photo(parts)),
+        photos(lambda: shell.pane("photo")),
         accuracy(store, parts.simulation),
         detection_map(store, parts.frame_rate, parts.measuring, choose_decoder),
         bands(store),
@@ -74,7 +75,7 @@ def features(parts: Parts, photos: PhotoInWindow) -> tuple[Feature[Any], ...]:
         transmitter(window, store, preferences),
         manual(window, shell, current_pane),
         welcome(window, shell, preferences, parts.files),
-        _entries(parts, photos),
+        _entries(parts, of_photo),
     )  # fmt: skip
 
 

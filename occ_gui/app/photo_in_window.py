@@ -131,7 +131,8 @@ class PhotoInWindow(QObject):
 
     def _show_several(self, paths: list[Path]) -> None:
         self.pane.many.choose_files(paths)
-        self._parts.window.bring_to_front("photo")
+        for name in ("photo", "photos"):
+            self._parts.window.bring_to_front(name)
 
     def _show_listed(self) -> None:
         paths = self.pane.view.many.rows.paths

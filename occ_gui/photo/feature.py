@@ -10,8 +10,19 @@ from occ_gui.shell.feature import Feature, Pane
 from occ_gui.shell.results import Board, Results
 
 if TYPE_CHECKING:
+    from occ_gui.photo.pane import PhotoPane
     from occ_gui.photo.photo_part import PhotoPart
     from occ_gui.picture.image_view import ImageView
+
+
+def photos(pane: "Callable[[], PhotoPane]") -> Feature[None]:
+    """Declare the pane of several photos, whose table is that of the pane of one."""
+    return Feature(
+        name="photos",
+        title="Photos",
+        help="photos.md#many-photos-one-answer",
+        make=lambda: Pane[None](pane().view.many),
+    )
 
 
 def photo(

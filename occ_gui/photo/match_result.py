@@ -44,6 +44,10 @@ class MatchResult(QWidget):
         self.paste = PasteLines()
         self._turned = False
         self.mark = OutdatedMark(self.figures)
+        self.condition = QLabel()
+        self.condition.setWordWrap(True)
+        self.condition.setTextFormat(Qt.TextFormat.PlainText)
+        self.condition.setAccessibleName("What the figures rest on")
         self.stale = QLabel()
         self.stale.setWordWrap(True)
         self.stale.setTextFormat(Qt.TextFormat.PlainText)
@@ -61,7 +65,7 @@ class MatchResult(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(4)
         # The cure is what most photographers came for: it needs no scrolling.
-        for label in (self.verdict, self.stale, self.cure):
+        for label in (self.verdict, self.stale, self.condition, self.cure):
             layout.addWidget(label)
         layout.addWidget(self.without_bars, alignment=Qt.AlignmentFlag.AlignLeft)
         for part in (self.figures, self.paste):
@@ -133,8 +137,7 @@ class MatchResult(QWidget):
         elif first:
             text += f" Set {first} if the camera keeps what is written"
             text += f", else {kept}." if kept else "."
-        assumed = condition_of(match, self._certain).rstrip(": ")
-        self.cure.setText(f"{text} ({assumed})" if assumed else text)
+        self.cure.setText(text)
 
     def _depth(self, found: Cure, match: Match) -> str:
         if match.exposure_verdict != "sure":
@@ -155,9 +158,11 @@ class MatchResult(QWidget):
             part.setVisible(self._cure is not None)
         if self._cure is not None:
             self._show_cure(self._cure, match)
+        condition = condition_of(match, self._certain)
+        self.condition.setText(f"What follows holds {condition.removesuffix(': ')}.")
+        self.condition.setVisible(bool(condition))
         self.figures.show_match(match, self._certain, self._noted)
-        lines = lines_of_match(match, turned=self._turned)
-        self.paste.show_lines_if(condition_of(match, self._certain), lines)
+        self.paste.show_lines_if(condition, lines_of_match(match, turned=self._turned))
 
     def show_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""

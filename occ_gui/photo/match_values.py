@@ -69,9 +69,12 @@ class MatchValues(QWidget):
         noted
             The exposure time in seconds that the camera noted in the photo, None if it did not.
         """
-        facts = match_facts(match, condition_of(match, certain), noted)
-        others = [f"• {fact}" for fact in facts if fact.key == "alternative"]
-        texts = {fact.key: str(fact) for fact in facts} | {"alternative": "\n".join(others)}
+        condition = condition_of(match, certain)
+        facts = match_facts(match, condition, noted)
+        # What they rest on is said once, above them.
+        told = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
+        others = [f"• {text}" for key, text in told if key == "alternative"]
+        texts = dict(told) | {"alternative": "\n".join(others)}
         if "gamma" not in match.uncertainties:  # the scene's says nothing of the photo
             texts["gamma"] = ""
         for name, label in self.labels.items():

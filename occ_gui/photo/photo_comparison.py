@@ -16,7 +16,7 @@ _LEAST_SWING = 0.5
 
 def compared(part: PhotoPart) -> tuple[object, ...]:
     """Give what a comparison follows from."""
-    found = (part.stripes, part.why_no_stripes)
+    found = (part.compared_stripes, part.why_no_stripes)
     return (part.photo, part.reading, *found, part.placement, part.is_enhanced)
 
 
@@ -36,15 +36,16 @@ def photo_profile(part: PhotoPart) -> PhotoProfile | None:
     raw = photo.profile
     if part.is_enhanced:
         raw = enhance(raw, reading.scene.model.enhancement).astype(np.float64)
-    return PhotoProfile(comparison, raw, placement.column, placement.scale, sentence)
+    return PhotoProfile(comparison, raw, placement.column, placement.scale, sentence, photo)
 
 
 def _compare(part: PhotoPart, reading: Reading) -> Comparison | None:
-    placement, stripes = part.placement, part.stripes
+    placement, stripes = part.placement, part.compared_stripes
     if stripes is None:
         return None
     first = placement.column + stripes.region.first_column * placement.scale
-    comparison = compare(stripes.flattened, reading.profile, first, placement.scale)
+    swing = stripes.high - stripes.low
+    comparison = compare(stripes.flattened, reading.profile, first, placement.scale, swing)
     if not part.is_enhanced:
         return comparison
     return enhance_comparison(comparison, reading.signal, reading.scene.model.enhancement)

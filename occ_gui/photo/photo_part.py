@@ -57,11 +57,18 @@ def found_in(results: Results) -> FoundMatch | None:
     return found
 
 
-def automatic_placement(photo: Photo, reading: ColumnView) -> Placement:
-    """Place a photo of the picture's size at its corner, and any other at the panel's corner."""
+def automatic_placement(
+    photo: Photo, reading: ColumnView, searched: StripeSearch | None = None
+) -> Placement:
+    """Place a photo of the picture's size at its corner, and of any other its lamp on the panel."""
     camera = reading.scene.camera
-    is_same = photo.image.shape == (camera.rows, camera.columns)
-    return Placement() if is_same else Placement(*reading.panel_origin)
+    if photo.image.shape == (camera.rows, camera.columns):
+        return Placement()
+    column, row = reading.panel_origin
+    if searched is not None and searched.stripes is not None:
+        lamp = searched.stripes.region
+        column, row = column - lamp.first_column, row - lamp.first_row
+    return Placement(column, row)
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +110,7 @@ class PhotoPart:
         if placed is not None and is_by_hand:
             placement = placed.placement.within_limits()
         elif reading is not None:
-            placement = automatic_placement(opened.photo, reading)
+            placement = automatic_placement(opened.photo, reading, results.stripes)
         return replace(
             there,
             photo=opened.photo,
@@ -123,6 +130,18 @@ class PhotoPart:
         if self.match is not None:
             return self.match.stripes
         return None if self.searched is None else self.searched.stripes
+
+    @property
+    def compared_stripes(self) -> Stripes | None:
+        """The stripes as they are compared: by the levels of the match once it is applied.
+
+        Before, those of another scene than the one that is shown would make the same residual
+        another.
+        """
+        match, searched, reading = self.match, self.searched, self.reading
+        if match is None or searched is None or searched.stripes is None or reading is None:
+            return self.stripes
+        return match.stripes if match.is_applied_to(reading.scene) else searched.stripes
 
     @property
     def why_no_stripes(self) -> str:

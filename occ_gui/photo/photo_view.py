@@ -63,6 +63,7 @@ class PhotoView(QWidget):
         self._pages = QStackedWidget()
         self._pages.addWidget(self._make_invitation())
         self._pages.addWidget(self._make_page())
+        self.verdict.step_taken.connect(self._match_square)
         self.steps = PhotoSteps()
         self.steps.chosen.connect(self._go_to_step)
         self._match: Match | None = None
@@ -111,7 +112,6 @@ class PhotoView(QWidget):
         layout = QVBoxLayout(page)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(5)
-        layout.addWidget(self.many)
         layout.addWidget(self.facts)
         layout.addWidget(_line())
         layout.addWidget(self.lamps)
@@ -187,6 +187,10 @@ class PhotoView(QWidget):
             self.form.start.click()
         else:
             self.result.apply.click()
+
+    def _match_square(self) -> None:
+        self._bring_into_view(self.form)
+        self.form.match_square()
 
     def show_placement(self, placement: Placement, by_hand: bool) -> None:
         """Show where the photo lies."""

@@ -9,6 +9,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.pens import PHOTO, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
+from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Comparison
 
 _LEAST_HEIGHT = 56
@@ -44,6 +45,9 @@ class ResidualPlot(QWidget):
         zero = pg.InfiniteLine(angle=0, pen=thin(THRESHOLD, Qt.PenStyle.DashDotLine))
         self.plot.addItem(zero, ignoreBounds=True)
         self.curve = self.plot.add_curve(thin(PHOTO))
+        self._photo: Photo | None = None
+        self._limit = _STEPS[0]
+        """The end of the axis: for one photo it only grows, so that a residual is seen to fall."""
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(1)
@@ -72,6 +76,9 @@ class ResidualPlot(QWidget):
         self.curve.setData(columns, residual)
         usual = comparison.usual_residual
         limit = next((step for step in _STEPS if usual <= step), _STEPS[-1])
+        if profile.photo is not None and profile.photo is self._photo:
+            limit = max(limit, self._limit)
+        self._photo, self._limit = profile.photo, limit
         self.plot.setYRange(-limit, limit, padding=_PADDING)
         ticks = [(level, f"{level:.0f}") for level in (-limit, 0.0, limit)]
         self.plot.getAxis("left").setTicks([ticks])

@@ -102,6 +102,8 @@ class PhotoProfile:
         The simulated column under the photo's first one, and simulated columns per photo column.
     sentence
         Why there is no comparison; also empty while the photo is searched for stripes.
+    photo
+        Whose profile it is.
     """
 
     comparison: "Comparison | None"
@@ -109,3 +111,4 @@ class PhotoProfile:
     first_column: float = 0.0
     scale: float = 1.0
     sentence: str = ""
+    photo: Photo | None = None

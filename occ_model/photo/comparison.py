@@ -12,7 +12,11 @@ _LEAST_DEVIATION = 1e-9
 
 
 def compare(
-    flattened: FloatArray, simulated: FloatArray, first_column: float = 0.0, scale: float = 1.0
+    flattened: FloatArray,
+    simulated: FloatArray,
+    first_column: float = 0.0,
+    scale: float = 1.0,
+    swing: FloatArray | None = None,
 ) -> Comparison:
     """Compare a photo's profile with a simulated one, column by column.
 
@@ -29,6 +33,9 @@ def compare(
         The column of the simulation on which the photo's first column lies.
     scale
         Columns of the simulation per column of the photo.
+    swing : ndarray of float64, shape (columns of the photo,), or None
+        Height of the photo's stripes before they were flattened: faint ones count as much less as
+        they were stretched. None: all count alike.
 
     Returns
     -------
@@ -46,7 +53,8 @@ def compare(
             f"The photo is to lie at column {first_column:g}, scaled by {scale:g}; allowed: "
             "numbers, and a scale above 0."
         )
-    for name, profile in (("flattened", flattened), ("simulated", simulated)):
+    swing = np.ones(len(flattened)) if swing is None else swing
+    for name, profile in (("flattened", flattened), ("simulated", simulated), ("swing", swing)):
         if np.ndim(profile) != 1:
             shape = np.shape(profile)
             raise ParameterError(f"{name} has the shape {shape}; allowed: a value for each column.")
@@ -55,13 +63,12 @@ def compare(
     if last <= first:
         raise MatchError("The photo lies beside the simulated picture; move it over the panel.")
     place = (np.arange(first, last + 1) - first_column) / scale
-    seen = np.interp(place, np.arange(len(flattened)), flattened)
+    columns = np.arange(len(flattened))
+    seen, height = (np.interp(place, columns, of) for of in (flattened, swing))
+    height /= np.sqrt(np.mean(height**2))
     under = simulated[first : last + 1]
-    about_mean, swing = seen - seen.mean(), under - under.mean()
-    if about_mean.std() < _LEAST_DEVIATION or swing.std() < _LEAST_DEVIATION:
-        return Comparison(first, np.full(len(under), under.mean()), under, 0.0)
-    photo = under.mean() + about_mean * (swing.std() / about_mean.std())
-    return Comparison(first, photo, under, _correlation(seen, under))
+    correlation, mean, gain = _agreement(seen, under, height)
+    return Comparison(first, mean[1] + gain * (seen - mean[0]), under, correlation, height)
 
 
 def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str) -> Comparison:
@@ -78,12 +85,20 @@ def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str
     first = comparison.first_column
     photo = enhance(comparison.photo, method).astype(np.float64)
     under = enhanced[first : first + len(photo)]
-    return Comparison(first, photo, under, _correlation(photo, under))
+    return Comparison(first, photo, under, _agreement(photo, under, np.ones(len(photo)))[0])
 
 
-def _correlation(seen: FloatArray, under: FloatArray) -> float:
-    """Return the correlation of two profiles, 0 where one has no stripes."""
-    about_mean, swing = seen - seen.mean(), under - under.mean()
-    if about_mean.std() < _LEAST_DEVIATION or swing.std() < _LEAST_DEVIATION:
-        return 0.0
-    return float(np.mean(about_mean * swing) / (about_mean.std() * swing.std()))
+def _agreement(
+    seen: FloatArray, under: FloatArray, height: FloatArray
+) -> tuple[float, tuple[float, float], float]:
+    """Return the correlation of two profiles, their means, and the ratio of their deviations.
+
+    Correlation and ratio are 0 where one of them has no stripes.
+    """
+    weights = height**2 / np.sum(height**2)
+    means = float(weights @ seen), float(weights @ under)
+    a, b = seen - means[0], under - means[1]
+    one, other = float(np.sqrt(weights @ a**2)), float(np.sqrt(weights @ b**2))
+    if min(one, other) < _LEAST_DEVIATION:
+        return 0.0, means, 0.0
+    return float(weights @ (a * b)) / (one * other), means, other / one

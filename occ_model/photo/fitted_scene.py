@@ -12,8 +12,8 @@ from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import distorted
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.evidence.doubts import told_apart
-from occ_model.photo.evidence.hypothesis import runs_of
 from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.fit.joint_estimate import refined
 from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.reading.load import Photo
@@ -73,12 +73,14 @@ def described(
     stripes: Stripes,
     explanation: Explanation,
     check: Callable[[], object],
+    *,
+    was_read: bool,
 ) -> Match:
     """Express an explanation in SI units, and as a scene.
 
     Of fits that are as good with another exposure the one is taken that is nearest to the exposure
     time in the photo's EXIF data, or the shortest. ``check`` is called every few hundredths of a
-    second; what it raises ends the work.
+    second; what it raises ends the work. A pulse that ``was_read`` has a duty that was estimated.
     """
     region = stripes.region
     better = refined(stripes, Cells.of(photo, region), explanation, scene.camera.gamma, check)
@@ -90,6 +92,10 @@ def described(
     uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
     unsure = _doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
     scene = _rounded(scene, uncertainties)
+    if was_read and is_single_pulse(explanation.chips):
+        # The duty stated is that of whole chips, and so off by what the fit makes of it, too.
+        least = min(runs_of(explanation.chips))  # of which no more can be missing
+        uncertainties["duty"] = min(math.hypot(*fit.longer), least) / len(explanation.chips)
     camera = scene.camera
     return Match(
         scene=scene,
@@ -101,7 +107,7 @@ def described(
         gamma=camera.gamma,
         uncertainties=uncertainties,
         pattern="".join(map(str, sent_chips(scene.transmitter).tolist())),
-        pattern_was_read=False,
+        pattern_was_read=was_read,
         profile=fit.profile,
         correlation=fit.correlation,
         other_exposures=tuple(

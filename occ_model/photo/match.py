@@ -6,16 +6,17 @@ squares.
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.evidence.candidates import Candidates
-from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, is_turned
+from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
 from occ_model.photo.evidence.rows import rows_alike
 from occ_model.photo.evidence.verdict import Judge
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
+from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fitted_scene import (
     ESTIMATES,
     described,
@@ -37,11 +38,11 @@ __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
 
-_SAME_DUTY, _SAME_DUTY_IF_SATURATED = 0.99, 0.9
+_EXPLAINED = 0.998
 """Correlation of a scene's pulse from which its duty is not searched anew."""
 
-_UNSATURATED = 0.02
-"""Share of white pixels below which the width of a pulse is that of its light."""
+_SAME_DUTY = 2.0
+"""Standard deviations within which a duty that was found is the scene's."""
 
 _SECONDS = 0.05
 """Time between two reports of the progress."""
@@ -107,9 +108,8 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         scene,
         _cameras(stripes, scene, averaging, fit_gamma),
         fit_gamma,
-        lambda found: found.nearest(
-            lambda fit: exposure_time(fit, scene, estimate), photo.exposure_time
-        ),
+        lambda fit, rate: exposure_time(fit, _at_rate(scene, rate), estimate),
+        photo.exposure_time,
         report.again,
     )
     report(0.2)
@@ -117,24 +117,64 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
     hypotheses = _hypotheses(candidates, sent, report)
     chosen = _chosen(judge, hypotheses, stripes, sent)
-    found, beside = candidates.corrected(candidates.polished(chosen))
-    others = [*(one for one in hypotheses if one is not chosen), *beside]
-    apart = [one for one in others if not is_turned(one, found)]
-    verdict = judge.verdict(found, apart, is_given=sent == "scene")
-    report(0.9)
-    match = described(
-        photo, _at_rate(scene, found), estimate, stripes, found.explanation, report.again
-    )
+    case = _Case(photo, scene, estimate, candidates, judge, hypotheses, sent == "scene", report)
+    match = case.concluded(chosen)
+    if chosen.rate != 1.0 and case.may_be_as_sent(match):
+        match = case.concluded(next(one for one in hypotheses if not one.was_read))
     report(1.0)
-    return replace(
-        match,
-        pattern_was_read=found.was_read,
-        reasons=(*verdict.reasons, *match.reasons),
-        exposure_reasons=(*verdict.exposure_reasons, *match.exposure_reasons),
-        alternatives=tuple(
-            _alternative(one, evidence, scene, estimate) for one, evidence in verdict.others
-        ),
-    )
+    return match
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Case:
+    """The hypotheses about a photo, and what it takes to conclude from one of them."""
+
+    photo: Photo
+    scene: Scene
+    estimate: str
+    candidates: Candidates
+    judge: Judge
+    hypotheses: Sequence[Hypothesis]
+    is_given: bool
+    report: "_Progress"
+
+    def concluded(self, chosen: Hypothesis) -> Match:
+        """Express a hypothesis as a match, with the verdict on it beside the others."""
+        photo, scene, stripes = self.photo, self.scene, self.candidates.stripes
+        found, beside = self.candidates.corrected(self.candidates.polished(chosen))
+        others = [*(one for one in self.hypotheses if one is not chosen), *beside]
+        apart = [one for one in others if not is_turned(one, found)]
+        verdict = self.judge.verdict(found, apart, is_given=self.is_given)
+        self.report(0.9)
+        match = described(
+            photo,
+            _at_rate(scene, found.rate),
+            self.estimate,
+            stripes,
+            found.explanation,
+            self.report.again,
+            was_read=found.was_read,
+        )
+        return replace(
+            match,
+            reasons=(*verdict.reasons, *match.reasons),
+            exposure_reasons=(
+                *verdict.exposure_reasons,
+                *_doubts_by_exchange(photo, found),
+                *match.exposure_reasons,
+            ),
+            alternatives=tuple(
+                _alternative(one, evidence, scene, self.estimate)
+                for one, evidence in verdict.others
+            ),
+        )
+
+    def may_be_as_sent(self, match: Match) -> bool:
+        """Whether a duty that was searched is that of the scene, as far as its error tells."""
+        if not any(not one.was_read for one in self.hypotheses):
+            return False
+        given = float(sent_chips(self.scene.transmitter).mean())
+        return abs(match.duty - given) <= _SAME_DUTY * match.uncertainties["duty"]
 
 
 class _Progress:
@@ -204,9 +244,7 @@ def _read(candidates: Candidates, as_sent: Hypothesis | None, sent: str) -> list
         for one in read
         if not is_single_pulse(one.chips) or (as_sent is not None and is_turned(one, as_sent))
     ]
-    # White pixels lengthen pulses: their width then tells the duty only roughly.
-    enough = _SAME_DUTY if candidates.stripes.saturated < _UNSATURATED else _SAME_DUTY_IF_SATURATED
-    if as_sent is not None and as_sent.fit.correlation >= enough:
+    if as_sent is not None and as_sent.fit.correlation >= _EXPLAINED:
         return others
     dimmed = candidates.dimmed(as_sent)
     return others if dimmed is None else [*others, dimmed]
@@ -224,19 +262,29 @@ def _chosen(
         raise MatchError(*_why_unexplained(stripes, "read"), *error.reasons) from None
 
 
-def _at_rate(scene: Scene, found: Hypothesis) -> Scene:
-    """Let a scene send as many chips a second as a hypothesis supposes."""
-    if found.rate == 1.0:
+def _at_rate(scene: Scene, rate: float) -> Scene:
+    """Let a scene send so many chips in the time of one."""
+    if rate == 1.0:
         return scene
-    frequency = scene.transmitter.switching_frequency * found.rate
+    frequency = scene.transmitter.switching_frequency * rate
     try:
         return scene.replace(switching_frequency=frequency)
     except ParameterError as error:
         raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
 
 
+def _doubts_by_exchange(photo: Photo, found: Hypothesis) -> list[str]:
+    """Doubt a duty that was searched together with the exposure, whose parts they may exchange."""
+    if found.rate == 1.0 or photo.exposure_time is not None:
+        return []
+    return [
+        "A pulse as long as this exposure, exposed for as long as this pulse, makes the same "
+        "stripes, and the photo notes no exposure time: the duty may be that of the exposure."
+    ]
+
+
 def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str) -> Alternative:
-    scene = _at_rate(scene, other)
+    scene = _at_rate(scene, other.rate)
     readout, frequency = readout_and_frequency(other.fit, scene, estimate)
     return Alternative(
         sent=other.sent,

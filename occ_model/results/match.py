@@ -266,17 +266,25 @@ class Comparison:
         The simulation's profile in these columns.
     correlation
         Correlation of the two; 0 where one of them is flat.
+    height : ndarray of float64, shape (columns,), or None
+        Height of the photo's stripes over its root mean square, by which columns count; None where
+        all count alike.
     """
 
     first_column: int
     photo: FloatArray
     simulated: FloatArray
     correlation: float
+    height: FloatArray | None = None
 
     @property
     def residual(self) -> FloatArray:
-        """The photo's profile less the simulated one, in grey levels, shape (columns,)."""
-        return self.photo - self.simulated
+        """The photo's profile less the simulated one, in grey levels, shape (columns,).
+
+        Where the photo's stripes are faint it is as faint.
+        """
+        residual = self.photo - self.simulated
+        return residual if self.height is None else residual * self.height
 
     @property
     def largest_residual(self) -> float:

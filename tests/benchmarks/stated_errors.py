@@ -58,8 +58,26 @@ def told(found: list[Trial]) -> list[str]:
         f"sure: {sure}, doubtful: {len(found) - sure - refused}, refused: {refused}",
         f"sure, and wrong by more than {100.0 * _WRONG:g} %: {len(wrong)}",
         *(f"  seed {one.seed}: by {100.0 * one.readout:.2g} %" for one in wrong),
+        *duties(found),
         *table(found),
     ]
+
+
+def duties(found: list[Trial]) -> list[str]:
+    """Say how well the duties of pulses are told, and how many that were given are not so."""
+    sure = [one for one in found if one.is_sure and np.isfinite(one.duty)]
+    measured = [one for one in sure if np.isfinite(one.duty_deviation)]
+    off = np.abs([one.duty / one.duty_deviation for one in measured])
+    told_wrong = sum(abs(one.duty) > _WRONG for one in sure if one not in measured)
+    lines = [
+        f"sure pulses taken for the one told: {len(sure) - len(measured)}, wrongly {told_wrong}"
+    ]
+    if measured:
+        lines.append(
+            f"duties measured: {len(measured)}, within 1: {within(off, 1.0)}, within 2: "
+            f"{within(off, 2.0)}, largest {off.max():.1f}"
+        )
+    return lines
 
 
 def table(found: list[Trial]) -> list[str]:

@@ -38,6 +38,8 @@ class Trial:
         Why the match is not sure, and why its exposure time alone is not.
     failure
         Why there is none.
+    duty, duty_deviation
+        Error of a pulse's duty, and its standard deviation where it was not taken as told.
     """
 
     world: World | int
@@ -51,6 +53,8 @@ class Trial:
     doubts: tuple[str, ...] = ()
     exposure_doubts: tuple[str, ...] = ()
     failure: str = ""
+    duty: float = np.nan
+    duty_deviation: float = np.nan
 
     @property
     def seed(self) -> int:
@@ -116,7 +120,10 @@ def hot_trial_of(seed: int) -> Trial:
     is_pulse = "01" not in sent.chips
     chips = "10" if is_pulse else sent.chips
     chip = len(sent.chips) * sent.chip / len(chips)
-    return _trial_by_columns(seed, drawn.image, saturated, chips, chip, drawn.exposure, "auto")
+    duty = sent.chips.count("1") / len(sent.chips) if is_pulse else np.nan
+    return _trial_by_columns(
+        seed, drawn.image, saturated, chips, chip, drawn.exposure, "auto", duty
+    )
 
 
 def foreign_trial_of(seed: int) -> Trial:
@@ -136,6 +143,7 @@ def _trial_by_columns(
     chip: float,
     exposure: float,
     sent: str,
+    duty: float = np.nan,
 ) -> Trial:
     """Match a photograph whose chip and exposure are counted in columns."""
     scene = occ.load_preset("phone-68us").replace(
@@ -156,6 +164,8 @@ def _trial_by_columns(
         match.uncertainties["exposure_time"] / exposed,
         doubts=match.reasons,
         exposure_doubts=match.exposure_reasons,
+        duty=match.duty - duty,
+        duty_deviation=match.uncertainties.get("duty", np.nan),
     )
 
 

@@ -45,7 +45,7 @@ def test_an_exact_profile_gives_its_timing_back(index: int) -> None:
     true = Timing(step, exposure, middle, 2.22)
     profile = 40.0 + 150.0 * true.lit_fraction(Waveform(CHIPS), 2000)
     candidates = Search(profile, CHIPS).candidates(Search(profile, CHIPS).steps(), 2.22)
-    model = StripeModel(profile, Waveform(CHIPS), identity, step)
+    model = StripeModel(profile, CHIPS, identity, step)
     fit = min((model.fit(one.timing) for one in candidates[:6]), key=lambda found: found.residual)
     assert fit.timing.step == pytest.approx(step, rel=1e-6)
     assert fit.timing.exposure == pytest.approx(exposure, rel=1e-3)
@@ -59,7 +59,7 @@ def test_gamma_comes_back_where_it_is_asked_for() -> None:
     model_tone = camera_tones(scene, ("light",), 80.0, 220.0)[0].tone
     true = Timing(0.08, 0.7, 5.3, 2.6)
     tone = model_tone(true.lit_fraction(Waveform(CHIPS), 2500), 2.6)
-    model = StripeModel(80.0 + 140.0 * tone, Waveform(CHIPS), model_tone, 0.08)
+    model = StripeModel(80.0 + 140.0 * tone, CHIPS, model_tone, 0.08)
     fit = model.fit(Timing(0.08, 0.6, 5.35, 2.0), with_gamma=True)
     assert fit.timing.gamma == pytest.approx(2.6, rel=1e-3)
     assert fit.timing.exposure == pytest.approx(0.7, rel=1e-3)

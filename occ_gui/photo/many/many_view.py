@@ -4,9 +4,8 @@ import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QModelIndex, Qt, Signal
+from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
 from PySide6.QtWidgets import (
-    QFrame,
     QHBoxLayout,
     QLabel,
     QPushButton,
@@ -20,6 +19,7 @@ from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
 from occ_gui.photo.match_values import what_errors_mean
 from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.widgets.copying import copy_text
+from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.other_programs import (
@@ -39,9 +39,10 @@ from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
-_ROWS_SEEN = 6
+_ROWS_SEEN = 3
+_LEAST_BESIDE = QSize(220, 60)
 
-_WIDEST = {PHOTO: 120, NOTE: 280}
+_WIDEST = {PHOTO: 220, NOTE: 280}
 """Widths in pixels at most, so that the times stay in view; the whole text is in the tooltip."""
 
 
@@ -101,27 +102,37 @@ class ManyPhotosView(QWidget):
         self._scene: Scene | None = None
         self._given = math.nan
         self._certain: Mapping[str, float] = {}
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        buttons = QHBoxLayout()
+        self._lay_out()
+        self._show_title()
+
+    def _lay_out(self) -> None:
+        """Lay the table beside what the photos tell together: the pane is wide and low."""
+        self._together = QWidget()
+        together = QVBoxLayout(self._together)
+        together.setContentsMargins(0, 0, 0, 0)
+        for part in (self.stale, self.mean, self.exposure, self.frame, self.notes, self.paste):
+            together.addWidget(part)
+        together.addStretch()
+        self._beside = ScrollPane(self._together, _LEAST_BESIDE)
+        self._beside.hide()
+        head = QHBoxLayout()
+        head.addWidget(self.title, 1)
         for button in (self.start, self.copy, self.save, self.close_table):
-            buttons.addWidget(button)
-        buttons.addStretch()
-        parts = (self.title, self.table, self.work, self.mean, self.exposure, self.frame)
-        for part in (*parts, self.notes, self.stale, self.paste):
-            layout.addWidget(part)
-        layout.addLayout(buttons)
-        line = QFrame()
-        line.setFrameShape(QFrame.Shape.HLine)
-        line.setFrameShadow(QFrame.Shadow.Sunken)
-        layout.addWidget(line)
-        self.hide()
+            head.addWidget(button)
+        below = QHBoxLayout()
+        below.addWidget(self.table, 3)
+        below.addWidget(self._beside, 2)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(4, 0, 4, 4)
+        layout.setSpacing(4)
+        layout.addLayout(head)
+        layout.addLayout(below, 1)
+        layout.addWidget(self.work)
 
     def _make_buttons(self) -> None:
         self.start = QPushButton("Match &all")
         self.start.setToolTip(
-            "Match every photo with the choices below, and combine what they measure."
+            "Match every photo with the choices of the pane Photo, and combine what they measure."
         )
         self.start.clicked.connect(self.match_asked)
         self.copy = QPushButton("&Copy table")
@@ -148,6 +159,7 @@ class ManyPhotosView(QWidget):
         self.table.verticalHeader().hide()
         self.table.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + 6)
         self.table.horizontalHeader().setHighlightSections(False)
+        self.table.horizontalHeader().setStretchLastSection(True)
         row, header = self.fontMetrics().height() + 6, self.table.horizontalHeader().sizeHint()
         self.table.setMinimumHeight(header.height() + _ROWS_SEEN * row)
         self.table.clicked.connect(self._choose)
@@ -172,7 +184,8 @@ class ManyPhotosView(QWidget):
         self._asked = None
         self._show_title()
         self._fit_columns()
-        self.setVisible(bool(paths))
+        for button in (self.start, self.close_table):
+            button.setEnabled(bool(paths))
         self.files_shown.emit()
 
     def show_begun(self, estimate: str, scene: Scene) -> None:
@@ -199,8 +212,10 @@ class ManyPhotosView(QWidget):
     def _show_title(self) -> None:
         """Show how many photos there are, their verdicts, and what their times rest on."""
         text = f"{len(self.rows.paths)} photos"
-        if self._asked is None:
-            text += ", not matched yet: say below what is known."
+        if not self.rows.paths:
+            text = "Open several photos together, or drop them, to match them all."
+        elif self._asked is None:
+            text += ", not matched yet: say in the pane Photo what is known."
         else:
             text += f": {self._counts}" if self._counts else ""
             rests_on = self._rests_on(*self._asked)
@@ -231,6 +246,7 @@ class ManyPhotosView(QWidget):
     def _show_note(self, sentence: str) -> None:
         self.notes.setText(sentence)
         self.notes.show()
+        self._beside.show()
 
     def show_table(self, table: PhotoTable) -> None:
         """Show the complete table, and the mean."""
@@ -298,6 +314,7 @@ class ManyPhotosView(QWidget):
         for label, text in texts.items():
             label.setText(text)
             label.setVisible(bool(text))
+        self._beside.setVisible(any(texts.values()))
 
     def _mean(self, name: str, found: CombinedEstimate | None, condition: str) -> str:
         if found is None:

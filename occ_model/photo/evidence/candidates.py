@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, pulse
+from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation, explain, explain_near, polished
 from occ_model.photo.fit.camera_response import CameraTone
+from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.least_squares import StripeFit, Tone
-from occ_model.photo.fit.read_pattern import MOST_CHIPS, canonical, read_otherwise, read_patterns
+from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
 from occ_model.photo.fitted_scene import with_chips
 from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
@@ -45,6 +46,10 @@ _DUTIES = 50
 _DUTY_STEPS = (4, 2, 1)
 """Parts of a period by which the duty is changed, one after the other, to find the best."""
 
+_MOST_EXCHANGED = 1.5
+"""Ratio of squared residuals up to which a pulse and its exposure may be exchanged: both are only
+rounded to parts of a period."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidates:
@@ -52,8 +57,12 @@ class Candidates:
 
     Parameters
     ----------
-    chosen
-        Function that chooses the reported fit of an explanation.
+    exposed
+        Function that gives the exposure time of a fit, in seconds, by its chips in the time of one
+        of the scene's.
+    noted
+        The exposure time that the camera noted, in seconds, None if it did not: of fits that are as
+        good the one that is nearest to it is reported.
     check
         Called every few hundredths of a second; what it raises ends the fitting.
     """
@@ -62,7 +71,8 @@ class Candidates:
     scene: Scene
     cameras: list[CameraTone]
     fit_gamma: bool
-    chosen: Callable[[Explanation], StripeFit]
+    exposed: Callable[[StripeFit, float], float]
+    noted: float | None
     check: Callable[[], object]
 
     def as_sent(self) -> Hypothesis | None:
@@ -131,12 +141,30 @@ class Candidates:
                 fitted = same._dimmed(on, period, len(sent)) if on not in found else None
                 if fitted is not None:
                     found[on] = fitted
-        return min(found.values(), key=self._power, default=None)
+        best = min(found.values(), key=self._power, default=None)
+        return best and same._exchanged(best, period, len(sent))
+
+    def _exchanged(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis:
+        """Exchange a pulse and its exposure where that is nearer to what is known of them.
+
+        The stripes of a pulse are its light averaged over the exposure, which the two share alike:
+        which of them is which is seen from neither. Taken is the exposure nearest to the one noted,
+        or the shorter one.
+        """
+        on = round(_DUTIES * found.fit.timing.exposure / len(found.chips))
+        other = self._dimmed(on, period, chips_sent)
+        if other is None or self._power(other) > _MOST_EXCHANGED * self._power(found):
+            return found
+        times = {one: self.exposed(one.fit, one.rate) for one in (found, other)}
+        noted = self.noted
+        if noted is None:
+            return min(times, key=times.__getitem__)
+        return min(times, key=lambda one: abs(np.log(times[one] / noted)))
 
     def polished(self, found: Hypothesis) -> Hypothesis:
         """Refine the fits of the hypothesis that was chosen."""
         explanation = polished(self.stripes, found.explanation)
-        return replace(found, explanation=explanation, fit=self.chosen(explanation))
+        return replace(found, explanation=explanation, fit=self._nearest(explanation, found.rate))
 
     def _dimmed(self, on: int, period: float, chips_sent: int) -> Hypothesis | None:
         if not 0 < on < _DUTIES:
@@ -144,8 +172,8 @@ class Candidates:
         chips = pulse(on, _DUTIES)
         step = [self._near(len(chips) / period)]
         sent = f"the scene's wave with a duty of {on * 100 // _DUTIES} %"
-        fitted = self._fitted(sent, chips, step, bits=np.log2(_DUTIES), was_read=True)
-        return fitted and replace(fitted, rate=len(chips) / chips_sent)
+        rate = len(chips) / chips_sent
+        return self._fitted(sent, chips, step, bits=np.log2(_DUTIES), was_read=True, rate=rate)
 
     def _power(self, found: Hypothesis) -> float:
         return found.power(self.stripes.profile)
@@ -188,8 +216,8 @@ class Candidates:
         other = explain_near(
             self.stripes, chips, self._checked_cameras(), found.fit.timing, self.fit_gamma
         )
-        supposed = self._supposed(f"{self._named(chips)} instead", other, bits=bits, was_read=True)
-        return supposed and replace(supposed, rate=found.rate)
+        sent = f"{self._named(chips)} instead"
+        return self._supposed(sent, other, bits=bits, was_read=True, rate=found.rate)
 
     def _checked(self, tone: Tone) -> Tone:
         """Check too whenever a fit evaluates the camera's response."""
@@ -216,6 +244,7 @@ class Candidates:
         *,
         bits: float,
         was_read: bool,
+        rate: float = 1.0,
     ) -> Hypothesis | None:
         gamma = self.scene.camera.gamma
         found = explain(
@@ -227,14 +256,17 @@ class Candidates:
             steps,
             check=self.check,
         )
-        return self._supposed(sent, found, bits=bits, was_read=was_read)
+        return self._supposed(sent, found, bits=bits, was_read=was_read, rate=rate)
 
     def _supposed(
-        self, sent: str, found: Explanation | None, *, bits: float, was_read: bool
+        self, sent: str, found: Explanation | None, *, bits: float, was_read: bool, rate: float
     ) -> Hypothesis | None:
         if found is None:
             return None
-        return Hypothesis(sent, found, self.chosen(found), bits, was_read)
+        return Hypothesis(sent, found, self._nearest(found, rate), bits, was_read, rate)
+
+    def _nearest(self, found: Explanation, rate: float) -> StripeFit:
+        return found.nearest(lambda fit: self.exposed(fit, rate), self.noted)
 
     def _checked_cameras(self) -> list[CameraTone]:
         return [replace(camera, tone=self._checked(camera.tone)) for camera in self.cameras]

@@ -1,7 +1,8 @@
 """Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
 
-from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse, runs_of
+from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.repetition import strongest_line
+from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_share
 from occ_model.results.match import Stripes
 
@@ -72,6 +73,11 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
 
 def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
     """Say why the exposure of a hypothesis is doubtful, in sentences; its chips may not be."""
+    if found.rate != 1.0 and stripes.saturated > _MOST_FOR_DUTY:
+        return [
+            f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
+            "pulses: the duty may be smaller."
+        ]
     if stripes.saturated <= _MOST_FOR_EXPOSURE:
         return []
     if found.was_read and stripes.saturated > _MOST_SATURATED:
@@ -131,11 +137,6 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
         reasons.append(
             f"The rows show the same stripes only with a correlation of {rows_alike:.2f}; at least "
             f"{_LEAST_ROW_CORRELATION} is needed."
-        )
-    if found.rate != 1.0 and saturated > _MOST_FOR_DUTY:
-        reasons.append(
-            f"{100.0 * saturated:.0f} % of the pixels are white, which lengthens bright pulses: "
-            "the duty may be smaller."
         )
     if saturated > _MOST_SATURATED and found.was_read:
         reasons.append(_too_white(saturated, _MOST_SATURATED))

@@ -2,14 +2,13 @@
 
 import math
 from dataclasses import dataclass
-from itertools import groupby
 
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.chip_runs import canonical, chips_as_one, edges_in_view, is_single_pulse
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
-from occ_model.photo.fit.read_pattern import canonical
 from occ_model.photo.stripes.period import correlated_columns
 
 
@@ -53,20 +52,26 @@ class Hypothesis:
         return self.chips_in_view / len(self.chips)
 
     @property
+    def counted_chips(self) -> float:
+        """How many chips in view count: of a pulse two a period, however finely it is told."""
+        return self.chips_in_view / chips_as_one(self.chips)
+
+    @property
     def information(self) -> float:
         """Bits by which the fit is better than one by chance.
 
         A profile of N independent Gaussian values reaches the correlation r with a given one with a
         probability of about (1 - r^2)^(N/2). An exposure of several chips leaves fewer values.
         """
-        independent = self.chips_in_view / max(1.0, self.fit.timing.exposure)
+        exposed = self.fit.timing.exposure / chips_as_one(self.chips)
+        independent = self.counted_chips / max(1.0, exposed)
         unexplained = max(1.0 - max(self.fit.correlation, 0.0) ** 2, 1e-12)
         return -0.5 * independent * math.log2(unexplained) - self.bits
 
     @property
     def freedom(self) -> int:
         """Number of parameters of the fit: its levels, step, exposure and phase."""
-        return 3 + 2 * level_freedom(self.chips_in_view)
+        return 3 + 2 * level_freedom(edges_in_view(self.chips, self.chips_in_view))
 
     def shares_timing_with(self, other: "Hypothesis", *, is_given: bool) -> bool:
         """Whether other chips take the same time, so that they change no timing if they are right.
@@ -86,28 +91,6 @@ class Hypothesis:
         """Give the sum of the squared residuals."""
         residual = self.residual(profile)
         return float(residual @ residual)
-
-
-def runs_of(chips: ByteArray) -> list[int]:
-    """Count the chips of each run of equal chips in one period, from a change on."""
-    changes = np.flatnonzero(chips != np.roll(chips, 1))
-    if changes.size == 0:
-        return [len(chips)]
-    turned = np.roll(chips, -int(changes[0])).tolist()
-    return [len(list(run)) for _, run in groupby(turned)]
-
-
-def is_single_pulse(chips: ByteArray) -> bool:
-    """Whether a period has one pulse only, as any regular pattern has."""
-    return len(runs_of(canonical(chips))) <= 2
-
-
-def pulse(on: int, count: int) -> ByteArray:
-    """Give the fewest chips of a pulse that is on for some of a number of parts of its period."""
-    shared = math.gcd(on, count)
-    chips = np.zeros(count // shared, dtype=np.uint8)
-    chips[: on // shared] = 1
-    return chips
 
 
 def log_likelihood(power: float, columns: int, independent: float, freedom: float) -> float:

@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 
-from occ_model.photo.evidence.hypothesis import Hypothesis, is_single_pulse
+from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.repeated_wave import RepeatedWave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve
+from occ_model.photo.fit.chip_runs import is_single_pulse
 
 _LEAST_GIVEN, _LEAST_READ = 0.8, 0.9
 """Correlations below which given chips, and chips that were read, explain nothing."""
@@ -22,8 +23,7 @@ _LEAST_ROW_CORRELATION = 0.7
 
 
 PLAIN_STRIPES = (
-    "These look like the plain stripes of one lamp: if it is a lamp, say that it sends a square "
-    "wave."
+    "These look like plain stripes of one lamp: if it is one, say that it sends a square wave."
 )
 """What to do about a refused pulse that repeats."""
 

@@ -113,7 +113,7 @@ class Judge:
         return refusals(found, beside, blinks=self._blinks)
 
     def _smooth(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> SmoothCurve:
-        most = int(_COSINES_A_CHIP * found.chips_in_view)
+        most = int(_COSINES_A_CHIP * found.counted_chips)
         return best_smooth_curve(
             self._stripes.profile, most, self._independent(everyone), self._error
         )

@@ -12,7 +12,6 @@ from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results.match import Stripes
-from occ_model.transmitter.waveform import Waveform
 
 _SURELY = 0.9
 """Correlation from which a candidate is taken as no coincidence."""
@@ -180,7 +179,7 @@ def polished(stripes: Stripes, explanation: Explanation) -> Explanation:
 
 
 def _model(stripes: Stripes, chips: ByteArray, camera: CameraTone, step: float) -> StripeModel:
-    return StripeModel(stripes.profile, Waveform(chips), camera.tone, step, camera.rank_resolution)
+    return StripeModel(stripes.profile, chips, camera.tone, step, camera.rank_resolution)
 
 
 def _best_of_cameras(

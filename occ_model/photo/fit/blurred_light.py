@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.timing import Timing
 
 _REACH = 8
@@ -24,7 +25,7 @@ _CHANGE = 1e-5
 """Columns by which blur is changed for the slope of its weights."""
 
 _LONGEST = 0.4
-"""Largest change, in chips, of the time that the LED is on."""
+"""Largest change of the time that the LED is on, as a share of the shortest run of chips."""
 
 BLUR = 3
 """The blur's place among the parameters of slopes: step, exposure, middle, blur and longer."""
@@ -44,6 +45,7 @@ class BlurredLight:
 
     def __init__(self, chips: ByteArray, columns: int) -> None:
         self._period = len(chips)
+        self._longest = _LONGEST * min(runs_of(chips))
         self._columns = columns
         change = chips.astype(np.int64) - np.roll(chips, 1)
         places = np.flatnonzero(change)
@@ -106,7 +108,7 @@ class BlurredLight:
         return slopes
 
     def _edges_of(self, longer: float) -> FloatArray:
-        longer = float(np.clip(longer, -_LONGEST, _LONGEST))
+        longer = float(np.clip(longer, -self._longest, self._longest))
         return self._edges - 0.5 * longer * self._changes
 
     def _places(self, timing: Timing) -> FloatArray:

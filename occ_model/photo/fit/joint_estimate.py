@@ -14,6 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.fit.averaged_fits import averaged
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
+from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.other_starts import (
@@ -25,10 +26,10 @@ from occ_model.photo.fit.other_starts import (
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results.match import Stripes
-from occ_model.transmitter.waveform import Waveform
 
 _CHIPS_LIT = 8
-"""Chips within which an LED is surely on for once; a whole period where that is shorter."""
+"""Chips within which an LED is surely on for once; a whole period where that is shorter, or where
+it is on once only."""
 
 _MOST_EXCESS_MISFIT = 60.0
 """Excess of the misfit from which an exposure is not refined."""
@@ -110,7 +111,8 @@ def refined(
     """
     step = explanation.fits[0].timing.step
     chips = explanation.chips
-    width = max(1, round(min(len(chips), _CHIPS_LIT) / step))
+    period = len(chips) / step
+    width = max(1, round(period if is_single_pulse(chips) else min(period, _CHIPS_LIT / step)))
     profiles = cells.profiles(width)
     if explanation.camera.enhancement == "equalization" or not profiles:
         return Refined(explanation.fits)
@@ -124,7 +126,7 @@ def refined(
     if not with_gamma and explanation.camera.averaging == "pixel-value":
         models.append(JointModel(profiles, chips, step, 1.0, check=check))
     model = StripeModel(
-        stripes.profile, Waveform(chips), explanation.camera.tone, step,
+        stripes.profile, chips, explanation.camera.tone, step,
         explanation.camera.rank_resolution,
     )  # fmt: skip
     found, alike = _modes(models, explanation, model.is_possible)
@@ -270,7 +272,8 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
         gamma *= math.exp(float(values[3]))
         covariance[3, :3] = covariance[:3, 3] = gamma * mode.covariance[3, :3]
         covariance[3, 3] = gamma**2 * mode.covariance[3, 3]
-    return _described(model, replace(timing, gamma=gamma), mode, covariance)
+    fit = _described(model, replace(timing, gamma=gamma), mode, covariance)
+    return replace(fit, longer=(float(values[8]), math.sqrt(float(mode.covariance[8, 8]))))
 
 
 def _with_width(timing: Timing, mode: JointFit) -> Timing:

@@ -15,8 +15,10 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.blurred_light import BlurShape
+from occ_model.photo.fit.chip_runs import chips_as_one, edges_in_view
 from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.joint_covariance import TRUSTED, covariance_of
+from occ_model.photo.fit.least_squares import level_freedom
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
 from occ_model.photo.fit.scaled_parameters import ScaledParameters
 from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, SeenStripes
@@ -55,8 +57,6 @@ _CHIPS_A_BLOCK = 2
 _LEAST_BLOCK = 16
 """Lengths of a block of columns whose residuals may be correlated; JPEG has blocks of 8."""
 
-_CHIPS_A_FREEDOM = 6
-_MOST_FREEDOM = 8
 _CHIPS_A_SLOW_SHAPE = 4
 _MOST_SLOW_SHAPES = 32
 """What varies as slowly in a residual says nothing of the timing: a lamp's brightness along the
@@ -135,12 +135,13 @@ class JointModel:
         check: Callable[[], object] = lambda: None,
     ) -> None:
         self._check = check
-        columns = len(profiles[0].values)
+        columns, as_one = len(profiles[0].values), chips_as_one(chips)
         self._columns, self._step, self.gamma = columns, step, gamma
-        freedom = int(np.clip(step * columns / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
-        slow = int(np.clip(step * columns / _CHIPS_A_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
+        counted = step * columns / as_one
+        freedom = level_freedom(edges_in_view(chips, step * columns))
+        slow = int(np.clip(counted / _CHIPS_A_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
         self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
-        width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK / step))
+        width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK * as_one / step))
         self._block = np.concatenate(
             [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
         )
@@ -148,7 +149,7 @@ class JointModel:
         self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
         usual = np.array(list(USUAL.values()))
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
-        self._deviation[5] = math.hypot(self._deviation[5], _SHIFTED * step)
+        self._deviation[5] = math.hypot(as_one * self._deviation[5], _SHIFTED * step)
         if wide:
             self._deviation[0] = _ANY_GAMMA
         allowed = PARAMETERS["gamma"]

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
+from occ_model.photo.fit.chip_runs import edges_in_view
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
@@ -44,7 +45,7 @@ deviation of a hundred of its scales."""
 _LEAST_SWING = 0.05
 """Share of the largest swing below which a column's stripes are not significant."""
 
-_CHIPS_A_FREEDOM = 6
+_EDGES_A_FREEDOM = 4
 _MOST_FREEDOM = 8
 
 _SHORTEST = 1e-4
@@ -77,6 +78,9 @@ class StripeFit:
         Largest residual of a timing that is about as likely: within two standard deviations.
     is_possible
         Whether the levels can be a picture's: lit above dark, and dark not negative.
+    longer
+        By how many chips the LED is on longer than the chips say, with its standard deviation;
+        (0, 0) where that was not fitted.
     """
 
     timing: Timing
@@ -88,6 +92,7 @@ class StripeFit:
     residual: float
     likely: float
     is_possible: bool
+    longer: tuple[float, float] = (0.0, 0.0)
 
 
 class StripeModel:
@@ -97,6 +102,8 @@ class StripeModel:
     ----------
     profile : ndarray of float64, shape (columns,)
         Grey levels.
+    chips : ndarray of uint8, shape (chips,)
+        One period.
     step
         Chips per column, roughly: the number of chips limits the degrees of freedom of the levels.
     rank_resolution
@@ -106,17 +113,18 @@ class StripeModel:
     def __init__(
         self,
         profile: FloatArray,
-        waveform: Waveform,
+        chips: ByteArray,
         tone: Tone,
         step: float,
         rank_resolution: float = 0.0,
     ) -> None:
         self._profile = profile
-        self._waveform = waveform
+        self._waveform = Waveform(chips)
         self._tone = tone
         self._change = max(_TIMING_STEP, rank_resolution) * step
         # The same number for both levels, or else the mean would fit better than the swing.
-        self._shapes = smooth_shapes(len(profile), level_freedom(step * len(profile)))
+        edges = edges_in_view(chips, step * len(profile))
+        self._shapes = smooth_shapes(len(profile), level_freedom(edges))
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
         shapes = smooth_shapes(len(profile), 2 * self._shapes.shape[1] - 1)
@@ -227,9 +235,9 @@ def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
     return usual > 0.0 and float(np.median(low)) > _DARKEST * usual
 
 
-def level_freedom(chips: float) -> int:
-    """Give the number of parameters of either level, for a number of chips in view."""
-    return int(np.clip(chips / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
+def level_freedom(edges: float) -> int:
+    """Give the number of parameters of either level, for a number of edges in view."""
+    return int(np.clip(edges / _EDGES_A_FREEDOM, 1, _MOST_FREEDOM))
 
 
 def _blur_deviation(timing: Timing) -> float:

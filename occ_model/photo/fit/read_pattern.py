@@ -9,9 +9,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.photo.chips.edges import Edges, edges_of
 from occ_model.photo.chips.lattice import coherence
+from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.chips_by_descent import chips_by_descent
 from occ_model.photo.fit.chips_of_harmonics import (
     Harmonics,
@@ -221,12 +222,3 @@ def _shortened(read: ReadPattern) -> ReadPattern:
     chips = canonical(np.roll(once, -int(changes[0]))[::shared])
     # The period found may hold the chips several times.
     return replace(read, chips=chips, times=len(read.chips) // len(once))
-
-
-def canonical(chips: ByteArray) -> ByteArray:
-    """Rotate a sequence so that its longest run of ones comes first, and keep one period of it."""
-    text = "".join(map(str, chips.tolist()))
-    shortest = (text + text).find(text, 1)
-    text = text[:shortest]
-    turned = max(text[start:] + text[:start] for start in range(len(text)))
-    return np.array(list(turned), dtype=np.uint8)

@@ -115,11 +115,12 @@ def test_dropped_files_that_are_not_shown_are_reported(
 
 
 def test_photos_dropped_together_become_a_table_and_the_first_opens(
-    application: Application, user: User, photo_file: Path, taken: Path
+    application: Application, user: User, photo_file: Path, taken: Path, qtbot: QtBot
 ) -> None:
     application.window.dropped.emit([photo_file, taken])
     user.wait_until_idle()
     assert application.view("photo").many.rows.paths == (photo_file, taken)
+    qtbot.waitUntil(lambda: application.view("photo").many.isVisible())  # across the bottom
     assert application.window.actions_by_name["match_all"].isEnabled()
     assert application.window.windowTitle().startswith("stripes.png")
 
@@ -132,7 +133,7 @@ def test_a_table_whose_first_photo_is_damaged_is_shown(
     damaged.write_bytes(b"nothing")
     application.window.dropped.emit([damaged, photo_file])
     user.wait_until_idle()
-    assert application.view("photo").many.isVisibleTo(application.view("photo"))
+    assert application.view("photo").many.isVisible()
     application.view("photo").many.photo_chosen.emit(photo_file)
     user.wait_until_idle()
     assert application.window.windowTitle().startswith("stripes.png")

@@ -68,8 +68,9 @@ class Bench(PhotoBench):
         assert opened is not None
         self.choose(placed=None if placement is None else Placed(opened.source, placement))
 
-    def show_match(self, photo: Photo, stripes: Stripes) -> None:
-        found = FoundMatch(photo, None, match_with(stripes), 1e4)
+    def show_match(self, photo: Photo, stripes: Stripes, scene: occ.Scene | None = None) -> None:
+        match = replace(match_with(stripes), scene=scene or occ.Scene())
+        found = FoundMatch(photo, None, match, 1e4)
         self.board.put(replace(self.board.results, match=found))
 
     def set_enhanced(self, enhanced: bool) -> None:
@@ -221,16 +222,19 @@ def test_the_stripes_of_a_photo_that_is_gone_are_forgotten(
     assert bench.shown is None
 
 
-def test_a_matchs_own_levels_take_the_place_of_those_found(
+def test_a_matchs_own_levels_take_the_place_of_those_found_once_it_is_applied(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.show_reading(snapshot_of())
+    snapshot = snapshot_of()
+    bench.show_reading(snapshot)
     bench.show_photo(photo)
     bench.residual()
     before = bench.comparison.correlation
     found = stripes_of(photo)
     fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
     bench.show_match(photo, fitted)
+    assert bench.comparison.correlation == before  # of the same scene as before the match
+    bench.show_match(photo, fitted, snapshot.scene)
     assert bench.comparison.correlation != before
 
 
@@ -275,7 +279,11 @@ def test_a_photo_lies_at_the_panels_corner(
     for distance in (1.2, 2.0):
         snapshot = snapshot_of(distance=distance)
         bench.show_reading(snapshot)
-        assert bench.part.placement == Placement(*snapshot.panel_origin)
+        column, row = snapshot.panel_origin
+        assert bench.part.placement == Placement(column, row)
+    bench.residual()
+    # Once its lamp is found, which begins in its tenth column, that lies on the panel.
+    assert bench.part.placement == Placement(column - 10.0, row)
 
 
 def test_a_photo_of_the_pictures_very_size_lies_pixel_on_pixel(

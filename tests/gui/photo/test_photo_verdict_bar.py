@@ -4,10 +4,12 @@ from dataclasses import replace
 
 import pytest
 from gui.photo.photo_bench import LiveView
+from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
+from occ_gui.values.match_choice import MatchChoice
 from occ_gui.widgets.state_look import State
 from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.reading.load import Photo
@@ -80,11 +82,12 @@ def test_bar_and_figures_rest_on_the_same_value_until_it_is_confirmed(
         view.show_matched(shown)
         for certain in ({}, {"switching_frequency": 2e3}, {"switching_frequency": 4e3}):
             view.confirm(certain)
-            figure = view.result.values["readout_time"].text()
-            condition, colon, _ = figure.rpartition(": ")
+            is_assumed = certain.get("switching_frequency") != 2e3
+            said = view.result.condition.text().removeprefix("What follows holds ").rstrip(".")
+            condition = f"{said.lower()}: " if is_assumed else ""
             told = bar.accessibleDescription().lower()
-            assert (condition.lower() + colon + "readout time") in told
-            assert ("if " in told) == bool(condition) == (certain.get("switching_frequency") != 2e3)
+            assert f"{condition}readout time" in told
+            assert ("if " in told) == view.result.condition.isVisible() == is_assumed
 
 
 def test_a_blinking_lamp_is_named_by_its_own_frequency(
@@ -136,12 +139,32 @@ def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
     low = bar.minimumSizeHint().height()
     last = "They repeat after 40.0 columns."
     view.show_match_refused([PLAIN_STRIPES, last])
+    assert bar.wrapped.toolTip() == f"{PLAIN_STRIPES} {last}"  # beside the button it is shortened
+    bar.resize(500, 60)
+    assert not bar.wrapped.toolTip()
     assert bar.wrapped.isVisible()
     assert bar.wrapped.text().endswith(f"{PLAIN_STRIPES} {last}")
     assert bar.minimumSizeHint().height() > low
     assert bar.wrapped.heightForWidth(bar.wrapped.width()) <= bar.wrapped.height() + 2
     view.open(photo)
     assert bar.minimumSizeHint().height() == low
+
+
+def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
+    view: LiveView, bar: PhotoVerdictBar, photo: Photo, qtbot: QtBot
+) -> None:
+    asked: list[MatchChoice] = []
+    view.form.asked.connect(asked.append)
+    view.open(photo)
+    view.show_match_refused(REASONS)
+    assert bar.step.isHidden()
+    view.show_match_refused([PLAIN_STRIPES, "They repeat after 40.0 columns."])
+    assert not bar.step.isHidden()
+    qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
+    assert [one.sent for one in asked] == ["square"]
+    assert not view.form.certain.isChecked()
+    view.show_match_begun()
+    assert bar.step.isHidden()
 
 
 def test_a_doubtful_match_says_why_and_how_many_reasons_more_there_are(

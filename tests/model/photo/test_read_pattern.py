@@ -8,8 +8,9 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from occ_model.arrays import ByteArray
+from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
-from occ_model.photo.fit.read_pattern import canonical, read_otherwise, read_patterns
+from occ_model.photo.fit.read_pattern import read_otherwise, read_patterns
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 

@@ -11,8 +11,9 @@ from simulated_photos import photo_of, random_scene, take
 from verdicts import Said, said_of, said_of_negative, said_of_other_code
 
 import occ_model as occ
-from occ_model.photo.evidence.hypothesis import Hypothesis, pulse, runs_of
+from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.refusal import PLAIN_STRIPES
+from occ_model.photo.fit.chip_runs import pulse, runs_of
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.joint_fit import JointModel
 from occ_model.photo.fit.timing import Timing

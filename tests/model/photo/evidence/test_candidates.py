@@ -46,7 +46,7 @@ class Reading:
         stripes: Any = SimpleNamespace(
             period=period, profile=line, flattened=line, saturated=saturated
         )
-        made = Candidates(stripes, occ.Scene(), [], False, lambda _: None, lambda: None)  # type: ignore[arg-type,return-value]
+        made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
         return len(made.read(as_sent))
 
 
@@ -113,10 +113,11 @@ def test_other_chips_are_as_many_a_second_as_those_they_replace(
 ) -> None:
     """A dimmed lamp's 25 chips take the time of two: their readout time is 12.5 times smaller."""
     monkeypatch.setattr(candidates, "nearest_other", lambda *_: OTHER)
-    explained = Explanation(OTHER, (), CameraTone("light", "none", lambda lit, _: lit))
+    fit: Any = SimpleNamespace()
+    explained = Explanation(OTHER, (fit,), CameraTone("light", "none", lambda lit, _: lit))
     monkeypatch.setattr(candidates, "explain_near", lambda *_: explained)
     stripes: Any = SimpleNamespace(profile=np.zeros(10))
-    made = Candidates(stripes, occ.Scene(), [], False, lambda _: None, lambda: None)  # type: ignore[arg-type,return-value]
+    made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
     found: Any = SimpleNamespace(bits=1.0, rate=12.5, fit=SimpleNamespace(timing=None))
     other = made.nearest_other(found)
     assert other is not None

@@ -66,7 +66,8 @@ def test_neither_the_same_chips_turned_nor_chips_without_a_change_are_others() -
 
 
 def test_chips_are_named_by_their_code_or_by_their_number() -> None:
-    made = Candidates(SimpleNamespace(), occ.Scene(), [], False, lambda _: None, lambda: None)  # type: ignore[arg-type,return-value]
+    stripes: Any = SimpleNamespace()
+    made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
     packet = sent_chips(occ.Scene().replace(code=345).transmitter)
     assert made._named(packet) == "the code 0101011001"
     assert made._named(packet[1:]) == f"{len(packet) - 1} chips"

@@ -25,7 +25,7 @@ def tone(lit: np.ndarray, gamma: float) -> np.ndarray:
 
 
 def model_of(profile: np.ndarray = PROFILE) -> StripeModel:
-    return StripeModel(profile, Waveform(CHIPS), tone, TRUE.step)
+    return StripeModel(profile, CHIPS, tone, TRUE.step)
 
 
 def test_levels_are_those_of_least_squares() -> None:
@@ -48,8 +48,8 @@ def test_columns_at_white_are_left_out_while_enough_are_not() -> None:
     assert white.max() == pytest.approx(255.0, abs=0.5)
 
 
-def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
-    assert [level_freedom(chips) for chips in (0.0, 6.0, 23.9, 24.0, 1e6)] == [1, 1, 3, 4, 8]
+def test_levels_have_a_parameter_for_each_four_edges_within_bounds() -> None:
+    assert [level_freedom(edges) for edges in (0.0, 4.0, 15.9, 16.0, 1e6)] == [1, 1, 3, 4, 8]
 
 
 def test_an_exact_profile_is_explained_whole() -> None:
@@ -62,7 +62,7 @@ def test_an_exact_profile_is_explained_whole() -> None:
 def test_its_correlation_is_that_of_the_stripes_without_uneven_light() -> None:
     """Alike where nothing varies but the stripes: Pearson's coefficient."""
     flat = 40.0 + 100.0 * LIT + 12.0 * np.random.default_rng(4).normal(size=COLUMNS)
-    fit = StripeModel(flat, Waveform(CHIPS), tone, 0.01).described(TRUE, np.zeros((4, 4)))
+    fit = StripeModel(flat, CHIPS, tone, 0.01).described(TRUE, np.zeros((4, 4)))
     expected = np.corrcoef(flat, 40.0 + 100.0 * LIT)[0, 1]
     assert fit.correlation == pytest.approx(expected, abs=1e-9)
     assert fit.residual == pytest.approx(float(((flat - fit.profile) ** 2).sum()))

@@ -1,0 +1,53 @@
+"""Sequences of chips by their runs of equal chips: pulses, and how many of their chips count."""
+
+import math
+from itertools import groupby
+
+import numpy as np
+
+from occ_model.arrays import ByteArray
+
+
+def runs_of(chips: ByteArray) -> list[int]:
+    """Count the chips of each run of equal chips in one period, from a change on."""
+    changes = np.flatnonzero(chips != np.roll(chips, 1))
+    if changes.size == 0:
+        return [len(chips)]
+    turned = np.roll(chips, -int(changes[0])).tolist()
+    return [len(list(run)) for _, run in groupby(turned)]
+
+
+def canonical(chips: ByteArray) -> ByteArray:
+    """Rotate a sequence so that its longest run of ones comes first, and keep one period of it."""
+    text = "".join(map(str, chips.tolist()))
+    shortest = (text + text).find(text, 1)
+    text = text[:shortest]
+    turned = max(text[start:] + text[:start] for start in range(len(text)))
+    return np.array(list(turned), dtype=np.uint8)
+
+
+def is_single_pulse(chips: ByteArray) -> bool:
+    """Whether a period has one pulse only, as any regular pattern has."""
+    return len(runs_of(canonical(chips))) <= 2
+
+
+def pulse(on: int, count: int) -> ByteArray:
+    """Give the fewest chips of a pulse that is on for some of a number of parts of its period."""
+    shared = math.gcd(on, count)
+    chips = np.zeros(count // shared, dtype=np.uint8)
+    chips[: on // shared] = 1
+    return chips
+
+
+def edges_in_view(chips: ByteArray, in_view: float) -> float:
+    """Give how many edges there are in a number of chips; the first argument is one period.
+
+    However finely a pulse is told, it has two edges a period: it tells no more of how bright a
+    lamp is here and there than a square wave does.
+    """
+    return in_view * len(runs_of(chips)) / len(chips)
+
+
+def chips_as_one(chips: ByteArray) -> float:
+    """Give how many chips count as one: of a pulse half a period, however finely it is told."""
+    return 0.5 * len(chips) if len(runs_of(chips)) == 2 else 1.0

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
 from occ_model.photo.fit.best_timing import Explanation, explain, explain_near, polished
 from occ_model.photo.fit.camera_response import CameraTone
@@ -27,9 +27,6 @@ _EXPLAINED = 0.98
 
 _WELL_READ = 0.985
 """Correlation below which chips that were read are searched for otherwise, too."""
-
-_UNCLIPPED = 0.02
-"""Share of white pixels up to which they hardly change the width of the stripes."""
 
 _SURELY = 100.0
 """Bits by which they must be better than chance, for other chips to be read from the edges only."""
@@ -95,7 +92,7 @@ class Candidates:
         sure = explained and as_sent is not None and as_sent.information >= _SURELY
         read = read_patterns(
             stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure,
-            is_clipped=stripes.saturated > _UNCLIPPED,
+            is_clipped=stripes.saturated > UNCLIPPED,
         )  # fmt: skip
         if explained and as_sent is not None:
             known = canonical(as_sent.chips)

@@ -1,6 +1,6 @@
 """Why an explanation of stripes is doubtful, by the figures of its own fit and of what is near."""
 
-from occ_model.photo.evidence.hypothesis import Hypothesis
+from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.repetition import strongest_line
 from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_share
@@ -39,9 +39,6 @@ _WELL_EXPLAINED = 0.02
 _LEAST_ROW_CORRELATION = 0.85
 """Correlation of the rows' stripes with each other below which they may be a picture's objects."""
 
-_MOST_FOR_DUTY = 0.02
-"""Share of white pixels above which the width of a pulse is not that of its light."""
-
 _MOST_SATURATED = 0.5
 """Share of white pixels above which the shape of the stripes is mostly unknown."""
 
@@ -73,7 +70,7 @@ def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
 
 def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
     """Say why the exposure of a hypothesis is doubtful, in sentences; its chips may not be."""
-    if found.rate != 1.0 and stripes.saturated > _MOST_FOR_DUTY:
+    if found.rate != 1.0 and stripes.saturated > UNCLIPPED:
         return [
             f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
             "pulses: the duty may be smaller."

@@ -7,9 +7,12 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.chip_runs import canonical, chips_as_one, edges_in_view, is_single_pulse
+from occ_model.photo.fit.chip_runs import canonical, chips_as_one, is_single_pulse, runs_of
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 from occ_model.photo.stripes.period import correlated_columns
+
+UNCLIPPED = 0.02
+"""Share of white pixels up to which they hardly change the width of the stripes."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,7 +74,7 @@ class Hypothesis:
     @property
     def freedom(self) -> int:
         """Number of parameters of the fit: its levels, step, exposure and phase."""
-        return 3 + 2 * level_freedom(edges_in_view(self.chips, self.chips_in_view))
+        return 3 + 2 * level_freedom(self.counted_chips, len(runs_of(self.chips)) == 2)
 
     def shares_timing_with(self, other: "Hypothesis", *, is_given: bool) -> bool:
         """Whether other chips take the same time, so that they change no timing if they are right.

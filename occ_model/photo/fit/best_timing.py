@@ -48,7 +48,7 @@ _DECIDEDLY = 0.5
 _EXPLAINED = 0.98
 """Correlation of another camera's fit above which a picture is not taken to be equalized."""
 
-_SAME_EXPOSURE = 0.04
+SAME_EXPOSURE = 0.04
 """Difference in chips below which two fits have the same exposure."""
 
 
@@ -253,7 +253,7 @@ def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
     kept: list[StripeFit] = []
     for fit in fits:
         exposures = [other.timing.exposure for other in kept]
-        if all(abs(fit.timing.exposure - other) > _SAME_EXPOSURE for other in exposures):
+        if all(abs(fit.timing.exposure - other) > SAME_EXPOSURE for other in exposures):
             kept.append(fit)
     return kept
 

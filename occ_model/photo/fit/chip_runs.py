@@ -39,15 +39,10 @@ def pulse(on: int, count: int) -> ByteArray:
     return chips
 
 
-def edges_in_view(chips: ByteArray, in_view: float) -> float:
-    """Give how many edges there are in a number of chips; the first argument is one period.
-
-    However finely a pulse is told, it has two edges a period: it tells no more of how bright a
-    lamp is here and there than a square wave does.
-    """
-    return in_view * len(runs_of(chips)) / len(chips)
-
-
 def chips_as_one(chips: ByteArray) -> float:
-    """Give how many chips count as one: of a pulse half a period, however finely it is told."""
+    """Give how many chips count as one: of a pulse half a period, however finely it is told.
+
+    A pulse has two edges a period: it tells no more of how bright a lamp is here and there than a
+    square wave of two chips does.
+    """
     return 0.5 * len(chips) if len(runs_of(chips)) == 2 else 1.0

@@ -16,6 +16,7 @@ _NO_GAIN = 0.05
 """Decrease of the sum of squares, in noise variances, that does not matter."""
 
 _TRIES = 6
+"""Times that a step which gains nothing is shortened before the search ends."""
 
 
 def minimized(

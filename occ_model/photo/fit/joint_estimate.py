@@ -12,13 +12,12 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.averaged_fits import averaged
-from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
-from occ_model.photo.fit.chip_runs import is_single_pulse
+from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel
 from occ_model.photo.fit.other_starts import (
-    APART_CHIPS,
     alike_among,
     other_starts,
     scanned_starts,
@@ -112,7 +111,7 @@ def refined(
     step = explanation.fits[0].timing.step
     chips = explanation.chips
     period = len(chips) / step
-    width = max(1, round(period if is_single_pulse(chips) else min(period, _CHIPS_LIT / step)))
+    width = max(1, round(period if len(runs_of(chips)) == 2 else min(period, _CHIPS_LIT / step)))
     profiles = cells.profiles(width)
     if explanation.camera.enhancement == "equalization" or not profiles:
         return Refined(explanation.fits)
@@ -171,7 +170,7 @@ def _modes(
         other = first.fit(start)
         exposures = [one.fit.exposure for group in groups for one in group]
         exposures += [fit.exposure for fit in alike]
-        if any(abs(other.exposure - exposure) <= APART_CHIPS for exposure in exposures):
+        if any(abs(other.exposure - exposure) <= SAME_EXPOSURE for exposure in exposures):
             continue
         if other.misfit < least + _MOST_EXCESS_MISFIT:
             groups.append([Possible(first, other)])

@@ -5,13 +5,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.best_timing import Explanation
+from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
 from occ_model.photo.fit.initial_search import EXPOSURES
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
 from occ_model.photo.fit.timing import Timing
-
-APART_CHIPS = 0.04
-"""Difference in chips from which two exposures are different ones."""
 
 _MOST_STARTS = 3
 _LONGEST = 4.2
@@ -22,7 +19,10 @@ _MOST_MISFIT_RATIO = 4.0
 """Ratio to the misfit of the exposure found from which another one is no start."""
 
 _BUT_EXPOSURE = (0, 3, 4, 5, 6, 7, 8)
+"""Indices of the parameters that are held while exposures are compared: but for the phase, too."""
+
 _ROUGH_ROUNDS = 3
+"""Steps that tell a hopeless exposure from others."""
 
 
 def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
@@ -35,7 +35,7 @@ def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
         return [
             replace(best, exposure=other, middle=best.middle + _turned(t, other))
             for other in alike
-            if 0.0 < other < _LONGEST and abs(other - t) > APART_CHIPS
+            if 0.0 < other < _LONGEST and abs(other - t) > SAME_EXPOSURE
         ]
     return starts[:_MOST_STARTS]
 
@@ -69,7 +69,7 @@ def scanned_starts(
     fits = sorted((rough(one) for one in EXPOSURES if one < _LONGEST), key=lambda fit: fit[0])
     kept: list[FloatArray] = []
     for misfit, values in fits:
-        apart = all(abs(values[1] - other[1]) > APART_CHIPS for other in [found, *kept])
+        apart = all(abs(values[1] - other[1]) > SAME_EXPOSURE for other in [found, *kept])
         if misfit < most and apart and is_possible(model.timing(values)):
             kept.append(values)
     return kept[:_MOST_SCANNED]
@@ -101,7 +101,7 @@ def alike_among(
         known = [one.exposure for one in (*kept, *found)]
         if (
             fit.misfit < most
-            and all(abs(fit.exposure - other) > APART_CHIPS for other in known)
+            and all(abs(fit.exposure - other) > SAME_EXPOSURE for other in known)
             and any(_look_alike(fit.exposure, one.exposure) for one in kept)
             and is_possible(fit)
         ):
@@ -112,7 +112,7 @@ def alike_among(
 def _look_alike(one: float, other: float) -> bool:
     """Whether a square wave's stripes look the same by two exposures in chips, blur left aside."""
     turns = [math.remainder(sum_, 2.0) for sum_ in (one - other, one + other)]
-    return min(map(abs, turns)) <= APART_CHIPS
+    return min(map(abs, turns)) <= SAME_EXPOSURE
 
 
 def _turned(one: float, other: float) -> float:

@@ -65,6 +65,7 @@ _LEAST_HARMONIC_CORRELATION = 0.85
 what was read explains the stripes badly, and the correlation of their harmonics from which."""
 
 _NEIGHBOUR_COUNTS = (-3, -2, -1, 1, 2, 3)
+"""Differences of the numbers of chips with which one is compared."""
 
 
 def read_patterns(

@@ -1,15 +1,16 @@
 """Find the lamps in a photo: where each is, of what shape, and how it blinks."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
+from occ_model.photo.lamps.blinking import Blinking, with_codes_joined
 from occ_model.photo.lamps.edges import Edges, edges_of, matches
 from occ_model.photo.lamps.extent import without_halo
-from occ_model.photo.lamps.grouping import common_edges, groups_of
+from occ_model.photo.lamps.grouping import LEAST_STRIPS, common_edges, groups_of
 from occ_model.photo.lamps.segments import Segment, segments_of
 from occ_model.photo.lamps.shape import around, spans_of
 from occ_model.photo.lamps.steady import steady_lamps
@@ -42,8 +43,6 @@ _FEW_EDGES = 4
 _LEAST_SPACING = 3.0
 """Fewest columns of a period or a chip: what is shorter is noise."""
 
-_LEAST_STRIPS = 2
-
 _LEAST_COLUMNS, _REPEATED = 16, 2.0
 """Columns, and periods, that a lamp has at least."""
 
@@ -69,16 +68,6 @@ _WITHIN = 0.5
 
 _GLOW, _GLOW_STRIPS = 0.5, 4
 """Share of a lamp's light, and number of strips, up to which stripes at its rim are its glow."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class _Blinking:
-    """A lamp with stripes, and how it blinks."""
-
-    lamp: Lamp
-    timing: LampTiming
-    light: float
-    dark: float
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -114,7 +103,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     for group in groups_of(segments):
         blinking += _blinking(group, segments, strips, bounds, means)
         report(0.85)
-    blinking = _without_parts(_without_glow(blinking))
+    blinking = with_codes_joined(_without_parts(_without_glow(blinking)), means, bounds)
     lamps = _without_reflections(blinking)
     report(0.9)
     lamps += steady_lamps(means, bounds, [one.lamp for one in blinking])
@@ -128,7 +117,7 @@ def _blinking(
     strips: Sequence[Edges],
     bounds: IndexArray,
     means: FloatArray,
-) -> list[_Blinking]:
+) -> list[Blinking]:
     """Describe the lamps of a group of segments, among the segments of all groups."""
     edges, weights = common_edges(group)
     found = []
@@ -142,12 +131,12 @@ def _blinking(
         if not inner:
             continue
         spans = spans_of(strips, inner, timing, bounds, means.shape[1])
-        if len(spans) < _LEAST_STRIPS:
+        if len(spans) < LEAST_STRIPS:
             continue
         spans = without_halo(spans, timing, means, bounds)
         if _columns(spans) < _least_columns(timing):
             continue
-        if len(spans) >= _LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
+        if len(spans) >= LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
             one = _described(timing, spans, [strips[strip] for strip in shown])
             if _counts_some(one, means[shown[0] : shown[-1] + 1]):
@@ -197,7 +186,7 @@ def _least_columns(timing: LampTiming) -> float:
     return _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _REPEATED * timing.spacing)
 
 
-def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> _Blinking:
+def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:
     region = around(spans)
     own = [one.where(matches(one, timing.edges, _near(timing))) for one in strips]
     low = float(np.median(np.concatenate([one.low for one in own])))
@@ -215,10 +204,10 @@ def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -
         periods=None if timing.is_code else region.columns / spacing,
     )
     light, dark = ((level / WHITE) ** _GAMMA for level in (high, low))
-    return _Blinking(lamp, timing, light - dark, dark)
+    return Blinking(lamp, timing, light - dark, dark)
 
 
-def _counts_some(one: _Blinking, means: FloatArray) -> bool:
+def _counts_some(one: Blinking, means: FloatArray) -> bool:
     """Whether a count of edges may have missed some: faint stripes that do not repeat as counted.
 
     Light that an exposure longer than a chip has gathered never falls to that of the surroundings.
@@ -246,7 +235,7 @@ def _is_lamp(timing: LampTiming) -> bool:
     return lit <= _PANES
 
 
-def _without_glow(blinking: Sequence[_Blinking]) -> list[_Blinking]:
+def _without_glow(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Leave out low strips of faint stripes right above or below a lamp: its scattered light."""
     return [
         one for one in blinking
@@ -266,13 +255,13 @@ def _lies_at(low: Lamp, lamp: Lamp) -> bool:
     return above and shared > 0.5 * here.columns
 
 
-def _without_parts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
+def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Leave out what lies within a lamp of more edges: noise has split some of its strips."""
     # A group that reaches into the glow around a lamp covers more of it, with less light.
     ordered = sorted(
         blinking, key=lambda one: -len(one.timing.edges) * one.lamp.area * max(one.light, 0.0)
     )
-    kept: list[_Blinking] = []
+    kept: list[Blinking] = []
     for one in ordered:
         # A lamp may lie within the light that another one scatters.
         near = [other for other in kept if other.light > _GLOW * one.light]
@@ -289,7 +278,7 @@ def _shared(one: Lamp, other: Lamp) -> float:
     return float((np.maximum(high, 0) * np.maximum(wide, 0)).sum() / one.area)
 
 
-def _with_doubts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
+def _with_doubts(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
     brightest = max((one.light for one in blinking), default=0.0)
     return [
@@ -299,10 +288,10 @@ def _with_doubts(blinking: Sequence[_Blinking]) -> list[_Blinking]:
     ]
 
 
-def _without_reflections(blinking: Sequence[_Blinking]) -> list[Lamp]:
+def _without_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
     """Give the lamps, each with the regions of the fainter ones that blink in time with it."""
     ordered = sorted(_with_doubts(blinking), key=lambda one: -one.light)
-    kept: list[_Blinking] = []
+    kept: list[Blinking] = []
     mirrored: dict[int, list[Region]] = {}
     for one in ordered:
         source = next(

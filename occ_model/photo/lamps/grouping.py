@@ -27,7 +27,8 @@ _LEAST_EQUAL_EDGES = 3
 _EDGE_TOLERANCE = 0.06
 """Share of a chip, besides a column, by which edges of one lamp may differ."""
 
-_LEAST_STRIPS = 2
+LEAST_STRIPS = 2
+"""Strips that show a lamp at least: noise makes edges alike in one."""
 
 _SHARED = 0.2
 """Share of a group's strips that must show an edge."""
@@ -57,9 +58,7 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
     groups: dict[int, list[Segment]] = {}
     for index, segment in enumerate(segments):
         groups.setdefault(root(index), []).append(segment)
-    return [
-        group for group in groups.values() if len({one.strip for one in group}) >= _LEAST_STRIPS
-    ]
+    return [group for group in groups.values() if len({one.strip for one in group}) >= LEAST_STRIPS]
 
 
 def _agree(one: Segment, other: Segment) -> bool:
@@ -86,7 +85,7 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
     low = np.concatenate([one.edges.low for one in group])
     high = np.concatenate([one.edges.high for one in group])
     rows: list[tuple[float, bool, float, float, int]] = []
-    least = max(_LEAST_STRIPS, _SHARED * len(group))
+    least = max(LEAST_STRIPS, _SHARED * len(group))
     for kind in (True, False):
         order = np.flatnonzero(rises == kind)
         order = order[np.argsort(place[order], kind="stable")]

@@ -23,6 +23,7 @@ _OWN = 0.3
 """Largest share of a bright place that lies within lamps with stripes."""
 
 _MOST_COLUMNS = 512
+"""Columns to which a picture is reduced: lamps of constant light have no fine stripes."""
 
 
 def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]) -> list[Lamp]:

@@ -18,7 +18,10 @@ _LONGEST_PERIOD_FRACTION = 0.67
 """Longest period as a share of the columns: part of it must be seen twice."""
 
 _HARMONICS = 24
+"""Most harmonics of a wave that repeats; short periods have fewer."""
+
 _STEPS = 8
+"""Most Gauss-Newton steps."""
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:

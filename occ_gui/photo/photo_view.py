@@ -54,7 +54,10 @@ class PhotoView(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.many = ManyPhotosView()
+        unseen = QWidget(self)
+        unseen.hide()
+        self.many = ManyPhotosView(unseen)
+        """The table of several photos, until a pane of its own takes it."""
         self.facts, self.form = PhotoFacts(), MatchForm()
         self.lamps = LampForm()
         self.result, self.placement = MatchResult(), PlacementForm()

@@ -106,7 +106,7 @@ def _fit(match: Match) -> dict[str, tuple[str, str]]:
         "chip": (f"{match.columns_per_chip:.3f} columns, {len(match.pattern)} chips a period", ""),
         "periods": (f"{match.periods_in_view:.3g}", ""),
         "exposed": (f"{match.exposure_in_chips:.3g}", ""),
-        "duty": (f"lit for {100.0 * match.duty:.3g} % of a period", ""),
+        "duty": _duty(match),
         "averaging": (match.scene.model.averaging, ""),
         "region": (
             f"columns {region.first_column} to {region.last_column - 1}, "
@@ -121,6 +121,16 @@ def _fit(match: Match) -> dict[str, tuple[str, str]]:
         columns = Unit("columns").format_estimate(stripes.period, stripes.period_uncertainty)
         found["repeats"] = columns, ""
     return found
+
+
+def _duty(match: Match) -> tuple[str, str]:
+    """Return the duty, with its error where it was measured, and its note."""
+    deviation = match.uncertainties.get("duty")
+    if deviation is None:
+        return f"lit for {100.0 * match.duty:.3g} % of a period", ""
+    percent = Unit("%").format_estimate(100.0 * match.duty, 100.0 * deviation)
+    note = "doubtful" if match.only_exposure_is_doubtful else ""
+    return f"lit for {percent} of a period", note
 
 
 def _alternative(other: Alternative, estimated: str, condition: str) -> str:

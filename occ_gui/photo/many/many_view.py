@@ -39,7 +39,7 @@ from occ_model.results.photo_table_csv import csv_text
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
-_ROWS_SEEN = 3
+_ROWS_SEEN = 5
 _LEAST_BESIDE = QSize(220, 60)
 
 _WIDEST = {PHOTO: 220, NOTE: 280}

@@ -95,10 +95,11 @@ def column(view: ManyPhotosView, which: int) -> list[str]:
     return [view.rows.text(place, which) for place in range(len(PATHS))]
 
 
-def test_no_table_is_seen_without_files(view: ManyPhotosView) -> None:
-    assert not view.isHidden()
+def test_without_files_nothing_can_be_matched_and_what_to_do_is_said(view: ManyPhotosView) -> None:
+    assert view.start.isEnabled()
     view.show_files(())
-    assert view.isHidden()
+    assert not view.start.isEnabled()
+    assert view.title.text().startswith("Open several photos together")
 
 
 def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:

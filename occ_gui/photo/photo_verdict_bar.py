@@ -10,10 +10,9 @@ from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.photo.estimate_text import estimate_text
-from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
-from occ_model.results.match import Match
+from occ_model.results.match import PLAIN_STRIPES, Match
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE, PhotoRow
 from occ_model.scene.parameters import quantity
 

@@ -1,5 +1,7 @@
 """Plot of the residual, photo minus simulation, over the columns."""
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
@@ -9,8 +11,10 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.pens import PHOTO, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
-from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Comparison
+
+if TYPE_CHECKING:
+    from occ_model.photo.reading.load import Photo
 
 _LEAST_HEIGHT = 56
 

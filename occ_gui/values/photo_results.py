@@ -111,4 +111,4 @@ class PhotoProfile:
     first_column: float = 0.0
     scale: float = 1.0
     sentence: str = ""
-    photo: Photo | None = None
+    photo: "Photo | None" = None

@@ -10,6 +10,11 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
+PLAIN_STRIPES = (
+    "These look like plain stripes of one lamp: if it is one, say that it sends a square wave."
+)
+"""What to do about a refused pulse that repeats."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Stripes:

@@ -6,6 +6,7 @@ from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.evidence.repeated_wave import RepeatedWave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve
 from occ_model.photo.fit.chip_runs import is_single_pulse
+from occ_model.results.match import PLAIN_STRIPES
 
 _LEAST_GIVEN, _LEAST_READ = 0.8, 0.9
 """Correlations below which given chips, and chips that were read, explain nothing."""
@@ -20,12 +21,6 @@ is better by about 15 to 20 bits in any picture."""
 
 _LEAST_ROW_CORRELATION = 0.7
 """Correlation of the rows' stripes with each other from which they can be those of the time."""
-
-
-PLAIN_STRIPES = (
-    "These look like plain stripes of one lamp: if it is one, say that it sends a square wave."
-)
-"""What to do about a refused pulse that repeats."""
 
 
 @dataclass(frozen=True, slots=True)

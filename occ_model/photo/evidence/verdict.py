@@ -8,10 +8,10 @@ import numpy as np
 from occ_model.errors import MatchError
 from occ_model.photo.evidence.doubts import doubts, exposure_doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
-from occ_model.photo.evidence.refusal import PLAIN_STRIPES, Surroundings, refusals
+from occ_model.photo.evidence.refusal import Surroundings, refusals
 from occ_model.photo.evidence.repeated_wave import repeated_wave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
-from occ_model.results.match import Stripes
+from occ_model.results.match import PLAIN_STRIPES, Stripes
 
 _DECIDEDLY = 10.0
 """Difference of log-likelihoods from which one explanation counts as decidedly better."""

@@ -11,9 +11,8 @@ import occ_model as occ
 from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.widgets.state_look import State
-from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.reading.load import Photo
-from occ_model.results.match import Match
+from occ_model.results.match import PLAIN_STRIPES, Match
 from occ_model.results.photo_table import PhotoRow
 
 REASONS = ("Only 2 periods of 24 chips are in view.", "The correlation is 0.85.")

@@ -12,12 +12,12 @@ from verdicts import Said, said_of, said_of_negative, said_of_other_code
 
 import occ_model as occ
 from occ_model.photo.evidence.hypothesis import Hypothesis
-from occ_model.photo.evidence.refusal import PLAIN_STRIPES
 from occ_model.photo.fit.chip_runs import pulse, runs_of
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.joint_fit import JointModel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
+from occ_model.results.match import PLAIN_STRIPES
 from occ_model.transmitter.waveform import Waveform
 
 SAMPLE = (18, 41, 88, 103, 448, 481)

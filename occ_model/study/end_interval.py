@@ -19,7 +19,6 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.study.confidence import TWO_SIDED
 
 _POWERS = (0.5, 1.0, 2.0, 4.0, math.inf)
 
@@ -97,10 +96,7 @@ def _likelihoods(
 
 
 def _deviate(pictures: int) -> float:
-    """Return Student's deviate that 95 % lie within, of so many pictures less two.
+    """Return Student's deviate that 95 % lie within, of so many pictures less two."""
+    from scipy.special import stdtrit  # slow to import
 
-    By the expansion in Abramowitz and Stegun, 26.7.5.
-    """
-    z, freedom = TWO_SIDED, max(pictures - 2, 2)
-    first, second = (z**3 + z) / 4.0, (5.0 * z**5 + 16.0 * z**3 + 3.0 * z) / 96.0
-    return z + first / freedom + second / freedom**2
+    return float(stdtrit(max(pictures - 2, 2), 0.975))

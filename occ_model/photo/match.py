@@ -173,8 +173,9 @@ class _Case:
         """Whether a duty that was searched is that of the scene, as far as its error tells."""
         if not any(not one.was_read for one in self.hypotheses):
             return False
+        error = match.uncertainties.get("duty")  # a pulse's alone has one
         given = float(sent_chips(self.scene.transmitter).mean())
-        return abs(match.duty - given) <= _SAME_DUTY * match.uncertainties["duty"]
+        return error is not None and abs(match.duty - given) <= _SAME_DUTY * error
 
 
 class _Progress:

@@ -188,9 +188,11 @@ class VideoReader:
         """Say why the payload is not read."""
         if self._placed.placed == 0:
             described = self._without_packets.described(self._scene.camera.readout_time)
-            if described:
-                return f"{described} Packets as the scene sends them are in none of the frames."
-            return why_unplaced(self._placed.frames)
+            if not described:
+                return why_unplaced(self._placed.frames)
+            if self._without_packets.may_be_packets:
+                return f"{described} {why_unplaced(self._placed.frames)}"
+            return f"{described} Packets as the scene sends them are in none of the frames."
         return why_not_read(soft, self._joined, self._period)
 
     def _written(self, bits: ByteArray) -> str:

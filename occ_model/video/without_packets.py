@@ -125,6 +125,12 @@ class WithoutPackets:
             return text
         return f"{text} They are in {len(seen)} of {count} frames only: it is sent in bursts."
 
+    @property
+    def may_be_packets(self) -> bool:
+        """Whether the stripes are those of a code: they repeat, and are no plain pulse."""
+        seen = [look for look in self._looks if look.repeats]
+        return sum(not look.is_pulse for look in seen) > (1.0 - _MOST) * len(seen)
+
     def _of_levels(self) -> str:
         """Say whether whole frames are bright or dark."""
         levels = np.array([look.level for look in self._looks])

@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.best_timing import Explanation
-from occ_model.photo.fit.chip_runs import canonical, chips_as_one, is_single_pulse, runs_of
+from occ_model.photo.fit.chip_runs import canonical, chips_as_one, is_single_pulse
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 from occ_model.photo.stripes.period import correlated_columns
 
@@ -74,7 +74,7 @@ class Hypothesis:
     @property
     def freedom(self) -> int:
         """Number of parameters of the fit: its levels, step, exposure and phase."""
-        return 3 + 2 * level_freedom(self.counted_chips, len(runs_of(self.chips)) == 2)
+        return 3 + 2 * level_freedom(self.counted_chips)
 
     def shares_timing_with(self, other: "Hypothesis", *, is_given: bool) -> bool:
         """Whether other chips take the same time, so that they change no timing if they are right.

@@ -15,7 +15,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.blurred_light import BlurShape
-from occ_model.photo.fit.chip_runs import chips_as_one, runs_of
+from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import minimized
 from occ_model.photo.fit.joint_covariance import TRUSTED, covariance_of
 from occ_model.photo.fit.least_squares import level_freedom
@@ -138,7 +138,7 @@ class JointModel:
         columns, as_one = len(profiles[0].values), chips_as_one(chips)
         self._columns, self._step, self.gamma = columns, step, gamma
         counted = step * columns / as_one
-        freedom = level_freedom(counted, len(runs_of(chips)) == 2)
+        freedom = level_freedom(counted)
         slow = int(np.clip(counted / _CHIPS_A_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
         self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
         width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK * as_one / step))

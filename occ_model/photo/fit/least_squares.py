@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
-from occ_model.photo.fit.chip_runs import chips_as_one, runs_of
+from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
@@ -45,9 +45,8 @@ deviation of a hundred of its scales."""
 _LEAST_SWING = 0.05
 """Share of the largest swing below which a column's stripes are not significant."""
 
-_CHIPS_A_FREEDOM, _EDGES_A_FREEDOM = 6, 4
-"""Chips of a code, which has about two edges in three of them, and edges of a pulse, for each
-parameter of a level."""
+_CHIPS_A_FREEDOM = 6
+"""Chips in view for each parameter of a level."""
 
 _MOST_FREEDOM = 8
 
@@ -127,7 +126,7 @@ class StripeModel:
         self._change = max(_TIMING_STEP, rank_resolution) * step
         # The same number for both levels, or else the mean would fit better than the swing.
         counted = step * len(profile) / chips_as_one(chips)
-        self._shapes = smooth_shapes(len(profile), level_freedom(counted, len(runs_of(chips)) == 2))
+        self._shapes = smooth_shapes(len(profile), level_freedom(counted))
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
         shapes = smooth_shapes(len(profile), 2 * self._shapes.shape[1] - 1)
@@ -238,10 +237,9 @@ def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
     return usual > 0.0 and float(np.median(low)) > _DARKEST * usual
 
 
-def level_freedom(counted: float, is_pulse: bool) -> int:
+def level_freedom(counted: float) -> int:
     """Give the number of parameters of either level, for the chips in view that count."""
-    each = _EDGES_A_FREEDOM if is_pulse else _CHIPS_A_FREEDOM
-    return int(np.clip(counted / each, 1, _MOST_FREEDOM))
+    return int(np.clip(counted / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
 
 
 def _blur_deviation(timing: Timing) -> float:

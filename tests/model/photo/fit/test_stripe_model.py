@@ -48,9 +48,8 @@ def test_columns_at_white_are_left_out_while_enough_are_not() -> None:
     assert white.max() == pytest.approx(255.0, abs=0.5)
 
 
-def test_levels_have_a_parameter_for_each_six_chips_or_four_edges_within_bounds() -> None:
-    assert [level_freedom(chips, False) for chips in (0.0, 6.0, 23.9, 24.0, 1e6)] == [1, 1, 3, 4, 8]
-    assert [level_freedom(edges, True) for edges in (0.0, 4.0, 15.9, 16.0, 1e6)] == [1, 1, 3, 4, 8]
+def test_levels_have_a_parameter_for_each_six_chips_within_bounds() -> None:
+    assert [level_freedom(chips) for chips in (0.0, 6.0, 23.9, 24.0, 1e6)] == [1, 1, 3, 4, 8]
 
 
 def test_an_exact_profile_is_explained_whole() -> None:

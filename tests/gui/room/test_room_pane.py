@@ -180,13 +180,11 @@ def test_a_photo_is_located_and_what_is_assumed_of_its_lens_can_be_given(
     view.focal_length.setValue(26.5)
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
     assert "26.5 mm equivalent, as given" in view.sentences.text()
-    assert pane.shown is not None
-    rows = {
-        row[0]: row
-        for row in room_drawing(
-            pane.shown.room, pane.shown.image, pane.shown.reading, is_photo=True
-        ).rows()
-    }
+    shown = pane.shown
+    assert shown is not None
+    assert shown.reading is not None
+    drawn = room_drawing(shown.room, shown.image, shown.reading, is_photo=True)
+    rows = {row[0]: row for row in drawn.rows()}
     assert rows["x"][1] is None
     view.close_photo.click()
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)

@@ -103,12 +103,19 @@ def _middle(rows: int, columns: int) -> FloatArray:
 
 def rotation_of(pose: Pose) -> FloatArray:
     """Return the rotation about the columns axis, then the rows axis, then the optical axis."""
-    angles = (pose.pitch, pose.yaw, pose.roll)
+    return rotations(*(np.array(angle) for angle in (pose.yaw, pose.pitch, pose.roll)))
+
+
+def rotations(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArray:
+    """Return the same of many angles, shape (*angles, 3, 3)."""
+    angles = (pitch, yaw, roll)
     (sx, cx), (sy, cy), (sz, cz) = ((np.sin(angle), np.cos(angle)) for angle in angles)
-    about_x = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]])
-    about_y = np.array([[cy, 0, sy], [0, 1, 0], [-sy, 0, cy]])
-    about_z = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]])
-    return np.asarray(about_z @ about_y @ about_x, dtype=np.float64)
+    one, zero = np.ones_like(sx), np.zeros_like(sx)
+    about_x = np.array([[one, zero, zero], [zero, cx, -sx], [zero, sx, cx]])
+    about_y = np.array([[cy, zero, sy], [zero, one, zero], [-sy, zero, cy]])
+    about_z = np.array([[cz, -sz, zero], [sz, cz, zero], [zero, zero, one]])
+    x, y, z = (np.moveaxis(about, (0, 1), (-2, -1)) for about in (about_x, about_y, about_z))
+    return np.asarray(z @ y @ x, dtype=np.float64)
 
 
 def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:

@@ -8,7 +8,7 @@ from typing import Self
 import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
-from occ_model.camera.projection import image_points
+from occ_model.camera.projection import image_points, rotations
 from occ_model.room.edges import Edge
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline
@@ -162,7 +162,7 @@ class LampEdges:
         ndarray of float64, shape (places, lamps, 4, 2)
         """
         placed = self.outlines[None] - numbers[:, None, None, :3]
-        placed = np.einsum("plci,pij->plcj", placed, _rotations(numbers))
+        placed = np.einsum("plci,pij->plcj", placed, rotations(*numbers[:, 3:6].T))
         depth = placed[..., 2:]
         if not depth.min() > _LEAST_DEPTH:
             return None
@@ -216,20 +216,10 @@ def _off(outlines: FloatArray, points: FloatArray) -> FloatArray:
     return np.asarray(apart[..., 1] * along[..., None, 0] - apart[..., 0] * along[..., None, 1])
 
 
-def _rotations(numbers: FloatArray) -> FloatArray:
-    """Return the camera's rotation of some places, shape (places, 3, 3); angles may be any."""
-    (sy, sx, sz), (cy, cx, cz) = np.sin(numbers[:, 3:6]).T, np.cos(numbers[:, 3:6]).T
-    return np.stack([
-        cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx,
-        sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx,
-        -sy, cy * sx, cy * cx,
-    ], axis=-1).reshape(-1, 3, 3)  # fmt: skip
-
-
 def _place(numbers: FloatArray) -> Place | None:
     if not np.isfinite(numbers).all():
         return None
-    yaw, pitch, roll = angles_of(_rotations(numbers[None])[0])
+    yaw, pitch, roll = angles_of(rotations(*numbers[3:6]))
     x, y, z = numbers[:3].tolist()
     try:
         return Place(x=x, y=y, z=z, yaw=yaw, pitch=pitch, roll=roll)

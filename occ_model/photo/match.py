@@ -119,8 +119,9 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     chosen = _chosen(judge, hypotheses, stripes, sent)
     case = _Case(photo, scene, estimate, candidates, judge, hypotheses, sent == "scene", report)
     match = case.concluded(chosen)
-    if chosen.rate != 1.0 and case.may_be_as_sent(match):
-        match = case.concluded(next(one for one in hypotheses if not one.was_read))
+    as_sent = next((one for one in hypotheses if not one.was_read), None)
+    if as_sent is not None and chosen.rate != 1.0 and case.may_be_as_sent(match):
+        match = case.concluded(as_sent)
     report(1.0)
     return match
 
@@ -171,8 +172,6 @@ class _Case:
 
     def may_be_as_sent(self, match: Match) -> bool:
         """Whether a duty that was searched is that of the scene, as far as its error tells."""
-        if not any(not one.was_read for one in self.hypotheses):
-            return False
         error = match.uncertainties.get("duty")  # a pulse's alone has one
         given = float(sent_chips(self.scene.transmitter).mean())
         return error is not None and abs(match.duty - given) <= _SAME_DUTY * error

@@ -114,7 +114,7 @@ def code_lengths(
         if 2**length < lamps:
             raise ParameterError.of("bits", f"{length}", f"from {(lamps - 1).bit_length()}",
                                     condition=f"for {lamps} lamps")  # fmt: skip
-    found = []
+    found, shown = [], _shown_columns(request)
     for number, length in enumerate(lengths):
         sent = _codes(length, lamps, request.seed)
         own = _sending(room, length, sent)
@@ -129,7 +129,7 @@ def code_lengths(
         camera, frequency = own.scene.camera, own.lamps[0].transmitter.switching_frequency
         columns = chips.shape[1] / frequency / camera.readout_time
         found.append(CodeLength(
-            length, chips.shape[1], columns, _shown_columns(asked) / columns,
+            length, chips.shape[1], columns, shown / columns,
             least_distance(chips), whole, named, misread,
         ))  # fmt: skip
     return tuple(found)

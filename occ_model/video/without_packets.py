@@ -111,9 +111,8 @@ class WithoutPackets:
         count = len(self._looks)
         if not seen:
             return self._of_levels()
-        pulses = [look for look in seen if look.is_pulse]
-        what = "The stripes repeat"
-        if len(pulses) >= _MOST * len(seen):
+        pulses, what = _mostly_pulses(seen), "The stripes repeat"
+        if pulses:
             seen, what = pulses, "The lamp sends a plain square wave or pulse: its stripes repeat"
         period = float(np.median([look.period for look in seen]))
         columns = Unit("columns").format_estimate(period, period * self._period_error(seen))
@@ -129,7 +128,7 @@ class WithoutPackets:
     def may_be_packets(self) -> bool:
         """Whether the stripes are those of a code: they repeat, and are no plain pulse."""
         seen = [look for look in self._looks if look.repeats]
-        return sum(not look.is_pulse for look in seen) > (1.0 - _MOST) * len(seen)
+        return bool(seen) and not _mostly_pulses(seen)
 
     def _of_levels(self) -> str:
         """Say whether whole frames are bright or dark."""
@@ -145,6 +144,12 @@ class WithoutPackets:
             f"and that changes {changes} times in {SECOND.format(lasts, 3)}. So the lamp blinks "
             "more slowly than a frame is read out, and no frame shows stripes of it."
         )
+
+
+def _mostly_pulses(seen: Sequence[_Look]) -> list[_Look]:
+    """Return the frames that show a plain pulse; none where many show other stripes."""
+    pulses = [look for look in seen if look.is_pulse]
+    return pulses if len(pulses) >= _MOST * len(seen) else []
 
 
 def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Look:

@@ -22,6 +22,7 @@ from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.errors import one_line
 from occ_model.room.locate import RoomReading
 from occ_model.room.room import Room
+from occ_model.scene.parameters import quantity
 
 _LEAST_HEIGHT = 260
 
@@ -69,7 +70,8 @@ class RoomView(QWidget):
         self.close_photo.setToolTip("Show what the camera of the plan sees.")
         self.close_photo.clicked.connect(self.photo_closed)
         self.focal_length = QDoubleSpinBox()
-        self.focal_length.setRange(5.0, 500.0)
+        allowed = quantity("equivalent_focal_length")
+        self.focal_length.setRange(1e3 * allowed.low, 1e3 * allowed.high)
         self.focal_length.setDecimals(2)
         self.focal_length.setPrefix("Focal length: ")
         self.focal_length.setSuffix(" mm equivalent")

@@ -206,11 +206,15 @@ def _codes(options: argparse.Namespace) -> int:
             f"{one.distance:9} {one.named:5}/{one.whole:<4} {one.misread:7} "
             f"{one.named_wrongly(options.lamps):14.2g}"
         )
-    best = max(found, key=lambda one: one.named - one.named_wrongly(options.lamps))
+    gains = [one.named - one.named_wrongly(options.lamps) for one in found]
+    best = found[gains.index(max(gains))]
     print(
         f"Of these, {best.bits} bits serve {options.lamps} lamps best: {best.named} of "
         f"{best.whole} whole lamps named rightly in these pictures."
     )
+    alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]
+    if len(alike) > 1:
+        print(f"As well do {', '.join(alike[1:])} bits: so few pictures do not tell them apart.")
     return 0
 
 

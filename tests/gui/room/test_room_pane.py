@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 from pytestqt.qtbot import QtBot
+from small_rooms import small_room
 
 import occ_model as occ
 from occ_gui.room import jobs
@@ -17,31 +18,15 @@ from occ_gui.room.pane import RoomPane
 from occ_model.figures.drawing import house_style
 from occ_model.figures.room import room_drawing
 from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH
-from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.room import Place
 from occ_model.room.view import aim_of, aimed_at, rotation
 
-
-def small_room() -> Room:
-    """Return four lamps and a camera of few pixels."""
-    scene = occ.load_preset("phone-68us").replace(
-        rows=512, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
-        switching_frequency=8e3,
-    )  # fmt: skip
-    lamps = tuple(
-        RoomLamp(
-            name=f"L{n}", x=1.2 * (n % 2), y=1.2 * (n // 2), z=2.6, start_time=3e-4 * n,
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
-            ),
-        )
-        for n in range(4)
-    )  # fmt: skip
-    return Room(lamps=lamps, scene=scene, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
+ROOM = small_room(turned=0.0, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
 
 
 @pytest.fixture
 def pane(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[RoomPane]:
-    monkeypatch.setattr(room_pane, "load_room", lambda _: small_room())
+    monkeypatch.setattr(room_pane, "load_room", lambda _: ROOM)
     pane = RoomPane()
     qtbot.addWidget(pane.widget)
     pane.widget.resize(900, 600)
@@ -159,7 +144,7 @@ def _photo(path: Path, **tags: float) -> Path:
     notes = Image.Exif()
     known = {"focal_length": EQUIVALENT_FOCAL_LENGTH}
     notes.get_ifd(0x8769).update({known[name]: value for name, value in tags.items()})
-    image = occ.render_room(small_room().replace(x=0.4, y=0.8)).camera_image
+    image = occ.render_room(ROOM.replace(x=0.4, y=0.8)).camera_image
     Image.fromarray(image).save(path, quality=92, exif=notes.tobytes())
     return path
 
@@ -198,7 +183,7 @@ def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
     pane.open_photo(_photo(tmp_path / "room.jpg"))
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
     assert "the photo has no EXIF data of it" in pane.view.sentences.text()
-    other = small_room().with_sent(code=900)
+    other = ROOM.with_sent(code=900)
     pane.take(other)
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
     assert pane.view.headline.text() == "The place is not told"

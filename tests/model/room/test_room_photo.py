@@ -7,31 +7,18 @@ from typing import Any
 import numpy as np
 import pytest
 from PIL import Image
+from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH, EXPOSURE_TIME
 from occ_model.room.photo import RoomPhoto, read_room_photo
-from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.room import Place, Room
 
 
 def _room(focal_length: float = 0.026) -> Room:
-    scene = occ.load_preset("phone-68us").replace(
-        rows=1024, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
-        switching_frequency=8e3, equivalent_focal_length=focal_length,
-    )  # fmt: skip
-    lamps = tuple(
-        RoomLamp(
-            name=f"L{n}", x=1.1 * (n % 2), y=1.2 * (n // 2), z=2.6, start_time=3e-4 * n,
-            roll=0.1 * n,
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
-            ),
-        )
-        for n in range(4)
-    )  # fmt: skip
     camera = Place(x=0.5, y=0.7, z=-0.2, yaw=0.1, pitch=-0.1, roll=0.4)
-    return Room(lamps=lamps, scene=scene, camera=camera)
+    return small_room(apart=1.1, camera=camera, rows=1024, equivalent_focal_length=focal_length)
 
 
 def _saved(path: Path, image: np.ndarray, **tags: Any) -> Path:

@@ -4,28 +4,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.room.room import Place
 from occ_model.study.code_length import CodeLength, code_lengths, least_distance
 from occ_model.study.room_map import RoomMapRequest
 from occ_model.transmitter.packet import sent_chips
 
-
-def _room() -> Room:
-    scene = occ.load_preset("phone-68us").replace(
-        rows=512, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
-        switching_frequency=8e3,
-    )  # fmt: skip
-    lamps = tuple(
-        RoomLamp(
-            name=f"L{n}", x=1.2 * n, z=2.6, start_time=3e-4 * n,
-            transmitter=scene.transmitter.replaced({"panel_width": 0.8, "panel_height": 0.7}),
-        )
-        for n in range(2)
-    )  # fmt: skip
-    return Room(lamps=lamps, scene=scene, camera=Place(z=-0.2))
+ROOM = small_room(2, turned=0.0, camera=Place(z=-0.2))
 
 
 def test_the_least_distance_is_that_of_the_nearest_pair_at_the_nearest_shift() -> None:
@@ -43,7 +31,7 @@ def test_the_least_distance_is_that_of_the_nearest_pair_at_the_nearest_shift() -
 
 
 def test_lamps_are_read_as_long_as_a_packet_is_shown() -> None:
-    short, long = code_lengths(RoomMapRequest(_room(), (0.6,), (0.0,), 2), 64, (6, 15))
+    short, long = code_lengths(RoomMapRequest(ROOM, (0.6,), (0.0,), 2), 64, (6, 15))
     assert (short.bits, short.codes, short.chips) == (6, 64, 16)
     assert short.columns == pytest.approx(16 / 8e3 / 36e-6)
     assert (short.whole, short.named, short.misread) == (4, 4, 0)
@@ -59,16 +47,19 @@ def test_a_misread_code_is_another_lamp_s_as_often_as_codes_are_used() -> None:
 
 def test_a_length_with_fewer_codes_than_lamps_is_refused() -> None:
     with pytest.raises(occ.ParameterError, match=r"bits is 9; allowed for 1024 lamps: from 10"):
-        code_lengths(RoomMapRequest(_room(), (0.6,), (0.0,)), 1024, (9,))
+        code_lengths(RoomMapRequest(ROOM, (0.6,), (0.0,)), 1024, (9,))
 
 
 def test_the_command_says_which_length_serves_best(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = tmp_path / "room.toml"
-    path.write_text(_room().to_toml(), encoding="utf-8")
+    path.write_text(ROOM.to_toml(), encoding="utf-8")
     words = ("room", "codes", "--room", str(path), "--lamps", "64", "--bits", "6", "--side", "1")
     assert main(words) == 0
     said = capsys.readouterr().out
     assert "6       64     16" in said
     assert "6 bits serve 64 lamps best: 2 of 2 whole lamps named rightly" in said
+    assert "As well do" not in said
+    assert main((*words, "--bits", "8")) == 0
+    assert "As well do 8 bits: so few pictures do not tell them apart." in capsys.readouterr().out

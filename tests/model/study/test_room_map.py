@@ -9,34 +9,16 @@ import time
 from pathlib import Path
 
 import pytest
+from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.study import room_map as study
 from occ_model.study.room_map import RoomMapRequest, RoomMapText, floor_under, room_map
 
 
-def _room(panels: int = 4) -> Room:
-    scene = occ.load_preset("phone-68us").replace(
-        rows=512, columns=768, readout_time=36e-6, exposure_time=60e-6, averaging="light",
-        switching_frequency=8e3,
-    )  # fmt: skip
-    lamps = tuple(
-        RoomLamp(
-            name=f"L{n}", x=1.2 * (n % 2), y=1.2 * (n // 2), z=2.6, start_time=3e-4 * n,
-            roll=0.1 * n,
-            transmitter=scene.transmitter.replaced(
-                {"panel_width": 0.8, "panel_height": 0.7, "code": 61 * n + 5}
-            ),
-        )
-        for n in range(panels)
-    )  # fmt: skip
-    return Room(lamps=lamps, scene=scene, camera=Place(z=-0.2, roll=0.4))
-
-
 def test_a_place_counts_what_its_picture_tells_and_far_away_there_is_nothing() -> None:
-    request = RoomMapRequest(_room(), (0.6, 40.0), (0.6,), images=2)
+    request = RoomMapRequest(small_room(), (0.6, 40.0), (0.6,), images=2)
     near, far = room_map(request)
     assert near.shown == 8
     assert near.named == 8
@@ -51,7 +33,7 @@ def test_a_place_counts_what_its_picture_tells_and_far_away_there_is_nothing() -
 def test_a_lamp_that_has_another_s_name_is_counted_as_wrong(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    room = _room()
+    room = small_room()
     swapped = room.replace(lamps=(*room.lamps[2:], *room.lamps[:2]))
     codes = [lamp.transmitter for lamp in swapped.lamps]
     other = room.replace(
@@ -66,8 +48,10 @@ def test_a_lamp_that_has_another_s_name_is_counted_as_wrong(
 
 
 def test_lamps_that_are_cut_are_none_of_the_whole_ones_that_were_named() -> None:
-    (point,) = room_map(RoomMapRequest(_room().replace(x=0.6, y=0.6), (1.25,), (0.6,), images=2))
-    frame = occ.render_room(_room().replace(x=1.25, y=0.6))
+    (point,) = room_map(
+        RoomMapRequest(small_room().replace(x=0.6, y=0.6), (1.25,), (0.6,), images=2)
+    )
+    frame = occ.render_room(small_room().replace(x=1.25, y=0.6))
     read = occ.read_room(frame.camera_image, frame.room)
     whole = sum(not one.is_cut for one in frame.lamps)
     assert sum(lamp.name is not None for lamp in read.lamps) > whole
@@ -77,7 +61,7 @@ def test_lamps_that_are_cut_are_none_of_the_whole_ones_that_were_named() -> None
 def test_a_code_that_no_lamp_there_sends_is_counted_as_misread(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    room = _room(1)
+    room = small_room(1)
     other = room.with_sent(code=700)
     frame = occ.render_room(other)
     monkeypatch.setattr(
@@ -90,7 +74,7 @@ def test_a_code_that_no_lamp_there_sends_is_counted_as_misread(
 
 
 def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
-    request = RoomMapRequest(_room(2), (0.0, 0.6), (0.0, 0.3))
+    request = RoomMapRequest(small_room(2), (0.0, 0.6), (0.0, 0.3))
     path = tmp_path / "map.csv"
     whole = room_map(request, results=path)
     text = path.read_bytes()
@@ -109,7 +93,7 @@ def test_a_map_that_was_killed_goes_on_and_is_the_same(tmp_path: Path) -> None:
 @pytest.mark.whole
 def test_what_kill_9_leaves_is_continued_and_ends_alike(tmp_path: Path) -> None:
     room, path, whole = (tmp_path / name for name in ("room.toml", "map.csv", "whole.csv"))
-    room.write_text(_room(4).to_toml(), encoding="utf-8")
+    room.write_text(small_room(4).to_toml(), encoding="utf-8")
     words = ("room", "map", "--room", str(room), "--side", "3", "--out")
     program = "import sys; from occ_model.cli import main; sys.exit(main())"
     victim = subprocess.Popen([sys.executable, "-c", program, *words, str(path)])
@@ -136,7 +120,7 @@ def test_the_command_measures_a_room_file_with_other_settings(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     room = tmp_path / "small.toml"
-    room.write_text(_room(1).to_toml())
+    room.write_text(small_room(1).to_toml())
     out = tmp_path / "map.csv"
     words = ("room", "map", "--room", str(room), "--side", "1", "--out", str(out))
     assert main((*words, "--set", "switching_frequency=7kHz", "--set", "bits=12")) == 0
@@ -149,14 +133,14 @@ def test_the_command_measures_a_room_file_with_other_settings(
 
 
 def test_the_floor_is_that_below_the_lamps() -> None:
-    assert floor_under(_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
-    assert floor_under(_room(1), 3) == ((0.0,), (0.0,))
+    assert floor_under(small_room(), 3) == ((0.0, 0.6, 1.2), (0.0, 0.6, 1.2))
+    assert floor_under(small_room(1), 3) == ((0.0,), (0.0,))
 
 
 def test_a_single_place_is_in_the_middle_of_the_floor() -> None:
-    assert floor_under(_room(), 1) == ((0.6,), (0.6,))
+    assert floor_under(small_room(), 1) == ((0.6,), (0.6,))
 
 
 def test_a_tolerance_is_refused_in_the_words_of_every_other_one() -> None:
     with pytest.raises(occ.ParameterError, match=r"tolerance is nan levels; allowed: from 0"):
-        RoomMapRequest(_room(1), (0.0,), (0.0,), tolerance=math.nan)
+        RoomMapRequest(small_room(1), (0.0,), (0.0,), tolerance=math.nan)

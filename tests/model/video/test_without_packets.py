@@ -87,3 +87,11 @@ def test_frames_that_show_nothing_are_refused_as_before() -> None:
     found = read([np.full(COLUMNS, 30.0)] * 5)
     assert found.failure is not None
     assert found.failure.startswith("None of 5 frames shows chips")
+
+
+def test_where_nine_frames_of_ten_show_a_pulse_nothing_is_said_of_packets() -> None:
+    sent = [*["10"] * 9, "1101000"]
+    found = read([stripes(number, chips, 5000.0) for number, chips in enumerate(sent)])
+    assert found.failure is not None
+    assert found.failure.startswith("The lamp sends a plain square wave or pulse")
+    assert found.failure.endswith("Packets as the scene sends them are in none of the frames.")

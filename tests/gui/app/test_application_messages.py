@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from gui.user import User
 from PySide6.QtCore import QTimer
-from PySide6.QtWidgets import QApplication, QLabel
+from PySide6.QtWidgets import QLabel
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
@@ -138,7 +138,7 @@ def test_no_sentence_stands_in_the_status_line_beside_the_one_in_view(
 
 @pytest.mark.own_window
 def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_works_on(
-    application: Application, user: User, caplog: pytest.LogCaptureFixture
+    application: Application, user: User, qtbot: QtBot, caplog: pytest.LogCaptureFixture
 ) -> None:
     def broken() -> None:
         raise ZeroDivisionError("a mistake")
@@ -146,8 +146,7 @@ def test_an_exception_in_a_slot_is_a_sentence_and_in_the_log_and_the_window_work
     with capture_exceptions(), caplog.at_level(logging.ERROR):
         application.error_reports.install()
         QTimer.singleShot(0, broken)
-        QApplication.processEvents()
-        QApplication.processEvents()
+        qtbot.waitUntil(lambda: bool(user.message))
         application.error_reports.remove()
     assert "ZeroDivisionError: a mistake" in user.message
     assert "Your work is still there." in user.message

@@ -134,9 +134,17 @@ def run_inside(root: Path, command: Sequence[str], log: Path) -> int:
     """Run a command in the project's folder of a root; return its exit code."""
     empty = ["env", "-i", f"HOME={HOME}", f"PATH={PATH}", "LANG=C.UTF-8"]
     enter = ["chroot", str(root), *empty, "sh", "-c", f'cd {INSIDE} && exec "$@"', "sh"]
-    with log.open("wb") as file:
-        done = subprocess.run([*enter, *command], stdout=file, stderr=file, check=False)
-    return done.returncode
+    with (
+        log.open("wb") as file,
+        subprocess.Popen(
+            [*enter, *command], stdout=file, stderr=file, start_new_session=True
+        ) as program,
+    ):
+        try:
+            return program.wait()
+        except BaseException:  # ended by a signal: what the command has started ends, too
+            os.killpg(program.pid, signal.SIGKILL)
+            raise
 
 
 def versions(root: Path, log: Path) -> tuple[str, str, str]:

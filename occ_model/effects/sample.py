@@ -184,10 +184,11 @@ def sample_of(
         low, high = np.full(len(columns), region.first_row - 0.5), region.last_row - 0.5
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
+        first = 0
         covers = dict.fromkeys(_sets_of([*moved, *blurs]))
     else:
         spans = [_spans(outline, columns, 0) for outline in outlines]
-        rows, row_weights = _row_nodes(region, spans, bool(moved or blur), blur)
+        rows, row_weights, first = _row_nodes(region, spans, bool(moved or blur), blur)
         covers = _covers(columns, rows, moved, blurs, plain)
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
@@ -205,7 +206,7 @@ def sample_of(
         covers=covers,
         emission={name: gain for name, gain in gains.items() if optics[name].emission},
         transmission={name: gain for name, gain in gains.items() if optics[name].transmission},
-        inner=slice(rows.shape[1] // 2 - 2, rows.shape[1] // 2 + 2),
+        inner=slice(first, first + len(_GAUSS)),
         is_covered=covered,
     )
 
@@ -252,8 +253,11 @@ def _with_side_rims(
 
 def _row_nodes(
     region: Region, spans: list[_Spans], rims: bool, blur: float
-) -> tuple[FloatArray, FloatArray]:
-    """Choose the rows in each column: beside the panel, across its rims and within it."""
+) -> tuple[FloatArray, FloatArray, int]:
+    """Choose the rows in each column: beside the panel, across its rims and, from a place, within.
+
+    Of those that stand for nothing in any column one is kept at each end, as a rim may lie there.
+    """
     low, high = region.first_row - 0.5, region.last_row - 0.5
     edges: list[FloatArray] = []
     for side in ("first", "last"):
@@ -277,7 +281,12 @@ def _row_nodes(
         places = start[:, None] + length * nodes
         rows.append(places if nodes is _GAUSS else np.rint(places))
         weights.append(length / (high - low) * shares)
-    return np.hstack(rows), np.hstack(weights)
+    places, shares = np.hstack(rows), np.hstack(weights)
+    first = (places.shape[1] - len(_GAUSS)) // 2
+    needed = shares.any(axis=0)
+    needed[first : first + len(_GAUSS)] = True
+    needed[1:-1] |= needed[2:] | needed[:-2]
+    return places[:, needed], shares[:, needed], int(np.count_nonzero(needed[:first]))
 
 
 def _evenly(count: int) -> tuple[FloatArray, FloatArray]:

@@ -181,6 +181,8 @@ class SampledPixels:
     def levels(self) -> FloatArray:
         """Levels from the darkest pixel of the sample to the brightest, with any effects."""
         low, high = float(self.stack.min()), float(self.stack.max())
+        if self.sample.covers[self.outline] is not None:  # beside the panel, sampled or not
+            low = min(low, float(surroundings_values(self.scene, self.view.light).min()))
         step = max(high - low, FLAT) / (_LEVELS - 3)
         full = saturation_value(self.scene)
         if low < full < high:  # where noise ends, a level of the table

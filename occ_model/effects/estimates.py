@@ -1,7 +1,7 @@
 """How much leaving effects out changes what is observed of a scene, estimated from a sample."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -45,7 +45,7 @@ def observed(pixels: SampledPixels, observable: Observable) -> Observed:
         doubt = pixels.file.undithered()
         rims = pixels.rim_share  # where no noise spreads it, a rim's blocks round otherwise
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
-        at_rims = pixels.file.undithered_share * pixels.file.added_at_rims(rims, square)
+        at_rims = pixels.file.undithered_share * pixels.file.added_at_a_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
         for name in pixels.names:
             found.doubt[name] = found.doubt.get(name, 0.0) + doubt
@@ -106,14 +106,13 @@ class Estimates:
         """Return the same where no set of effects is known to be small enough together."""
         return Estimates(self.sizes, self.limits, None, self.stretch, self.factors)
 
-    def error_of(self, left_out: frozenset[str]) -> float:
-        """Return what leaving out some effects together changes at most, in levels."""
-        if not left_out:
-            return 0.0
+    def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
+        """Return what leaving out sets of effects together changes at most, in levels."""
         if self.seen is None:
-            return math.inf
-        factor = max(self.factors.get(name, 1.0) for name in left_out)
-        return math.sqrt(self.seen.together(left_out)) * self.stretch * factor
+            return [math.inf if left_out else 0.0 for left_out in sets]
+        most = np.sqrt(self.seen.together(sets)).tolist()
+        factors = [max((self.factors[name] for name in one), default=1.0) for one in sets]
+        return [self.stretch * one * own for one, own in zip(factors, most, strict=True)]
 
 
 def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:

@@ -33,9 +33,6 @@ def _transform() -> FloatArray:
 _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
 """About the coefficients of an edge of one grey level across a block."""
 
-_WHITE_SPECTRUM: FloatArray = np.full(8, math.sqrt(1.0 / 8.0))
-"""Amplitudes of a change that is alike at all frequencies."""
-
 _TINY = 1e-30
 
 _LEAST_SPREAD = 1e-3
@@ -104,27 +101,30 @@ class FileChange:
         self._others = steps[1:].ravel()
         self._all = steps.ravel()
         self._noise = math.sqrt(spread**2 + _ROUNDING)
+        self._s = self._noise / self._step
         self.block_rows = max(rims.rows / 8.0, 1.0)
         self._rims = rims.share
         self._filled = math.sqrt(rims.rows / (8.0 * rims.blocks))
         self._cut = rims.cut / rims.rows**2
-        self._stack = stack
-        self._x = self._coefficients(stack)
+        self._inside = self._in_blocks(stack) if len(self._blocks) else stack[:, None, None]
+        self._x = self._coefficients(self._inside)
         contrast = float(np.ptp(stack[0]))
-        self._along = self._spectrum_along(float(stack[0].min()), rims.is_level)
-        edge = contrast * np.outer(_EDGE_SPECTRUM, self._along)
+        along = self._spectrum_along(float(stack[0].min()), rims.is_level)
+        edge = contrast * np.outer(_EDGE_SPECTRUM, along)
         self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
         self._rim_weights = self._all**2 * near_half(self._of_rims) / 64.0
+        self._along = np.tile(along * math.sqrt(8.0), 8) / self._all
+        self._white = 1.0 / self._all
 
     def _in_blocks(self, values: FloatArray) -> FloatArray:
         """Return the pixels between the rims, shape (sets, blocks, 8, nodes)."""
         return values[:, :, self._inner][:, self._blocks]
 
-    def _coefficients(self, values: FloatArray) -> FloatArray:
+    def _coefficients(self, blocks: FloatArray) -> FloatArray:
         """Return those without a vertical frequency, in their steps: (sets, blocks, 8, nodes)."""
         if not len(self._blocks):
-            return np.zeros((len(values), 1, 8, 1))
-        found = np.matmul(_transform() * math.sqrt(8.0), self._in_blocks(values))
+            return np.zeros((len(blocks), 1, 8, 1))
+        found = np.matmul(_transform() * math.sqrt(8.0), blocks)
         found[:, :, 0] -= 1024.0
         found /= self._step
         return np.asarray(found)
@@ -141,19 +141,21 @@ class FileChange:
         """
         if not len(self._blocks):
             return values
-        noise = spread[:, None, None]
-        x = self._coefficients(values)
-        own = np.sqrt(noise * noise + _ROUNDING)[:, None] / self._step
-        wide = np.sqrt(own * own + x.var(axis=3, keepdims=True))
-        shift = rounding_mean(x.mean(axis=3, keepdims=True), wide) * self._step / math.sqrt(8.0)
+        x = self._coefficients(self._in_blocks(values))
+        middle = x.mean(axis=3, keepdims=True)
+        varied = np.square(x - middle).mean(axis=3, keepdims=True)
+        noise = (spread * spread + _ROUNDING)[:, None, None, None]
+        wide = np.sqrt(noise / self._step**2 + varied)
+        shift = rounding_mean(middle, wide) * (self._step / math.sqrt(8.0))
         back = np.matmul(_transform().T, shift)
         values[:, self._blocks.ravel()] += back.reshape(len(values), -1, 1)
         return values
 
+    @cached_property
     def own_change(self) -> float:
-        """Return the mean square of what the file changes."""
+        """The mean square of what the file changes."""
         rims = self._rims
-        along = (rounding_square(self._x[0], self._noise / self._step) * self._step**2).sum(axis=1)
+        along = (rounding_square(self._x[0], self._s) * self._step**2).sum(axis=1)
         noise = self._noise / self._others
         others = (self._others**2 * rounding_square(np.zeros(1), noise)).sum()
         inner = float(along.mean() + others) / 64.0
@@ -166,8 +168,7 @@ class FileChange:
 
     def own_sampling(self) -> float:
         """Return the mean square of the rounding's sampling error in a column's mean."""
-        own = self._noise / self._step
-        square = self._step**2 * np.minimum(1.0, (own / _DITHERED) ** 2) / 12.0
+        square = self._step**2 * np.minimum(1.0, (self._s / _DITHERED) ** 2) / 12.0
         return float(square.sum()) / 64.0 / self.block_rows + self._cut * self._rounding_at_edges
 
     @cached_property
@@ -184,43 +185,40 @@ class FileChange:
             block; and how much more to the pixels where coefficients lie a little beside the
             sampled ones.
         """
-        change = self._x - self._x[0]
-        moved = self._in_blocks(self._stack)
-        moved = moved - moved[0] if moved.size else self._stack - self._stack[0]
-        moved = moved.reshape(len(moved), -1)
+        moved = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
         flips = np.sqrt(moved_steps(moved).mean(axis=1))
         size = np.sqrt((moved**2).mean(axis=1))
-        step = self._step
-        read = self._x + rounding_mean(self._x, self._noise / step)
+        read = self._x + rounding_mean(self._x, self._s)
         shift = read - read[0]
-        by_noise = moved_steps_of_noise(flips[:, None, None] / step)[:, None]
+        by_noise = moved_steps_of_noise(flips[:, None, None] / self._step)[:, None]
         of_shift = moved_steps(shift)
-        apart, most = (
-            self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(least)))
-            for least in (_LEAST_SPREAD, SHARP)
-        )
-        along = self._in_pixels(shift**2 - change**2) + apart
+        apart = self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(_LEAST_SPREAD)))
+        more: FloatArray = np.zeros(len(apart))
+        if float(self._s.min()) < SHARP:
+            more = self._in_pixels(np.maximum(of_shift, by_noise * self._near_half(SHARP))) - apart
+        along = self._in_pixels(shift**2 - (self._x - self._x[0]) ** 2) + apart
         q = self._others
         across = moved_steps_of_noise(flips[:, None] / q) @ (q**2 * near_half(self._noise / q))
-        rims = self._at_rims(np.hypot(size, flips) * self._filled)
+        rims = self._at_rims(np.hypot(size, flips) * self._filled, self._white)
         image = (1.0 - self._rims) * (along + across / 64.0) + self._rims * rims
-        return image, apart / self.block_rows + self._cut * rims, most - apart
+        return image, apart / self.block_rows + self._cut * rims, more
 
     def _in_pixels(self, squares: FloatArray) -> FloatArray:
         """Return the mean square in pixels of coefficients, shape (sets,)."""
-        return np.asarray((squares * self._step**2).sum(axis=2).mean(axis=(1, 2)) / 64.0)
+        _, blocks, _, nodes = squares.shape
+        step = self._step[:, 0] ** 2 / (64.0 * blocks * nodes)
+        return np.asarray(np.einsum("sbfn,f->s", squares, step))
 
     def _near_half(self, least: float) -> FloatArray:
         """Return how near to a step's end the coefficients are, against values spread evenly."""
         away = np.abs(self._x[0] - np.rint(self._x[0]))
-        spread = np.maximum(self._noise / self._step, least)
+        spread = np.maximum(self._s, least)
         density = np.exp(-0.5 * ((0.5 - away) / spread) ** 2) / (math.sqrt(2.0 * math.pi) * spread)
         return np.asarray(np.minimum(density, 1.0))
 
-    def _at_rims(self, size: FloatArray, along: FloatArray = _WHITE_SPECTRUM) -> FloatArray:
+    def _at_rims(self, size: FloatArray, spectrum: FloatArray) -> FloatArray:
         """Return what rounding adds to changes in blocks with a rim, by their frequencies."""
-        sizes = np.tile(along * math.sqrt(8.0), 8) / self._all
-        return np.asarray(moved_steps_of_noise(size[..., None] * sizes) @ self._rim_weights)
+        return np.asarray(moved_steps_of_noise(size[..., None] * spectrum) @ self._rim_weights)
 
     def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
         """Return the shares of the horizontal frequencies in a row of the panel, as amplitudes.
@@ -237,8 +235,7 @@ class FileChange:
     @property
     def undithered_share(self) -> float:
         """The share of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
-        sharp = np.exp(-DAMPING * (self._noise / self._step) ** 2)
-        return float(sharp.mean())
+        return float(np.exp(-DAMPING * self._s**2).mean())
 
     def undithered(self) -> float:
         """Return the mean square of what no sample can tell: rounding alike in all blocks.
@@ -246,23 +243,23 @@ class FileChange:
         Where noise does not spread a block's mean over the steps, the smallest change may round
         the blocks of an even picture otherwise, many at once: half of them are counted.
         """
-        step = self._step[:2, 0]
-        sharp = np.exp(-DAMPING * (self._noise / step) ** 2)
-        return float((step**2 * sharp).sum()) / 2.0 / 64.0
+        sharp = self._step[:2] ** 2 * np.exp(-DAMPING * self._s[:2] ** 2)
+        return float(sharp.sum()) / 2.0 / 64.0
 
-    def added_at_rims(self, share: float, square: float) -> float:
-        """Return what a file adds to a change that lies in some share of the blocks.
+    def added_at_rims(self, shares: FloatArray, squares: FloatArray) -> FloatArray:
+        """Return what a file adds to changes that lie in some shares of the blocks.
 
         Parameters
         ----------
-        share
-            Of the blocks.
-        square
-            Mean square of the change over all of the picture.
+        shares, squares : ndarray of float64
+            Of the blocks; and the changes' mean squares over all of the picture.
         """
-        if not share:
-            return 0.0
-        return share * float(self._at_rims(np.array(math.sqrt(square / share)), self._along))
+        sizes = np.sqrt(squares / np.maximum(shares, _TINY))
+        return shares * self._at_rims(sizes, self._along)
+
+    def added_at_a_rim(self, share: float, square: float) -> float:
+        """Return the same for one change."""
+        return float(self.added_at_rims(np.array(share), np.array(square))) if share else 0.0
 
     def spread(self, spread: FloatArray) -> FloatArray:
         """Return the deviation of a pixel's noise as it is read back, for some before."""
@@ -294,6 +291,6 @@ class FileChange:
         varied = rounded_noise(spreads / q)
         apart = (own[:, None] / q) ** 2 + moved_steps_of_noise(own[:, None] / q)
         across = np.minimum(varied[:-1] + varied[-1], apart) @ q**2 / 64.0
-        rims = self._at_rims(own)
+        rims = self._at_rims(own, self._white)
         image = along + across + self._rims * rims
         return np.asarray(image), np.asarray(along / self.block_rows + self._cut * rims)

@@ -74,18 +74,17 @@ class Observed:
         square = 0.0 if place is None else float(self._products[place, place])
         return max(square + self.alone.get(name, 0.0), 0.0)
 
-    def together(self, left_out: frozenset[str]) -> float:
-        """Return the most of the mean square of what leaving out some together changes."""
-        if not left_out:
-            return 0.0
-        moved = [self._place[name] for name in left_out if name in self._place]
-        if len(moved) <= 1:
-            square = float(self._products[moved, moved].sum())
-        else:
-            change = self._seen([self._names - left_out])[0] - self.complete
-            square = float(change @ change)
-        (most,) = self._most(sorted(left_out), np.ones((1, len(left_out))), np.array([square]))
-        return float(most)
+    def together(self, sets: Sequence[frozenset[str]]) -> FloatArray:
+        """Return the most of the mean square of what leaving out sets of effects changes."""
+        moved = [[self._place[name] for name in left_out if name in self._place] for left_out in sets]
+        squares = np.array([self._products[places, places].sum() for places in moved])
+        several = [at for at, places in enumerate(moved) if len(places) > 1]
+        if several:
+            changes = self._seen([self._names - sets[at] for at in several]) - self.complete
+            squares[several] = np.einsum("sv,sv->s", changes, changes)
+        names = sorted(self._names)
+        members = np.array([[float(name in left_out) for name in names] for left_out in sets])
+        return self._most(names, members, squares)
 
     def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
         """Return about the same for many sets of effects, as if their changes added.

@@ -35,7 +35,7 @@ def observed_image(pixels: SampledPixels) -> Observed:
         if file is not None and not pixels.sample.is_covered:
             # A rim that moves outwards changes blocks that are observed in part.
             rims = pixels.rim_share
-            doubt += file.added_at_rims(rims, rims * pixels.view.swing**2 / 64.0)
+            doubt += file.added_at_a_rim(rims, rims * pixels.view.swing**2 / 64.0)
         found.doubt.update(dict.fromkeys(pixels.outline, doubt))
     for name, variance in pixels.variances.items():
         found.alone[name] = (
@@ -44,23 +44,18 @@ def observed_image(pixels: SampledPixels) -> Observed:
             else pixels.noise_read_back[name][0]
         )
     if file is not None:
-        found.alone[pixels.files[0].name] = file.own_change()
-        for name in pixels.moving:
-            square, doubt = found.shown(name), found.doubt.get(name, 0.0)
-            place, plain = pixels.place(name), square + doubt
-            added = float(file.added[0][place]) + _added_at_rims(pixels, name, plain)
-            most = max(added + float(file.added[2][place]), -0.5 * plain)
-            found.alone[name] = max(added, -square)
-            found.doubt[name] = doubt + most - found.alone[name]
+        found.alone[pixels.files[0].name] = file.own_change
+        squares = np.array([found.shown(name) for name in pixels.moving])
+        doubts = np.array([found.doubt.get(name, 0.0) for name in pixels.moving])
+        rims = np.array([pixels.moved_rims(name) for name in pixels.moving])
+        rims = np.minimum(rims * 8.0 / region.rows, 1.0)
+        added, _, more = (of_sets[1:] for of_sets in file.added)
+        added = added + file.added_at_rims(rims, squares + doubts)
+        alone = np.maximum(added, -squares)
+        doubts += np.maximum(added + more, -0.5 * (squares + doubts)) - alone
+        found.alone.update(zip(pixels.moving, alone.tolist(), strict=True))
+        found.doubt.update(zip(pixels.moving, doubts.tolist(), strict=True))
     return found
-
-
-def _added_at_rims(pixels: SampledPixels, name: str, plain: float) -> float:
-    """Return what a file adds where an effect moves or softens the panel's rim."""
-    if name not in pixels.outline or pixels.file is None:
-        return 0.0
-    ends = pixels.moved_rims(name) * 8.0 / pixels.view.region.rows
-    return pixels.file.added_at_rims(min(ends, 1.0), plain)
 
 
 def observed_profile(pixels: SampledPixels) -> Observed:
@@ -75,7 +70,7 @@ def observed_profile(pixels: SampledPixels) -> Observed:
             filed = [at for at, one in enumerate(sets) if pixels.files[0].name in one]
             below = normal_share(-pixels.levels / np.maximum(spread[filed], _SHARP_NOISE))
             above = normal_share((pixels.levels - WHITE) / np.maximum(spread[filed], _SHARP_NOISE))
-            error = math.sqrt(file.own_change())
+            error = math.sqrt(file.own_change)
             tables[filed] += (below - above) * error / math.sqrt(2.0 * math.pi)
         found = pixels.look_each(tables, pixels.read_back(sets))
         return pixels.mean_of_rows(found) * weights

@@ -1,7 +1,7 @@
 """How leaving effects out changes the enhanced signal, estimated from a sample."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -150,7 +150,7 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
         near = np.abs(whole - below - 0.5) < _ROUNDING_MARGIN
         reached = np.where(near, curve[below + 1] - curve[below], 0.0) / 2.0
     else:
-        error = np.full(whole.size, math.sqrt(pixels.file.own_change()))
+        error = np.full(whole.size, math.sqrt(pixels.file.own_change))
         reached = enhancement.moments(whole.ravel(), error)[1].reshape(whole.shape)
     square = pixels.mean_of_rows(np.where(sharp, reached, 0.0) ** 2)
     doubt = float((square * pixels.sample.weights).sum())
@@ -173,27 +173,35 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     if not len(large):
         return
     profile = pixels.profile(pixels.names)[region.first_column : region.last_column]
-    away = np.abs(profile - large[:, None] - 0.5)
+    sampled = profile[sample.columns - region.first_column]
     middles = np.asarray(large + 0.5, dtype=np.float64)
-    at_step = {e.name: pixels.noise_at(frozenset({e.name}), middles) ** 2 for e in pixels.noises}
-    noise = np.maximum(np.sqrt(sum(at_step.values(), np.zeros(len(large)))), _ROUNDING_MARGIN)
-    reached = np.maximum(2.0 * pixels.noise_at(pixels.names, profile), _ROUNDING_MARGIN)
-    moves = pixels.mean_of((pixels.stack - pixels.whole) ** 2).tolist()
-    for name in pixels.names:
-        if name in at_step:
-            near = away < reached  # a full pixel has no noise
-            rest = np.maximum(noise**2 - at_step[name], _ROUNDING_MARGIN**2)
-            passing = np.sqrt(at_step[name]) / (3.0 * noise)
-            share = np.hypot(at_step[name] / rest / 8.0, np.sqrt(passing / region.rows))
-        else:
-            moved = math.sqrt(moves[pixels.place(name)])
-            near = away < max(moved, _ROUNDING_MARGIN)
-            share = 0.4 * moved / noise
-        sampled = np.count_nonzero(near[:, sample.columns - region.first_column], axis=1)
-        unseen = sampled < _LEAST_SAMPLED_COLUMNS
-        squares = (steps[large] * np.minimum(share, 0.5)) ** 2
-        doubt = near.mean(axis=1)[unseen] @ squares[unseen]
-        found.doubt[name] = found.doubt.get(name, 0.0) + float(doubt)
+    by_noise = np.array([pixels.noise_at(frozenset({e.name}), middles) ** 2 for e in pixels.noises])
+    noise = np.maximum(np.sqrt(by_noise.sum(axis=0)), _ROUNDING_MARGIN)
+    moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2))[:, None]
+
+    def doubts(near: Callable[[FloatArray], FloatArray], shares: FloatArray) -> list[float]:
+        """Return those of effects by the share of pixels that are carried across each step."""
+        unseen = near(sampled) < _LEAST_SAMPLED_COLUMNS
+        squares = (steps[large] * np.minimum(shares, 0.5)) ** 2
+        return (near(profile) / len(profile) * unseen * squares).sum(axis=1).tolist()
+
+    def passed_by_noise(values: FloatArray) -> FloatArray:
+        reached = np.maximum(2.0 * pixels.noise_at(pixels.names, values), _ROUNDING_MARGIN)
+        near = np.abs(values - middles[:, None]) < reached  # a full pixel has no noise
+        return np.count_nonzero(near, axis=1)
+
+    def passed(values: FloatArray) -> FloatArray:
+        ordered, reached = np.sort(values), np.maximum(moved, _ROUNDING_MARGIN)
+        ends = (ordered.searchsorted(middles + side * reached) for side in (1.0, -1.0))
+        return next(ends) - next(ends)
+
+    rest = np.maximum(noise**2 - by_noise, _ROUNDING_MARGIN**2)
+    passing = np.sqrt(by_noise) / (3.0 * noise) / region.rows
+    of_noise = doubts(passed_by_noise, np.hypot(by_noise / rest / 8.0, np.sqrt(passing)))
+    of_changes = doubts(passed, 0.4 * moved / noise)
+    names = (*(effect.name for effect in pixels.noises), *pixels.moving)
+    for name, doubt in zip(names, (*of_noise, *of_changes), strict=True):
+        found.doubt[name] = found.doubt.get(name, 0.0) + doubt
 
 
 def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
@@ -201,10 +209,12 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     if pixels.file is None:
         return
     spread, name = pixels.spread(pixels.names), pixels.files[0].name
+    if float(spread.max()) <= _CLIPPED_NOISE:
+        return
     lost = np.where(
         spread > _CLIPPED_NOISE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0
     )
     cut = float(pixels.mean_at_whole(lost))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
-    doubt = cut * pixels.file.own_change() * min(gain, 8.0) ** 2 / 4.0
+    doubt = cut * pixels.file.own_change * min(gain, 8.0) ** 2 / 4.0
     found.doubt[name] = found.doubt.get(name, 0.0) + doubt

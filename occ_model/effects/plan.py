@@ -149,8 +149,7 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
     check_scene(scene)
     sets = _sets_of(paper_view_of(scene), settings.checked(NAMES))
     found: list[Way] = []
-    for way in sets.ways:
-        error = sets.error_of(way)
+    for way, error in zip(sets.ways, sets.errors_of(sets.ways), strict=True):
         if error < (found[-1].error if found else math.inf):
             found.append(Way(way.effects, way.seconds, error))
     return tuple(found)

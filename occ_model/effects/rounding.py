@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, Pixels
 from occ_model.effects.normal import normal_share
 
 _HARMONICS = 6
@@ -38,41 +38,32 @@ _WIDE = 0.8
 def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean square error of rounding, in steps."""
     found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
-    for n, cosine, _ in _harmonics(x, s):
-        found += cosine / (math.pi * n) ** 2
+    for n, angle, damped in _harmonics(x, s):
+        found += np.cos(angle) * (damped / (math.pi * n) ** 2)
     return np.asarray(np.maximum(found, 0.0))
 
 
 def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the mean of round(x) - x, in steps."""
     found = np.rint(x) - x
-    sharp = np.broadcast_to(s < SHARP, found.shape)
+    sharp = s < SHARP
     if sharp.all():
-        return found
-    damped = np.zeros(found.shape)
-    for n, _, sine in _harmonics(x, np.maximum(s, SHARP)):
-        damped += sine / (math.pi * n)
-    return np.where(sharp, found, damped)
+        return np.asarray(np.broadcast_to(found, np.broadcast_shapes(x.shape, s.shape)))
+    damped = np.zeros(np.broadcast_shapes(x.shape, s.shape))
+    for n, angle, share in _harmonics(x, s):
+        damped += np.sin(angle) * (share / (math.pi * n))
+    return np.where(sharp, found, damped) if sharp.any() else damped
 
 
-def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[float, FloatArray, FloatArray]]:
-    """Give the number n, and (-1)^n times the damped cosine and sine, of those that noise leaves.
-
-    Each follows from the one before by the sum of the angles.
-    """
-    least = float(s.min()) ** 2
-    angle = 2.0 * math.pi * x
-    first = -np.exp(-DAMPING * s * s)
-    cosine, sine = np.cos(angle), np.sin(angle)
-    turn, lift = cosine, sine
-    damped, ratio, square = first, first, first * first
+def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixels]]:
+    """Give the number n, the angle and (-1)^n times the damping, of those that noise leaves."""
+    least = max(float(s.min()), SHARP)
+    turn = ((x - np.rint(x)) * (2.0 * math.pi)).astype(np.float32)
     for n in range(1, _HARMONICS + 1):
-        if n > 1 and DAMPING * n * n * least > _NEGLIGIBLE:
+        if n > 1 and DAMPING * (n * least) ** 2 > _NEGLIGIBLE:
             return
-        yield float(n), cosine * damped, sine * damped
-        cosine, sine = cosine * turn - sine * lift, sine * turn + cosine * lift
-        ratio = ratio * square
-        damped = damped * ratio
+        damping = np.exp(-DAMPING * (n * s) ** 2) * (-1.0) ** n
+        yield n, turn * np.float32(n), damping.astype(np.float32)
 
 
 def moved_steps(change: FloatArray) -> FloatArray:
@@ -124,11 +115,8 @@ def _square_of_rounded(s: FloatArray) -> FloatArray:
 def rounded_variance(x: FloatArray, s: FloatArray) -> FloatArray:
     """Return the variance of rounded values of some mean and noise, in steps."""
     away = x - np.rint(x)
-    mean = np.zeros(np.broadcast_shapes(x.shape, s.shape))
-    square = np.zeros(mean.shape)
-    for step in (1.0, 2.0, 3.0):
-        above = normal_share((away - step + 0.5) / s)
-        below = normal_share((-away - step + 0.5) / s)
-        mean += above - below
-        square += (2.0 * step - 1.0) * (above + below)
+    step = np.array([1.0, 2.0, 3.0]).reshape(-1, *(1,) * max(x.ndim, s.ndim))
+    above, below = (normal_share((sign * away - step + 0.5) / s) for sign in (1.0, -1.0))
+    mean = (above - below).sum(axis=0)
+    square = ((2.0 * step - 1.0) * (above + below)).sum(axis=0)
     return np.where(s > _WIDE, s * s + 1.0 / 12.0, np.maximum(square - mean * mean, 0.0))

@@ -72,7 +72,10 @@ class SampledPixels:
         self.files = named(self.names, FileEffect)
         self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
         self._moving = frozenset(self.moving)
+        self._lit = frozenset(effect.name for effect in (*self.lights, *self.limits))
         self._light_of: dict[Names, ColumnLight] = {}
+        self._profile_of: dict[Names, FloatArray] = {}
+        self._spread_of: dict[Names, FloatArray] = {}
         self._enhancement_of: dict[Names, Enhancement] = {}
         self.sample = self._sampled()
         gains, power = self.sample.transmission, 1.0 / self.scene.camera.gamma
@@ -135,24 +138,27 @@ class SampledPixels:
             self._light_of[key] = light
         return self._light_of[key]
 
-    def _at_columns(self, included: Names) -> tuple[FloatArray, FloatArray]:
-        """Return the values of the sample's columns, on the panel and beside it."""
-        light, columns = self._light(included), self.sample.columns
-        ambient = light.ambient if len(light.ambient) == 1 else light.ambient[columns]
-        own = ColumnLight(light.lit[columns], ambient)
-        panel = panel_values(self.scene, own)
-        return panel, np.broadcast_to(surroundings_values(self.scene, own), panel.shape)
+    def _at_columns(self, sets: Sequence[Names]) -> ColumnLight:
+        """Return the light of the sample's columns with some effects on it: (sets, columns)."""
+        lights, columns = [self._light(included) for included in sets], self.sample.columns
+        ambient = [
+            light.ambient[columns] if len(light.ambient) > 1 else np.repeat(light.ambient, len(columns))
+            for light in lights
+        ]
+        return ColumnLight(np.stack([light.lit[columns] for light in lights]), np.stack(ambient))
 
     def _computed(self, sets: Sequence[Names]) -> FloatArray:
         sample, camera = self.sample, self.scene.camera
         lights = [effect.name for effect in self.lights]
         keys = [included.intersection(lights) for included in sets]
-        known = {key: self._at_columns(key) for key in dict.fromkeys(keys)}
-        panel = np.stack([known[key][0] for key in keys])[:, :, None]
+        known = list(dict.fromkeys(keys))
+        light, places = self._at_columns(known), [known.index(key) for key in keys]
+        panel = panel_values(self.scene, light)
         values = np.empty((len(sets), *sample.rows.shape))
         if any(cover is not None for cover in sample.covers.values()) or sample.emission:
-            dark = luminance_of(np.stack([known[key][1] for key in keys]), camera)[:, :, None]
-            own = luminance_of(panel, camera) - dark
+            dark = luminance_of(surroundings_values(self.scene, light), camera)
+            own = (luminance_of(panel, camera) - dark)[places][:, :, None]
+            dark = dark[places][:, :, None]
             for included, one, of_panel in zip(sets, values, own, strict=True):
                 cover = sample.covers[included & self.outline]
                 one[:] = of_panel if cover is None else of_panel * cover
@@ -162,7 +168,7 @@ class SampledPixels:
             values += dark
             values = pixel_value(np.maximum(values, 0.0, out=values), camera, _power)
         else:
-            values[:] = panel
+            values[:] = panel[places][:, :, None]
         for included, one in zip(sets, values, strict=True):
             for name, dimmed in self._dimmed.items():
                 if name in included:
@@ -198,8 +204,11 @@ class SampledPixels:
 
     def spread(self, included: Names) -> FloatArray:
         """Return the standard deviation of noise at the levels, with some effects."""
-        own = [variance for name, variance in self.variances.items() if name in included]
-        return np.sqrt(sum(own, np.zeros(_LEVELS)))
+        key = included.intersection(self.variances)
+        if key not in self._spread_of:
+            own = [variance for name, variance in self.variances.items() if name in key]
+            self._spread_of[key] = np.sqrt(sum(own, np.zeros(_LEVELS)))
+        return self._spread_of[key]
 
     def noise_at(self, included: Names, values: FloatArray) -> FloatArray:
         """Return the standard deviation of noise at some values, with some effects.
@@ -329,7 +338,7 @@ class SampledPixels:
         """Return how many rims of a column, 0 to 2, an effect moves or softens in the mean."""
         covers, sample = self.sample.covers, self.sample
         whole, without = covers[self.outline], covers[self.outline - {name}]
-        if whole is None or without is None:
+        if whole is without or whole is None or without is None:
             return 0.0
         moved = np.abs(whole - without) > _SEEN_SHARE
         middle = sample.inner.start + 2
@@ -351,7 +360,7 @@ class SampledPixels:
         doubt = _UNSAMPLED_RIM_PIXELS * square
         if self.file is not None:
             pixels = self.view.region.rows * self.view.region.columns
-            doubt += self.file.added_at_rims(min(64.0 / pixels, self.rim_share), doubt)
+            doubt += self.file.added_at_a_rim(min(64.0 / pixels, self.rim_share), doubt)
         return doubt
 
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
@@ -378,16 +387,19 @@ class SampledPixels:
 
     def profile(self, included: Names) -> FloatArray:
         """Return the values of all columns on the panel that some effects leave."""
-        light = self._light(included)
-        found = self.view.values if light is self.view.light else panel_values(self.scene, light)
-        for limit in self.limits:
-            if limit.name in included:
-                found = limit.apply(self.scene, found)
-        return saturate(found)
+        key = included & self._lit
+        if key not in self._profile_of:
+            light, known = self._light(key), self.view
+            found = known.values if light is known.light else panel_values(self.scene, light)
+            for limit in self.limits:
+                if limit.name in key:
+                    found = limit.apply(self.scene, found)
+            self._profile_of[key] = saturate(found)
+        return self._profile_of[key]
 
     def enhancement(self, included: Names) -> Enhancement:
         """Return the receiver's enhancement of the profile that some effects leave."""
-        key = included.intersection(e.name for e in (*self.lights, *self.limits))
+        key = included & self._lit
         if key not in self._enhancement_of:
             method = self.scene.model.enhancement
             self._enhancement_of[key] = Enhancement(self.profile(included), method)

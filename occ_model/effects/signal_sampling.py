@@ -84,7 +84,7 @@ class SignalSampling:
     def _rounded(self) -> float:
         """The mean square of what a file's rounding changes in an enhanced pixel."""
         file = self._pixels.file
-        moved = 0.0 if file is None else min(math.sqrt(file.own_change()), 1.0)
+        moved = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
         part = self._even / 6.0 + self._uneven * 0.8 * moved
         return float(self._pixels.mean_at_whole(part))
 

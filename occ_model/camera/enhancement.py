@@ -172,7 +172,7 @@ class PassedSteps:
     def of(cls, levels: FloatArray, spread: FloatArray) -> Self:
         """Find them for noisy pixels of some mean values."""
         reach = min(math.ceil(_NEGLIGIBLE_TAIL * float(spread.max())) + 1, 256)
-        lowest = np.clip(np.rint(levels).astype(np.int64) - reach, 0, 255)
+        lowest = np.minimum(np.maximum(np.rint(levels).astype(np.int64) - reach, 0), 255)
         step = lowest[:, None] + np.arange(2 * reach)
         scale = (1.0 / np.maximum(spread, _LEVEL_TOLERANCE))[:, None]
         passed = _tail((step + (0.5 - levels[:, None])) * scale)
@@ -191,7 +191,8 @@ def _tail(deviations: FloatArray) -> FloatArray:
 
     From a table: exact to 10^-4.
     """
-    place = np.clip(deviations, -_TABLE_END, _TABLE_END)
+    place = np.maximum(deviations, -_TABLE_END)
+    np.minimum(place, _TABLE_END, out=place)
     place += _TABLE_END
     place *= _PER_DEVIATION
     return _tail_table()[place.astype(np.int32)]

@@ -14,7 +14,7 @@ from occ_model.effects.observed_image import observed_image, observed_profile
 from occ_model.effects.observed_signal import observed_signal, signal_swing
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import EFFECTS
-from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.sampled_pixels import SampledPixels, sampled_pixels
 from occ_model.errors import ProjectionError
 from occ_model.scene.simulation_settings import Observable, SimulationSettings
 
@@ -133,7 +133,7 @@ def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
 def _estimates_of(
     view: PaperView, observable: Observable, effects: tuple[Effect, ...]
 ) -> Estimates:
-    pixels = SampledPixels(view, effects)
+    pixels = sampled_pixels(view, effects)
     of_signal = observable in ("signal", "decision")
     swing = signal_swing(pixels) if of_signal else view.swing
     stretch, factors = WHITE / swing, dict.fromkeys(pixels.names, 1.0)

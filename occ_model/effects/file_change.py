@@ -33,6 +33,9 @@ def _transform() -> FloatArray:
 _EDGE_SPECTRUM: FloatArray = 8.0 / math.pi / np.maximum(np.arange(8.0), 1.0)
 """About the coefficients of an edge of one grey level across a block."""
 
+_NOISES: FloatArray = np.linspace(0.0, 16.0, 129) ** 2
+"""Deviations of noise for which a file's are tabulated, in grey levels."""
+
 _TINY = 1e-30
 
 _LEAST_SPREAD = 1e-3
@@ -43,6 +46,16 @@ _DITHERED = 0.25
 
 _ROUNDING = 1.0 / 12.0
 """Mean square error of rounding to whole grey levels."""
+
+
+@lru_cache(maxsize=4)
+def _read_back(steps: bytes) -> FloatArray:
+    """Tabulate the deviation of noise as it is read back."""
+    step, q = np.split(np.frombuffer(steps), [8])
+    noise = np.sqrt(_NOISES**2 + _ROUNDING)[:, None]
+    s = noise / step
+    along = step**2 * (s * s + 1.0 / 12.0) * -np.expm1(-((s / 0.3) ** 2))
+    return np.asarray(np.sqrt((along.sum(axis=1) + rounded_noise(noise / q) @ q**2) / 64.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -263,14 +276,7 @@ class FileChange:
 
     def spread(self, spread: FloatArray) -> FloatArray:
         """Return the deviation of a pixel's noise as it is read back, for some before."""
-        few = np.linspace(0.0, float(spread.max()) + 1e-6, 9)
-        step, q = self._step[:, 0], self._others
-        noise = np.sqrt(few**2 + _ROUNDING)[:, None]
-        s = noise / step
-        along = step**2 * (s * s + 1.0 / 12.0) * -np.expm1(-((s / 0.3) ** 2))
-        across = rounded_noise(noise / q) @ q**2
-        read = np.sqrt((along.sum(axis=1) + across) / 64.0)
-        return np.asarray(np.interp(spread, few, read))
+        return np.interp(spread, _NOISES, _read_back(self._all.tobytes()))
 
     def of_noise(self, own: FloatArray, left: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the mean square of noise as it is read back: in pixels, and in a column's mean.

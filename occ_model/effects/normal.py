@@ -24,12 +24,15 @@ def _tables() -> tuple[FloatArray, FloatArray]:
 
 
 def _place(u: FloatArray) -> np.ndarray:
-    return np.asarray((np.clip(u, -FAR, FAR) + FAR) * _PER_DEVIATION + 0.5).astype(np.int32)
+    place = np.minimum(np.maximum(u, -FAR), FAR)
+    place += FAR + 0.5 / _PER_DEVIATION
+    place *= _PER_DEVIATION
+    return place.astype(np.intp)
 
 
 def normal_share(u: FloatArray) -> FloatArray:
     """Return the share of a normal distribution below some standard deviations."""
-    return np.asarray(_tables()[0][_place(-u)])
+    return _tables()[0].take(_place(-u))
 
 
 def clipped_mean(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
@@ -40,7 +43,7 @@ def clipped_mean(levels: FloatArray, spread: FloatArray, white: float) -> FloatA
     """
     lost = _tables()[1]
     least = np.maximum(spread, 1e-9)
-    above = lost[_place(levels / least)] - lost[_place((white - levels) / least)]
+    above = lost.take(_place(levels / least)) - lost.take(_place((white - levels) / least))
     return np.asarray(levels + least * above)
 
 

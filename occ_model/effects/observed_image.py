@@ -19,10 +19,9 @@ def observed_image(pixels: SampledPixels) -> Observed:
     """Return the pixels, each weighted by how much of its change is seen."""
     everything, file = pixels.names, pixels.file
     spread = pixels.spread(everything)
-    slope = np.gradient(spread, pixels.levels)
     unclipped = share_unclipped(pixels.levels, spread, WHITE)
     # Where the light changes, its noise does; and pixels that are cut off change less.
-    share = pixels.at_whole(unclipped * (1.0 + slope**2))
+    share = pixels.at_whole(unclipped * (1.0 + pixels.slope(spread) ** 2))
     weights = np.sqrt(np.maximum(share * pixels.sample.pixel_weights, 0.0)).ravel()
 
     def seen(sets: Sequence[Names]) -> FloatArray:

@@ -5,7 +5,7 @@ A simulation starts from it, and so does the estimate of what each effect change
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -24,12 +24,14 @@ from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, slots=True)
 class PaperView:
-    """The picture of a scene by the paper's model.
+    """The picture of a scene by the paper's model; all follows from the scene and the corners.
 
     Parameters
     ----------
+    corner_bytes
+        The corners' numbers, by which views are compared.
     corners : ndarray of float64, shape (4, 2)
         Of the panel in the image.
     values : ndarray of float64, shape (columns,)
@@ -46,13 +48,14 @@ class PaperView:
     """
 
     scene: Scene
-    corners: FloatArray
-    light: ColumnLight
-    values: FloatArray
-    sides: tuple[float, float, float, float] | None
-    is_seen: bool
-    region: Region
-    swing: float
+    corner_bytes: bytes
+    corners: FloatArray = field(compare=False)
+    light: ColumnLight = field(compare=False)
+    values: FloatArray = field(compare=False)
+    sides: tuple[float, float, float, float] | None = field(compare=False)
+    is_seen: bool = field(compare=False)
+    region: Region = field(compare=False)
+    swing: float = field(compare=False)
 
 
 def paper_view_of(
@@ -66,7 +69,8 @@ def paper_view_of(
         Called with the name of each stage that has just ended.
     """
     corners = panel_corners(scene)
-    outline = _outline_of(corners.tobytes(), scene.camera.rows, scene.camera.columns)
+    corner_bytes = corners.tobytes()
+    outline = _outline_of(corner_bytes, scene.camera.rows, scene.camera.columns)
     stage_ended("projection")
     light = ColumnLight.of(scene)
     values = panel_values(scene, light)
@@ -75,6 +79,7 @@ def paper_view_of(
     region = outline.region
     return PaperView(
         scene=scene,
+        corner_bytes=corner_bytes,
         corners=corners,
         light=light,
         values=values,

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from functools import lru_cache
 
 from occ_model.effects.effect import Effect
@@ -155,31 +154,21 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
     return tuple(found)
 
 
-@dataclass(frozen=True, slots=True)
-class _Question:
-    """What the sets of effects that a scene can be simulated with depend on."""
-
-    scene: Scene
-    corners: bytes
-    observable: Observable
-    force: frozenset[tuple[str, bool]]
-    noise: NoiseSource
-    view: PaperView = field(compare=False)
-
-
 def _sets_of(view: PaperView, settings: SimulationSettings) -> EffectSets:
     """Return the sets of effects that a scene can be simulated with."""
-    force = frozenset(settings.force.items())
-    corners = view.corners.tobytes()
-    return _answer(_Question(view.scene, corners, settings.observable, force, settings.noise, view))
+    force = tuple(sorted(settings.force.items()))
+    return _known_sets(view, settings.observable, force, settings.noise)
 
 
 @lru_cache(maxsize=4)  # a picture, its forecast and its reading ask the same
-def _answer(asked: _Question) -> EffectSets:
-    settings = SimulationSettings(
-        observable=asked.observable, force=dict(asked.force), noise=asked.noise
-    )
-    return EffectSets.of(estimates_of(asked.view, settings), asked.view, settings)
+def _known_sets(
+    view: PaperView,
+    observable: Observable,
+    force: tuple[tuple[str, bool], ...],
+    noise: NoiseSource,
+) -> EffectSets:
+    settings = SimulationSettings(observable=observable, force=dict(force), noise=noise)
+    return EffectSets.of(estimates_of(view, settings), view, settings)
 
 
 def _decide(

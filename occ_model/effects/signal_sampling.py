@@ -27,9 +27,8 @@ class SignalSampling:
         self._spread = spread = pixels.spread(pixels.names)
         passed = PassedSteps.of(np.clip(pixels.levels, 0.0, WHITE), spread)
         curve, self._deviation, jumps = pixels.enhancement(pixels.names).smoothed(passed)
-        step = float(pixels.levels[1] - pixels.levels[0])
-        self._even = np.gradient(curve, step) ** 2
-        self._uneven = np.maximum(np.gradient(jumps, step) - self._even, 0.0)
+        self._even = pixels.slope(curve) ** 2
+        self._uneven = np.maximum(pixels.slope(jumps) - self._even, 0.0)
         self._gain = float(pixels.mean_at_whole(self._even))
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
         self._pixel = float(pixels.mean_at_whole(self._even + self._uneven)) * one

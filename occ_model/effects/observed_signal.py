@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -40,6 +41,14 @@ def signal_swing(pixels: SampledPixels) -> float:
     return max(float(enhanced.max()) - float(enhanced.min()), FLAT)
 
 
+class _Noise(NamedTuple):
+    """The deviation at each level, as a file has it, its least, and the steps that pixels pass."""
+
+    spread: FloatArray
+    least: float
+    passed: PassedSteps
+
+
 class _Curves:
     """The enhancement's curves, smoothed by the noise that some effects leave, over the levels."""
 
@@ -48,17 +57,19 @@ class _Curves:
         self._levels = np.clip(pixels.levels, 0.0, WHITE)
         self._moving = frozenset(pixels.moving)
         self._lenses = frozenset(effect.name for effect in pixels.lenses)
-        self._noises: dict[Names, tuple[FloatArray, PassedSteps]] = {}
+        self._files = frozenset(effect.name for effect in pixels.files)
+        self._noises: dict[Names, _Noise] = {}
         self._curves: dict[Names, FloatArray] = {}
 
-    def noise(self, included: Names) -> tuple[FloatArray, PassedSteps]:
-        """Return the deviation at each level, as a file has it, and the steps that pixels pass."""
+    def noise(self, included: Names) -> _Noise:
+        """Return the noise that some effects leave."""
         key = included - self._moving
         if key not in self._noises:
             spread, file = self._pixels.spread(included), self._pixels.file
-            if file is not None and self._pixels.files[0].name in included:
+            if file is not None and self._files & included:
                 spread = file.spread(spread)
-            self._noises[key] = spread, PassedSteps.of(self._levels, spread)
+            passed = PassedSteps.of(self._levels, spread)
+            self._noises[key] = _Noise(spread, float(spread.min()), passed)
         return self._noises[key]
 
     def curve(self, included: Names) -> FloatArray:
@@ -66,7 +77,7 @@ class _Curves:
         key = included - self._lenses
         if key not in self._curves:
             enhancement = self._pixels.enhancement(included)
-            self._curves[key] = enhancement.mean(self.noise(included)[1])
+            self._curves[key] = enhancement.mean(self.noise(included).passed)
         return self._curves[key]
 
     def enhanced(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
@@ -74,14 +85,14 @@ class _Curves:
         pixels = self._pixels
         found = pixels.look_each(np.stack([self.curve(one) for one in sets]), values)
         for included, own, of_own in zip(sets, values, found, strict=True):
-            spread, _ = self.noise(included)
-            if float(spread.min()) < _LEAST_SMOOTHING_NOISE:
+            noise = self.noise(included)
+            if noise.least < _LEAST_SMOOTHING_NOISE:
                 flat = np.clip(own, 0.0, WHITE)
-                filed = any(effect.name in included for effect in pixels.files)
-                noise = pixels.look(spread, flat) if filed else pixels.noise_at(included, flat)
-                sharp = noise < _LEAST_SMOOTHING_NOISE
+                filed = self._files & included
+                own_noise = pixels.look(noise.spread, flat) if filed else pixels.noise_at(included, flat)
+                sharp = own_noise < _LEAST_SMOOTHING_NOISE
                 if sharp.any():
-                    steps = PassedSteps.of(flat[sharp], noise[sharp])
+                    steps = PassedSteps.of(flat[sharp], own_noise[sharp])
                     of_own[sharp] = pixels.enhancement(included).mean(steps)
         return found
 

@@ -72,10 +72,11 @@ class SampledPixels:
         self.files = named(self.names, FileEffect)
         self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
         self._moving = frozenset(self.moving)
+        self.noisy = frozenset(effect.name for effect in self.noises)
         self._lit = frozenset(effect.name for effect in (*self.lights, *self.limits))
         self._light_of: dict[Names, ColumnLight] = {}
         self._profile_of: dict[Names, FloatArray] = {}
-        self._spread_of: dict[Names, FloatArray] = {}
+        self._spread_of: dict[Names, tuple[FloatArray, float]] = {}
         self._enhancement_of: dict[Names, Enhancement] = {}
         self.sample = self._sampled()
         gains, power = self.sample.transmission, 1.0 / self.scene.camera.gamma
@@ -204,10 +205,18 @@ class SampledPixels:
 
     def spread(self, included: Names) -> FloatArray:
         """Return the standard deviation of noise at the levels, with some effects."""
-        key = included.intersection(self.variances)
+        return self._spread(included)[0]
+
+    def least_noise(self, included: Names) -> float:
+        """Return the least of that."""
+        return self._spread(included)[1]
+
+    def _spread(self, included: Names) -> tuple[FloatArray, float]:
+        key = included & self.noisy
         if key not in self._spread_of:
             own = [variance for name, variance in self.variances.items() if name in key]
-            self._spread_of[key] = np.sqrt(sum(own, np.zeros(_LEVELS)))
+            found = np.sqrt(sum(own, np.zeros(_LEVELS)))
+            self._spread_of[key] = found, float(found.min())
         return self._spread_of[key]
 
     def noise_at(self, included: Names, values: FloatArray) -> FloatArray:
@@ -386,9 +395,9 @@ class SampledPixels:
         if self.file is None or not filed:
             return values
         for at in filed:  # pixels are whole levels before they are in a file
-            spread = self.spread(sets[at])
-            if float(spread.min()) < _SHARPEST:  # a full pixel has no noise
-                values[at] += rounding_mean(values[at], self.look(spread, values[at]))
+            if self.least_noise(sets[at]) < _SHARPEST:  # a full pixel has no noise
+                spread = self.look(self.spread(sets[at]), values[at])
+                values[at] += rounding_mean(values[at], spread)
         noise = np.array([self.noise_with(sets[at]) for at in filed])
         values[filed] = self.file.means(values[filed], noise)
         return values

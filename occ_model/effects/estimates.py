@@ -146,7 +146,7 @@ def _estimates_of(
                 factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
     sizes, limits = {}, {}
     names = [effect.name for effect in pixels.effects]
-    most = np.sqrt(seen.of_subsets(names, np.eye(len(names)))).tolist() if names else []
+    most = np.sqrt(seen.of_each(names)).tolist() if names else []
     for name, of_sample in zip(names, most, strict=True):
         unit = stretch * factors[name]
         allowance = 1.0 if name in seen.known else ALLOWANCE

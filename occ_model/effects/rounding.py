@@ -59,11 +59,11 @@ def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixe
     """Give the number n, the angle and (-1)^n times the damping, of those that noise leaves."""
     least = max(float(s.min()), SHARP)
     turn = ((x - np.rint(x)) * (2.0 * math.pi)).astype(np.float32)
+    square = (-DAMPING * np.square(s)).astype(np.float32)
     for n in range(1, _HARMONICS + 1):
         if n > 1 and DAMPING * (n * least) ** 2 > _NEGLIGIBLE:
             return
-        damping = np.exp(-DAMPING * (n * s) ** 2) * (-1.0) ** n
-        yield n, turn * np.float32(n), damping.astype(np.float32)
+        yield n, turn * np.float32(n), np.exp(square * np.float32(n * n)) * np.float32((-1) ** n)
 
 
 def moved_steps(change: FloatArray) -> FloatArray:

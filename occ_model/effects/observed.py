@@ -113,6 +113,8 @@ class Observed:
         alone = np.array([self.alone.get(name, 0.0) for name in names])
         known = np.array([self.known.get(name, 0.0) for name in names])
         doubt = np.array([self.doubt.get(name, 0.0) for name in names])
-        sure = np.maximum(squares + members @ np.where(known, 0.0, alone), 0.0)
-        most = sure * (1.0 + self.unsure) + (members * doubt).max(axis=1)
-        return np.asarray(most * LIMIT_ALLOWANCE**2 + members @ (alone * known**2))
+        # Sums along rows, which are the same for one set and for many: a product's need not be.
+        sure = squares + (members * np.where(known, 0.0, alone)).sum(axis=1)
+        most = np.maximum(sure, 0.0) * (1.0 + self.unsure)
+        most += (members * doubt).max(axis=1, initial=0.0)
+        return np.asarray(most * LIMIT_ALLOWANCE**2 + (members * alone * known**2).sum(axis=1))

@@ -98,7 +98,11 @@ class ColumnLight:
         return cls(lit_fraction(scene), np.ones(1))
 
 
-def panel_values(scene: Scene, light: ColumnLight) -> FloatArray:
+def panel_values(
+    scene: Scene,
+    light: ColumnLight,
+    power: Callable[[FloatArray, float], FloatArray] = operator.pow,
+) -> FloatArray:
     """Return the pixel value that each column has on the panel, before saturation.
 
     With ``averaging = "pixel-value"`` this is the paper's equation (3),
@@ -113,9 +117,9 @@ def panel_values(scene: Scene, light: ColumnLight) -> FloatArray:
     dark, bright = luminance_levels(scene)
     reflected, emitted = dark * light.ambient, bright - dark
     if scene.model.averaging == "light":
-        return pixel_value(reflected + emitted * light.lit, scene.camera)
-    low = pixel_value(reflected, scene.camera)
-    high = pixel_value(reflected + emitted, scene.camera)
+        return pixel_value(reflected + emitted * light.lit, scene.camera, power)
+    low = pixel_value(reflected, scene.camera, power)
+    high = pixel_value(reflected + emitted, scene.camera, power)
     return low + (high - low) * light.lit
 
 

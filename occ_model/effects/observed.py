@@ -76,7 +76,9 @@ class Observed:
 
     def together(self, sets: Sequence[frozenset[str]]) -> FloatArray:
         """Return the most of the mean square of what leaving out sets of effects changes."""
-        moved = [[self._place[name] for name in left_out if name in self._place] for left_out in sets]
+        moved = [
+            [self._place[name] for name in left_out if name in self._place] for left_out in sets
+        ]
         squares = np.array([self._products[places, places].sum() for places in moved])
         several = [at for at, places in enumerate(moved) if len(places) > 1]
         if several:

@@ -48,8 +48,8 @@ def observed_image(pixels: SampledPixels) -> Observed:
         doubts = np.array([found.doubt.get(name, 0.0) for name in pixels.moving])
         rims = np.array([pixels.moved_rims(name) for name in pixels.moving])
         rims = np.minimum(rims * 8.0 / region.rows, 1.0)
-        added, _, more = (of_sets[1:] for of_sets in file.added)
-        added = added + file.added_at_rims(rims, squares + doubts)
+        inside, _, more = (of_sets[1:] for of_sets in file.added)
+        added = inside + file.added_at_rims(rims, squares + doubts)
         alone = np.maximum(added, -squares)
         doubts += np.maximum(added + more, -0.5 * (squares + doubts)) - alone
         found.alone.update(zip(pixels.moving, alone.tolist(), strict=True))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
@@ -89,7 +89,9 @@ class _Curves:
             if noise.least < _LEAST_SMOOTHING_NOISE:
                 flat = np.clip(own, 0.0, WHITE)
                 filed = self._files & included
-                own_noise = pixels.look(noise.spread, flat) if filed else pixels.noise_at(included, flat)
+                own_noise = (
+                    pixels.look(noise.spread, flat) if filed else pixels.noise_at(included, flat)
+                )
                 sharp = own_noise < _LEAST_SMOOTHING_NOISE
                 if sharp.any():
                     steps = PassedSteps.of(flat[sharp], own_noise[sharp])
@@ -190,28 +192,28 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     noise = np.maximum(np.sqrt(by_noise.sum(axis=0)), _ROUNDING_MARGIN)
     moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2))[:, None]
 
-    def doubts(near: Callable[[FloatArray], FloatArray], shares: FloatArray) -> list[float]:
+    def doubts(near: Callable[[FloatArray], IndexArray], shares: FloatArray) -> FloatArray:
         """Return those of effects by the share of pixels that are carried across each step."""
         unseen = near(sampled) < _LEAST_SAMPLED_COLUMNS
         squares = (steps[large] * np.minimum(shares, 0.5)) ** 2
-        return (near(profile) / len(profile) * unseen * squares).sum(axis=1).tolist()
+        return np.asarray((near(profile) / len(profile) * unseen * squares).sum(axis=1))
 
-    def passed_by_noise(values: FloatArray) -> FloatArray:
+    def passed_by_noise(values: FloatArray) -> IndexArray:
         reached = np.maximum(2.0 * pixels.noise_at(pixels.names, values), _ROUNDING_MARGIN)
         near = np.abs(values - middles[:, None]) < reached  # a full pixel has no noise
-        return np.count_nonzero(near, axis=1)
+        return np.asarray(np.count_nonzero(near, axis=1))
 
-    def passed(values: FloatArray) -> FloatArray:
+    def passed(values: FloatArray) -> IndexArray:
         ordered, reached = np.sort(values), np.maximum(moved, _ROUNDING_MARGIN)
-        ends = (ordered.searchsorted(middles + side * reached) for side in (1.0, -1.0))
-        return next(ends) - next(ends)
+        upper, lower = (ordered.searchsorted(middles + side * reached) for side in (1.0, -1.0))
+        return np.asarray(upper - lower)
 
     rest = np.maximum(noise**2 - by_noise, _ROUNDING_MARGIN**2)
     passing = np.sqrt(by_noise) / (3.0 * noise) / region.rows
     of_noise = doubts(passed_by_noise, np.hypot(by_noise / rest / 8.0, np.sqrt(passing)))
     of_changes = doubts(passed, 0.4 * moved / noise)
     names = (*(effect.name for effect in pixels.noises), *pixels.moving)
-    for name, doubt in zip(names, (*of_noise, *of_changes), strict=True):
+    for name, doubt in zip(names, (*of_noise.tolist(), *of_changes.tolist()), strict=True):
         found.doubt[name] = found.doubt.get(name, 0.0) + doubt
 
 

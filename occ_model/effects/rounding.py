@@ -68,7 +68,7 @@ def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixe
 
 def moved_steps(change: FloatArray) -> FloatArray:
     """Return by how much the mean square of a change grows when both values are rounded."""
-    share = np.abs(change) % 1.0
+    share = change - np.floor(change)  # many times faster than a remainder
     return share * (1.0 - share)
 
 

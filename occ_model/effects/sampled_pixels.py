@@ -143,7 +143,9 @@ class SampledPixels:
         """Return the light of the sample's columns with some effects on it: (sets, columns)."""
         lights, columns = [self._light(included) for included in sets], self.sample.columns
         ambient = [
-            light.ambient[columns] if len(light.ambient) > 1 else np.repeat(light.ambient, len(columns))
+            light.ambient[columns]
+            if len(light.ambient) > 1
+            else np.repeat(light.ambient, len(columns))
             for light in lights
         ]
         return ColumnLight(np.stack([light.lit[columns] for light in lights]), np.stack(ambient))
@@ -267,12 +269,22 @@ class SampledPixels:
         of : ndarray, shape (columns, nodes)
             A weight of each pixel besides its own.
         """
+        weights = self._weights_of_levels
+        if of is not None:
+            weights = self._over_levels(self.sample.pixel_weights * of)
+        return np.asarray(tables @ weights)
+
+    @cached_property
+    def _weights_of_levels(self) -> FloatArray:
+        return self._over_levels(self.sample.pixel_weights)
+
+    def _over_levels(self, weights: FloatArray) -> FloatArray:
+        """Divide weights of the pixels with all effects among the levels beside each."""
         below, share = self._place_of_whole
-        weights = self.sample.pixel_weights if of is None else self.sample.pixel_weights * of
         above = (weights * share).ravel()
         found = np.bincount(below.ravel(), weights.ravel() - above, _LEVELS)
         found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
-        return np.asarray(tables @ found)
+        return found
 
     @cached_property
     def _place_of_whole(self) -> tuple[NDArray[np.intp], FloatArray]:
@@ -407,7 +419,8 @@ class SampledPixels:
         key = included & self._lit
         if key not in self._profile_of:
             light, known = self._light(key), self.view
-            found = known.values if light is known.light else panel_values(self.scene, light)
+            is_known = light is known.light
+            found = known.values if is_known else panel_values(self.scene, light, _power)
             for limit in self.limits:
                 if limit.name in key:
                     found = limit.apply(self.scene, found)

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.effects.cost import seconds_of
 from occ_model.effects.effect import Effect
 from occ_model.effects.estimates import Estimates
@@ -23,24 +23,17 @@ _FARTHEST = 1.15
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectSets:
-    """The sets of effects that no other is both faster and closer than, the fastest first.
-
-    Parameters
-    ----------
-    estimates
-        What leaving effects out changes.
-    names
-        The effects that may be left out.
-    everything
-        Seconds with all of them.
-    ways
-        The sets, with their errors as if changes added.
-    """
+    """The sets of effects that no other is both faster and closer than, the fastest first."""
 
     estimates: Estimates
     names: frozenset[str]
+    """The effects that may be left out."""
+
     everything: float
+    """Seconds with all of them."""
+
     ways: tuple[Way, ...]
+    """The sets, with their errors as if changes added."""
 
     @classmethod
     def of(cls, estimates: Estimates, view: PaperView, settings: SimulationSettings) -> Self:
@@ -84,24 +77,15 @@ class EffectSets:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Subsets:
-    """All subsets of some effects, the first of which has all.
-
-    Parameters
-    ----------
-    effects
-        The names in each.
-    left_out : ndarray of float64, shape (subsets, effects)
-        1 where a subset does not have an effect.
-    seconds : ndarray of float64, shape (subsets,)
-        What each takes.
-    order : ndarray of int64, shape (subsets,)
-        The fastest first.
-    """
+    """All subsets of some effects, the first of which has all."""
 
     effects: tuple[frozenset[str], ...]
     left_out: FloatArray
+    """1 where a subset does not have an effect: (subsets, effects)."""
+
     seconds: FloatArray
-    order: np.ndarray
+    order: IndexArray
+    """The fastest first."""
 
 
 @lru_cache(maxsize=8)

@@ -76,26 +76,22 @@ def margins(pixels: SampledPixels, signal: Observed) -> tuple[float, float]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Estimates:
-    """What leaving effects out changes.
-
-    Parameters
-    ----------
-    sizes, limits
-        The change by each effect of the scene, in levels of the stretched profile, by name: as the
-        sample shows it, and with what it may not show.
-    seen
-        What is observed, None where no set of effects is known to be small enough.
-    stretch
-        Levels of the stretched profile per grey level.
-    factors
-        By what an effect's change counts more than by its size.
-    """
+    """What leaving out each effect of a scene changes, in levels of the stretched profile."""
 
     sizes: Mapping[str, float]
+    """As the sample shows it."""
+
     limits: Mapping[str, float]
+    """With what it may not show."""
+
     seen: Observed | None
+    """What is observed, None where no set of effects is known to be small enough."""
+
     stretch: float
+    """Levels of the stretched profile per grey level."""
+
     factors: Mapping[str, float]
+    """By what an effect's change counts more than by its size."""
 
     def with_others_of(self, other: "Estimates") -> "Estimates":
         """Return the same with the sizes of effects that are missing here."""

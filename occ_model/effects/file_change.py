@@ -60,54 +60,30 @@ def _read_back(steps: bytes) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class RimBlocks:
-    """A panel's rims in the blocks of a file.
-
-    Parameters
-    ----------
-    rows
-        Rows that the panel spans.
-    share
-        Of the pixels that lie in blocks with a rim.
-    blocks
-        Blocks that it spans upwards.
-    cut
-        Variance of a column's sum over the rows of blocks that what is observed cuts, whose
-        mean is 0, in that of a pixel.
-    is_level
-        Whether rims lie along the rows.
-    """
+    """A panel's rims in the blocks of a file."""
 
     rows: int
     blocks: int
+    """That the panel spans."""
+
     share: float
+    """Of the pixels that lie in blocks with a rim."""
+
     cut: float
+    """Variance of a column's sum over the rows of cut blocks, whose mean is 0, by a pixel's."""
+
     is_level: bool
+    """Whether rims lie along the rows."""
 
 
 class FileChange:
-    """A file's effect on the pixels of a sample.
+    """What a file with steps, (8, 8), makes of a sample's pixels with all effects and without some.
 
-    Parameters
-    ----------
-    steps : ndarray of float64, shape (8, 8)
-        Of the coefficients.
-    sample
-        The sample.
-    stack : ndarray of float64, shape (sets, columns, nodes)
-        Its pixels with all effects, and without some.
-    spread
-        Root mean square of a pixel's noise in grey levels.
-    rims
-        The panel's rims.
+    These are the stack, (sets, columns, nodes); the spread is the root mean square of their noise.
     """
 
     def __init__(
-        self,
-        steps: FloatArray,
-        sample: Sample,
-        stack: FloatArray,
-        spread: float,
-        rims: RimBlocks,
+        self, steps: FloatArray, sample: Sample, stack: FloatArray, spread: float, rims: RimBlocks
     ) -> None:
         self._blocks, self._inner = sample.blocks, sample.inner
         self._step = steps[0][:, None]
@@ -143,14 +119,9 @@ class FileChange:
         return np.asarray(found)
 
     def means(self, values: FloatArray, spread: FloatArray) -> FloatArray:
-        """Return the pixels' mean values as they are read back.
+        """Change pixels' mean values, (sets, columns, nodes), to those that are read back.
 
-        Parameters
-        ----------
-        values : ndarray of float64, shape (sets, columns, nodes)
-            The pixels with some sets of effects; they are changed.
-        spread : ndarray of float64, shape (sets,)
-            Their noise.
+        Each of the sets has a noise of its own.
         """
         if not len(self._blocks):
             return values
@@ -189,14 +160,9 @@ class FileChange:
         """What rounding adds to the mean square of a change, for each of the sets of effects.
 
         Pixels that change by a part of a level round to another one here and there: a change of all
-        coefficients, as by noise.
-
-        Returns
-        -------
-        image, sampling, doubt : ndarray of float64, shape (sets,)
-            To that of the pixels, and of the part of a column's mean that differs from block to
-            block; and how much more to the pixels where coefficients lie a little beside the
-            sampled ones.
+        coefficients, as by noise. First what it adds to the pixels, then to the part of a column's
+        mean that differs from block to block; and how much more to the pixels where coefficients
+        lie a little beside the sampled ones.
         """
         moved = (self._inside - self._inside[0]).reshape(len(self._inside), -1)
         flips = np.sqrt(moved_steps(moved).mean(axis=1))
@@ -262,10 +228,7 @@ class FileChange:
     def added_at_rims(self, shares: FloatArray, squares: FloatArray) -> FloatArray:
         """Return what a file adds to changes that lie in some shares of the blocks.
 
-        Parameters
-        ----------
-        shares, squares : ndarray of float64
-            Of the blocks; and the changes' mean squares over all of the picture.
+        The changes are given as mean squares over all of the picture.
         """
         sizes = np.sqrt(squares / np.maximum(shares, _TINY))
         return shares * self._at_rims(sizes, self._along)
@@ -279,12 +242,9 @@ class FileChange:
         return np.interp(spread, _NOISES, _read_back(self._all.tobytes()))
 
     def of_noise(self, own: FloatArray, left: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the mean square of noise as it is read back: in pixels, and in a column's mean.
+        """Return the mean squares of noises as they are read back: in pixels, and in column means.
 
-        Parameters
-        ----------
-        own, left : ndarray of float64, shape (noises,)
-            Root mean square of the noise that is left out, and of all other.
+        Each is left out beside all other noise, which is left.
         """
         rest = np.sqrt(left**2 + _ROUNDING)
         own = np.sqrt(own**2 + moved_steps_of_noise(own))

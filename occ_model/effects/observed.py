@@ -19,27 +19,6 @@ class Observed:
 
     What effects change adds as it is, with its sign, where it is the same in every picture; what
     noise and a file's rounding change is independent, and its mean squares add.
-
-    Parameters
-    ----------
-    names
-        All effects of the scene.
-    seen
-        Gives what is observed with some sets of them, each value times the root of its weight:
-        shape (sets, values).
-    changing
-        The effects whose absence changes that.
-
-    Attributes
-    ----------
-    alone
-        The mean square of what is independent in an effect's change, by name.
-    doubt
-        The mean square of what the sample may not show of it, by name.
-    known
-        Factor on the root of that for the most that it is, where its law is known, by name.
-    unsure
-        Share by which any mean square may be larger.
     """
 
     def __init__(
@@ -48,13 +27,21 @@ class Observed:
         seen: Callable[[Sequence[frozenset[str]]], FloatArray],
         changing: Sequence[str],
     ) -> None:
+        """Observe all effects, and without each that changes what is seen.
+
+        That gives values times the roots of their weights, (sets, values), with sets of effects.
+        """
         self._names = names
         self._seen = seen
         self._place = {name: at for at, name in enumerate(changing)}
         self.alone: dict[str, float] = {}
+        """The mean square of what is independent in an effect's change."""
         self.doubt: dict[str, float] = {}
+        """The mean square of what the sample may not show of it."""
         self.known: dict[str, float] = {}
+        """Factor on the root of that for the most that it is, where its law is known."""
         self.unsure = 0.0
+        """Share by which any mean square may be larger."""
         found = seen([names, *(names - {name} for name in changing)])
         self.complete = found[0]
         moved = found[1:] - found[0]
@@ -91,12 +78,7 @@ class Observed:
     def of_subsets(self, names: Sequence[str], members: FloatArray) -> FloatArray:
         """Return about the same for many sets of effects, as if their changes added.
 
-        Parameters
-        ----------
-        names
-            Effects.
-        members : ndarray of float64, shape (sets, effects)
-            1 where a set has an effect.
+        The members are 1 where a set has an effect: shape (sets, effects).
         """
         moving = [at for at, name in enumerate(names) if name in self._place]
         places = [self._place[names[at]] for at in moving]

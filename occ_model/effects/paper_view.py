@@ -26,36 +26,30 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class PaperView:
-    """The picture of a scene by the paper's model; all follows from the scene and the corners.
-
-    Parameters
-    ----------
-    corner_bytes
-        The corners' numbers, by which views are compared.
-    corners : ndarray of float64, shape (4, 2)
-        Of the panel in the image.
-    values : ndarray of float64, shape (columns,)
-        Pixel value of each column on the panel before saturation.
-    sides
-        Left, top, right and bottom of a panel that is pictured level and so fills its bounding
-        rectangle, None of any other.
-    is_seen
-        Whether any of the panel is in the image.
-    region
-        The panel's bounding rectangle in the image; the whole image where no panel is seen.
-    swing
-        Largest less smallest column value, at least one grey level.
-    """
+    """The picture of a scene by the paper's model; all follows from the scene and the corners."""
 
     scene: Scene
     corner_bytes: bytes
+    """The corners' numbers, by which views are compared."""
+
     corners: FloatArray = field(compare=False)
+    """(column, row) of each of the panel's four."""
+
     light: ColumnLight = field(compare=False)
     values: FloatArray = field(compare=False)
+    """Pixel value of each column on the panel before saturation."""
+
     sides: tuple[float, float, float, float] | None = field(compare=False)
+    """Left, top, right and bottom of a panel that is pictured level, None of any other."""
+
     is_seen: bool = field(compare=False)
+    """Whether any of the panel is in the image."""
+
     region: Region = field(compare=False)
+    """The panel's bounding rectangle in the image; the whole image where no panel is seen."""
+
     swing: float = field(compare=False)
+    """Largest less smallest column value, at least one grey level."""
 
 
 def paper_view_of(

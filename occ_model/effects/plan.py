@@ -79,18 +79,6 @@ def called_for_by_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
 
     A picture that is planned for its pixels, with a large tolerance, may so be decoded otherwise
     than a study says, which plans for the signal. What is switched by hand is so in both.
-
-    Parameters
-    ----------
-    chosen
-        A plan, for any observable.
-    scene
-        Its scene.
-
-    Returns
-    -------
-    tuple of str
-        Their labels.
     """
     left_out = {d.effect for d in chosen.decisions if d.estimate and not (d.included or d.forced)}
     if not left_out or chosen.observable == "signal" or chosen.tolerance == math.inf:
@@ -101,15 +89,7 @@ def called_for_by_signal(chosen: Plan, scene: Scene) -> tuple[str, ...]:
 
 
 def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
-    """Decide which effects are simulated, from the paper's view of a scene.
-
-    Parameters
-    ----------
-    view
-        The paper's view.
-    settings
-        Checked; the seed is not used.
-    """
+    """Decide which effects are simulated, from a view of a scene and checked settings."""
     sets = _sets_of(view, settings)
     estimates = sets.estimates
     way, error = sets.chosen(settings.tolerance)
@@ -130,20 +110,6 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
     """Return the sets of effects that a plan chooses among, the fastest first.
 
     The error of each is the least tolerance at which it is chosen; no two are the same.
-
-    Parameters
-    ----------
-    scene
-        The scene.
-    settings
-        Their tolerance is not used.
-
-    Raises
-    ------
-    ParameterError
-        There is no such observable or effect.
-    ProjectionError
-        Part of the panel is behind the camera.
     """
     check_scene(scene)
     sets = _sets_of(paper_view_of(scene), settings.checked(NAMES))

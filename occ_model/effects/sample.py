@@ -56,38 +56,34 @@ _GAIN_ROWS = 9
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """The pixels of a sample.
-
-    Parameters
-    ----------
-    columns : ndarray of int64, shape (columns,)
-        The columns of the picture that are sampled.
-    weights : ndarray of float64, shape (columns,)
-        Share of the region's columns that each stands for; their sum is 1.
-    rows : ndarray of float64, shape (columns, nodes)
-        The rows that are sampled in each column.
-    row_weights : ndarray of float64, shape (columns, nodes)
-        Share of the region's rows that each stands for; their sum is 1 in each column.
-    covers
-        The panel's share of the light of each pixel, shape as ``rows``, by the names of the effects
-        on the outline that are simulated; None where it is 1 everywhere.
-    emission, transmission
-        Factors of the panel's light, and of all light, shape as ``rows``, by the effect's name.
-    inner
-        The nodes between the panel's rims.
-    is_covered
-        Whether the panel covers all that is observed, with any of the effects: no rim is seen.
-    """
+    """The pixels of a sample: rows in each of some columns."""
 
     columns: IndexArray
     weights: FloatArray
+    """Share of the region's columns that each stands for; their sum is 1."""
+
     rows: FloatArray
+    """Those that are sampled in each column, (columns, nodes), as all that follows."""
+
     row_weights: FloatArray
+    """Share of the region's rows that each stands for; their sum is 1 in each column."""
+
     covers: Mapping[frozenset[str], FloatArray | None]
+    """The panel's share of each pixel's light, by the effects on the outline that are simulated.
+
+    None where it is 1 everywhere."""
+
     emission: Mapping[str, FloatArray]
+    """Factors of the panel's light, by the effect."""
+
     transmission: Mapping[str, FloatArray]
+    """Factors of all light."""
+
     inner: slice
+    """The nodes between the panel's rims."""
+
     is_covered: bool
+    """Whether the panel covers all that is observed, with any of the effects: no rim is seen."""
 
     @cached_property
     def blocks(self) -> IndexArray:
@@ -145,20 +141,10 @@ def _spans(outline: FloatArray, lines: FloatArray, axis: int) -> _Spans:
 def sample_of(
     region: Region, level: bool, optics: Mapping[str, Optics], plain: Optics, in_blocks: bool
 ) -> Sample:
-    """Choose the pixels of a sample.
+    """Choose the pixels of a sample in the region that is observed, which a level panel fills.
 
-    Parameters
-    ----------
-    region
-        The panel's bounding rectangle, which is observed.
-    level
-        Whether the panel fills it.
-    optics
-        What each effect of the lens makes of the panel's image by itself, by name.
-    plain
-        The image without them.
-    in_blocks
-        Whether columns are taken by whole blocks of a file.
+    The optics are what each effect makes of the plain ones by itself. In blocks, columns are taken
+    by whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
     blurs = {name: own.blur for name, own in optics.items() if own.blur > _UNSEEN}

@@ -5,8 +5,8 @@ estimates, what leaving the effect out of the complete simulation changes, and t
 ``scenes [number] [first]`` does so for random scenes of a world wider than the sliders, keeps it,
 and tries the promise on them: the planned simulation against the complete one at some tolerances.
 ``figure [file]`` draws the ratios that were kept. ``plans [folder]`` prints how many effects are
-taken in, and the milliseconds of a picture, at some tolerances; ``planning [folder]`` prints the
-milliseconds of a plan. With the folder of another state of the program both are tried in turn.
+taken in at some tolerances, and how long a picture takes; ``planning [folder]`` prints how long a
+plan takes. With the folder of another state of the program both are tried in turn.
 ``decision [images]`` prints what a threshold decoder reads of a preset with the effects that the
 signal calls for and without those that make rows differ, the processor time of an image, and how
 many images the search of a limit takes near its ends.
@@ -86,14 +86,23 @@ def compared(
 
 
 def presets() -> None:
-    print("| preset | observable | effect | estimate | limit | measured | ratio |")
-    print("|---" * 7 + "|")
+    """Print estimate, change and their ratio of each effect of the presets with a lens."""
+    print("| preset | effect |" + "".join(f" {one} | | |" for one in BEFORE_DECISION))
+    print("|---" * (2 + 3 * len(BEFORE_DECISION)) + "|")
+    ratios, below = [], 0
     for name in _WITH_LENS:
-        for row in compared(occ.load_preset(name), 1):
-            observable, effect, estimate, limit, change = row
+        cells: dict[str, list[str]] = defaultdict(list)
+        for _, effect, estimate, limit, change in compared(occ.load_preset(name), 1):
             ratio = estimate / max(change, 1e-9)
-            sizes = f"{estimate:.3g} | {limit:.3g} | {change:.3g} | {ratio:.2f}"
-            print(f"| {name} | {observable} | {effect} | {sizes} |")
+            cells[effect] += [f"{estimate:.2g}", f"{change:.2g}", f"{ratio:.2f}"]
+            ratios += [ratio] if change > SMALL else []
+            below += change > limit
+        for effect, row in cells.items():
+            print(f"| {name} | {effect} | {' | '.join(row)} |", flush=True)
+    ends = " to ".join(f"{end:.2f}" for end in (min(ratios), max(ratios)))
+    close = f"{ends} times, in the median {np.median(ratios):.2f} times"
+    print(f"\nOf {len(ratios)} changes above {SMALL:g} levels the estimates are {close}.")
+    print(f"{below} changes are above their limits.")
 
 
 def scenes(count: int, first: int) -> None:
@@ -139,38 +148,48 @@ def summary() -> None:
 
 
 def plans(folder: str = "") -> None:
-    """Print effects and shortest milliseconds of each state of the program, side by side."""
+    """Print how many effects are taken in, and the time of a picture over that of all effects'."""
     tolerances = (0.0, 1.0, 2.0, 5.0, 10.0)
     print("| preset |" + "".join(f" {tolerance:g} |" for tolerance in tolerances))
     print("|---" * (1 + len(tolerances)) + "|")
     for name in _WITH_LENS:
         tried = _in_turn(_RENDERED.format(name=name, tolerances=tolerances), folder, 2)
         cells = [
-            " → ".join(f"{int(state[at][0])} effects, {state[at][1]:.0f} ms" for state in tried)
+            " → ".join(f"{int(state[at][0])}, {state[at][1] / state[0][1]:.2f}" for state in tried)
             for at in range(len(tolerances))
         ]
-        print(f"| {name} | {' | '.join(cells)} |", flush=True)
+        whole = " → ".join(f"{state[0][1]:.0f}" for state in tried)
+        print(f"| {name} ({whole} ms) | {' | '.join(cells)} |", flush=True)
 
 
 def planning(folder: str = "") -> None:
-    """Print the shortest milliseconds of a plan of each state of the program, side by side."""
-    print("| scene | " + " | ".join(BEFORE_DECISION) + " |\n|---" + "|---" * 3 + "|")
-    for name in ("phone-136us", "phone-136us-real"):
-        code = _PLANNED.format(name=name, observables=BEFORE_DECISION)
-        tried = _in_turn(code, folder, 5)
-        cells = [" → ".join(f"{state[at][1]:.2f}" for state in tried) for at in range(3)]
+    """Print the shortest milliseconds of plans of each state of the program, side by side.
+
+    A slider's movement plans the picture, and then the signal of the same scene.
+    """
+    asked = [*((one,) for one in BEFORE_DECISION), ("image", "signal")]
+    print("| preset |" + "".join(f" {' and '.join(one)} |" for one in asked))
+    print("|---" * (1 + len(asked)) + "|")
+    for name in ("phone-136us", "phone-136us-real", "tablet-122us-real"):
+        tried = _in_turn(_PLANNED.format(name=name, asked=asked), folder, 7)
+        cells = []
+        for at in range(len(asked)):
+            times = [state[at][1] for state in tried]
+            ratio = f" ({times[0] / times[-1]:.1f})" if folder else ""
+            cells.append(" → ".join(f"{one:.1f}" for one in times) + ratio)
         print(f"| {name} | {' | '.join(cells)} |", flush=True)
 
 
 _PLANNED = """
 import time, occ_model as occ
 scene = occ.load_preset({name!r})
-for observable in {observables!r}:
+for observables in {asked!r}:
     times = []
-    for place in range(40):
-        other = scene.replace(start_time=1e-7 * place)
+    for place in range(30):
+        other = scene.replace(start_time=1e-7 * place + 1e-5 * len(observables))
         start = time.process_time()
-        occ.plan(other, 0.5, observable)
+        for observable in observables:
+            occ.plan(other, 0.5, observable)
         times.append(time.process_time() - start)
     print(0, 1e3 * min(times))
 """

@@ -33,8 +33,8 @@ def observed_image(pixels: SampledPixels) -> Observed:
         doubt = pixels.doubted_pixels(pixels.contrast**2 / (region.rows * region.columns))
         if file is not None and not pixels.sample.is_covered:
             # A rim that moves outwards changes blocks that are observed in part.
-            rims = pixels.rim_share
-            doubt += file.added_at_a_rim(rims, rims * pixels.view.swing**2 / 64.0)
+            part = pixels.rim_share
+            doubt += file.added_at_a_rim(part, part * pixels.view.swing**2 / 64.0)
         found.doubt.update(dict.fromkeys(pixels.outline, doubt))
     for name, variance in pixels.variances.items():
         found.alone[name] = (
@@ -46,10 +46,9 @@ def observed_image(pixels: SampledPixels) -> Observed:
         found.alone[pixels.files[0].name] = file.own_change
         squares = np.array([found.shown(name) for name in pixels.moving])
         doubts = np.array([found.doubt.get(name, 0.0) for name in pixels.moving])
-        rims = np.array([pixels.moved_rims(name) for name in pixels.moving])
-        rims = np.minimum(rims * 8.0 / region.rows, 1.0)
+        rims = np.array([pixels.moved_rims(name) for name in pixels.moving]) * 8.0 / region.rows
         inside, _, more = (of_sets[1:] for of_sets in file.added)
-        added = inside + file.added_at_rims(rims, squares + doubts)
+        added = inside + file.added_at_rims(np.minimum(rims, 1.0), squares + doubts)
         alone = np.maximum(added, -squares)
         doubts += np.maximum(added + more, -0.5 * (squares + doubts)) - alone
         found.alone.update(zip(pixels.moving, alone.tolist(), strict=True))

@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.camera.optics import Gain, Optics
 from occ_model.effects.normal import normal_share
 from occ_model.results.decoding import Region
@@ -118,7 +117,7 @@ class _Spans:
     last: FloatArray
     first_slope: FloatArray
     last_slope: FloatArray
-    missed: NDArray[np.bool_]
+    missed: BoolArray
 
 
 def _spans(outline: FloatArray, lines: FloatArray, axis: int) -> _Spans:
@@ -269,7 +268,7 @@ def _row_nodes(
         weights.append(length / (high - low) * shares)
     places, shares = np.hstack(rows), np.hstack(weights)
     first = (places.shape[1] - len(_GAUSS)) // 2
-    needed = shares.any(axis=0)
+    needed: BoolArray = np.asarray(shares.any(axis=0))
     needed[first : first + len(_GAUSS)] = True
     needed[1:-1] |= needed[2:] | needed[:-2]
     return places[:, needed], shares[:, needed], int(np.count_nonzero(needed[:first]))

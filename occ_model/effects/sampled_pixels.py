@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
@@ -282,7 +282,7 @@ class SampledPixels:
         """Divide weights of the pixels with all effects among the levels beside each."""
         below, share = self._place_of_whole
         above = (weights * share).ravel()
-        found = np.bincount(below.ravel(), weights.ravel() - above, _LEVELS)
+        found = np.asarray(np.bincount(below.ravel(), weights.ravel() - above, _LEVELS), float)
         found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
         return found
 
@@ -435,7 +435,7 @@ class SampledPixels:
             self._enhancement_of[key] = Enhancement(self.profile(included), method)
         return self._enhancement_of[key]
 
-    def inside(self, sets: Sequence[Names]) -> NDArray[np.bool_] | None:
+    def inside(self, sets: Sequence[Names]) -> BoolArray | None:
         """Return which pixels of the sample are the panel's, None where all are."""
         covers = [self.sample.covers[included & self.outline] for included in sets]
         if all(cover is None for cover in covers):

@@ -78,10 +78,12 @@ def read_profile(
     """
     check_scene(scene)
     check_size(scene.camera)
+    span = panel_span(scene)
+    if span is None:
+        return None
     view = view or paper_view_of(scene)
     chosen = signal_plan(view, settings)
-    span = panel_span(scene)
-    if span is None or "image" in chosen.kinds:
+    if "image" in chosen.kinds:
         return None
     columns = expose_columns(view, chosen)
     random = np.random.default_rng(settings.seed)

@@ -188,7 +188,8 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     profile = pixels.profile(pixels.names)[region.first_column : region.last_column]
     sampled = profile[sample.columns - region.first_column]
     middles = np.asarray(large + 0.5, dtype=np.float64)
-    by_noise = np.array([pixels.noise_at(frozenset({e.name}), middles) ** 2 for e in pixels.noises])
+    each = [pixels.noise_at(frozenset({effect.name}), middles) ** 2 for effect in pixels.noises]
+    by_noise = np.array(each).reshape(-1, len(large))
     noise = np.maximum(np.sqrt(by_noise.sum(axis=0)), _ROUNDING_MARGIN)
     moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2))[:, None]
 

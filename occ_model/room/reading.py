@@ -12,7 +12,7 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.coverage import column_spans
 from occ_model.errors import DecodeInputError
 from occ_model.receiver.decode import decode
-from occ_model.results.decoding import Region
+from occ_model.results.decoding import DecodeResult, Region
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import packet
@@ -31,6 +31,10 @@ _SAMPLED = 4
 
 _LEAST_SIDE = 12
 """Rows and columns of the smallest lamp that is looked at."""
+
+_SEEN = 0.5
+"""Fraction of a lamp's brightest light from which a column of it is surely found lit: most lamps are
+found from a fifth of that."""
 
 _SENT = (
     "switching_frequency", "bits", "payload", "line_code", "framing", "preamble",
@@ -54,7 +58,7 @@ class ReadLamp:
     hull : ndarray of float64, shape (corners, 2)
         The convex outline of its lit pixels, (column, row) of each corner.
     is_cut
-        Whether it reaches the picture's edge.
+        Whether it reaches the picture's edge, or may do so behind chips that are dark there.
     note
         Why it has no name, or that it is cut; empty where all is well.
     """
@@ -120,7 +124,9 @@ def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
         hull = corners.astype(np.float64) + np.array([x, y])
         hull[:, 1] = (hull[:, 1] + 0.5) * scale - 0.5
         first, last = y * scale, min(len(image), (y + height) * scale + 1)
-        yield Region(first, last, x, x + width), hull
+        # Closing joins to the picture's sides what is near them: the lit pixels themselves count.
+        left, right = int(hull[:, 0].min()), int(hull[:, 0].max()) + 1
+        yield Region(first, last, left, right), hull
 
 
 def _ends_of_rows(lit: BoolArray) -> NDArray[np.int32]:
@@ -183,7 +189,7 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
     )  # fmt: skip
     signal = _signal(image, region, hull)
     codes: list[tuple[int, list[str]]] = []
-    failure = ""
+    failure, hides = "", False
     for scene in _settings(room):
         result = decode(signal, scene, "matched")
         if result.code is None:
@@ -195,9 +201,12 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
             if sent_by(lamp) == sent and lamp.transmitter.code == result.code
         ]  # fmt: skip
         codes.append((result.code, names))
+        hides = hides or _may_reach_sides(result, scene, region)
     known = [(code, name) for code, names in codes for name in names]
     code = codes[0][0] if codes else None
     cut = "It is cut by the picture's edge." if is_cut else ""
+    if hides and not is_cut:
+        is_cut, cut = True, "The picture's edge may cut it: its chips are dark there."
     if len(known) == 1:
         return ReadLamp(known[0][1], known[0][0], region, hull, is_cut, cut)
     if known:
@@ -207,3 +216,18 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
     else:
         why = f"No code was read: {failure}"
     return ReadLamp(None, code, region, hull, is_cut, f"{why} {cut}".strip())
+
+
+def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region) -> bool:
+    """Whether all chips between a lamp and one side of the picture are dark."""
+    if result.model is None:
+        return False
+    camera, sent = scene.camera, scene.transmitter
+    column = np.arange(camera.columns) - region.first_column  # of the signal that was read
+    chip = (scene.model.start_time + column * camera.readout_time) * sent.switching_frequency
+    bins = len(result.model)
+    place = chip * (bins / len(packet(scene)))
+    lit = np.interp(place, np.arange(bins), result.model, period=bins)
+    seen = lit > _SEEN * result.model.max()
+    sides = seen[: region.first_column], seen[region.last_column :]
+    return any(not side.any() for side in sides)

@@ -69,6 +69,26 @@ def test_the_place_lies_within_its_stated_error_and_no_lamp_is_named_wrongly(see
     assert reading.located.errors[:2].max() < 0.02
 
 
+@pytest.mark.parametrize("phase", range(12))
+def test_a_lamp_cut_behind_dark_chips_is_said_to_be_cut(phase: int) -> None:
+    room = _room(5, 1).replace(
+        x=0.0, y=0.0, yaw=0.0, pitch=0.0, roll=0.0, switching_frequency=4e3
+    )  # fmt: skip
+    sent = room.lamps[0].transmitter.replaced({"panel_width": 1.3, "switching_frequency": 4e3})
+    lamp = dataclasses.replace(
+        room.lamps[0], roll=0.0, start_time=phase / 12 * 24.0 / 4e3, transmitter=sent
+    )
+    # A chip is 7 columns long, and a metre 243 of them.
+    for shift, is_cut in ((0.0, False), (-0.83, False), (-1.1, True), (1.1, True)):
+        here = room.replace(lamps=(dataclasses.replace(lamp, x=shift),))
+        frame = occ.render_room(here)
+        (read,) = occ.read_room(frame.camera_image, here).lamps
+        assert frame.lamps[0].is_cut == is_cut
+        assert read.name == "L0"
+        assert read.is_cut == is_cut
+        assert ("picture's edge" in read.note) == is_cut
+
+
 def test_one_panel_that_looks_alike_from_several_places_is_said_to() -> None:
     room = _room(5, 1).replace(yaw=0.3, pitch=0.2, z=0.3)
     reading = occ.read_room(occ.render_room(room).camera_image, room)

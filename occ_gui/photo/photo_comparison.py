@@ -36,7 +36,9 @@ def photo_profile(part: PhotoPart) -> PhotoProfile | None:
     raw = photo.profile
     if part.is_enhanced:
         raw = enhance(raw, reading.scene.model.enhancement).astype(np.float64)
-    return PhotoProfile(comparison, raw, placement.column, placement.scale, sentence, photo)
+    is_outdated = reading.scene != part.scene
+    place = placement.column, placement.scale
+    return PhotoProfile(comparison, raw, *place, sentence, photo, is_outdated)
 
 
 def _compare(part: PhotoPart, reading: Reading) -> Comparison | None:

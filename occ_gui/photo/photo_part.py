@@ -133,15 +133,8 @@ class PhotoPart:
 
     @property
     def compared_stripes(self) -> Stripes | None:
-        """The stripes as they are compared: by the levels of the match once it is applied.
-
-        Before, those of another scene than the one that is shown would make the same residual
-        another.
-        """
-        match, searched, reading = self.match, self.searched, self.reading
-        if match is None or searched is None or searched.stripes is None or reading is None:
-            return self.stripes
-        return match.stripes if match.is_applied_to(reading.scene) else searched.stripes
+        """The stripes as they are compared, by the same levels before a match and after it."""
+        return self.stripes if self.searched is None else self.searched.stripes or self.stripes
 
     @property
     def why_no_stripes(self) -> str:

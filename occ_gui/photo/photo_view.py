@@ -130,6 +130,8 @@ class PhotoView(QWidget):
 
     def show_photo(self, photo: Photo | None) -> None:
         """Show this photo in place of the previous one, or none."""
+        if photo is not None and (self._photo is None or self._photo.path != photo.path):
+            self._scroll.verticalScrollBar().setValue(0)  # its name stands at the top
         self._photo, self._match, self._is_outdated = photo, None, False
         self.verdict.show_photo(photo)
         self._show_page()

@@ -82,7 +82,8 @@ class ResidualPlot(QWidget):
         limit = next((step for step in _STEPS if usual <= step), _STEPS[-1])
         if profile.photo is not None and profile.photo is self._photo:
             limit = max(limit, self._limit)
-        self._photo, self._limit = profile.photo, limit
+        if not profile.is_outdated:
+            self._photo, self._limit = profile.photo, limit
         self.plot.setYRange(-limit, limit, padding=_PADDING)
         ticks = [(level, f"{level:.0f}") for level in (-limit, 0.0, limit)]
         self.plot.getAxis("left").setTicks([ticks])

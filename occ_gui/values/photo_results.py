@@ -104,6 +104,8 @@ class PhotoProfile:
         Why there is no comparison; also empty while the photo is searched for stripes.
     photo
         Whose profile it is.
+    is_outdated
+        Whether the simulation is of another scene than the present one.
     """
 
     comparison: "Comparison | None"
@@ -112,3 +114,4 @@ class PhotoProfile:
     scale: float = 1.0
     sentence: str = ""
     photo: "Photo | None" = None
+    is_outdated: bool = False

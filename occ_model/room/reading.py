@@ -33,8 +33,8 @@ _LEAST_SIDE = 12
 """Rows and columns of the smallest lamp that is looked at."""
 
 _SEEN = 0.5
-"""Fraction of a lamp's brightest light from which a column of it is surely found lit: most lamps are
-found from a fifth of that."""
+"""Fraction of a lamp's brightest light from which a column of it is found lit, however faint the
+lamp is beside others."""
 
 _SENT = (
     "switching_frequency", "bits", "payload", "line_code", "framing", "preamble",

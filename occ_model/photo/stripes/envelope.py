@@ -59,9 +59,16 @@ def without_trend(profile: FloatArray) -> FloatArray:
     ndarray of float64, shape as ``profile``
         With mean 0 and a standard deviation of about 1 everywhere.
     """
-    about = profile - _smooth(profile, MEAN_FREEDOM)
-    power = np.maximum(_smooth(about**2, _SWING_FREEDOM), _LEAST_POWER * float(np.mean(about**2)))
-    return np.asarray(about / np.sqrt(np.maximum(power, 1e-300)))
+    mean, deviation = trend_of(profile, MEAN_FREEDOM, _SWING_FREEDOM)
+    return np.asarray((profile - mean) / deviation)
+
+
+def trend_of(profile: FloatArray, of_mean: int, of_swing: int) -> tuple[FloatArray, FloatArray]:
+    """Return a profile's mean and standard deviation around each column, by so many polynomials."""
+    mean = _smooth(profile, of_mean)
+    square = (profile - mean) ** 2
+    power = np.maximum(_smooth(square, of_swing), _LEAST_POWER * float(np.mean(square)))
+    return mean, np.sqrt(np.maximum(power, 1e-300))
 
 
 def _smooth(values: FloatArray, freedom: int) -> FloatArray:

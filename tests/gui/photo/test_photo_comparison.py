@@ -222,20 +222,19 @@ def test_the_stripes_of_a_photo_that_is_gone_are_forgotten(
     assert bench.shown is None
 
 
-def test_a_matchs_own_levels_take_the_place_of_those_found_once_it_is_applied(
+def test_a_match_leaves_the_residual_of_a_scene_as_it_was(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
     bench.show_reading(snapshot)
     bench.show_photo(photo)
     bench.residual()
-    before = bench.comparison.correlation
+    before = bench.comparison.residual.tolist()
     found = stripes_of(photo)
     fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
-    bench.show_match(photo, fitted)
-    assert bench.comparison.correlation == before  # of the same scene as before the match
-    bench.show_match(photo, fitted, snapshot.scene)
-    assert bench.comparison.correlation != before
+    for scene in (None, snapshot.scene):  # not applied, and applied
+        bench.show_match(photo, fitted, scene)
+        assert bench.comparison.residual.tolist() == before
 
 
 def test_a_match_is_not_overtaken_by_the_search_for_stripes(

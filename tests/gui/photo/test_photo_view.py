@@ -55,6 +55,18 @@ def test_what_is_known_of_a_photo_is_shown_with_its_units(view: LiveView, photo:
     assert facts.use_settings.isEnabled()
 
 
+def test_another_photo_is_shown_from_its_name_on(view: LiveView, photo: Photo) -> None:
+    view.open(photo)
+    view.resize(380, 300)
+    bar = view._scroll.verticalScrollBar()
+    QApplication.processEvents()
+    for path, place in ((photo.path, bar.maximum()), (photo.path.with_name("b.png"), 0)):
+        bar.setValue(bar.maximum())
+        view.open(replace(photo, path=path))
+        assert bar.value() == place
+    assert bar.maximum() > 0
+
+
 def test_a_photo_without_notes_offers_none(view: LiveView, photo: Photo) -> None:
     view.open(photo)
     assert view.facts.size_line.toolTip() == "100 x 60 px, grey"

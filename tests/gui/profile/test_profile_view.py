@@ -405,3 +405,18 @@ def test_the_button_of_the_first_periods_names_what_is_sent(
     for pattern, text in (("10", "2 cycles"), ("", "2 packets")):
         view.show_reading(snapshot_of(pattern=pattern))
         assert view._packets.text() == text
+
+
+def test_the_residuals_axis_is_not_set_by_the_scene_before(
+    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+) -> None:
+    view.show_reading(snapshot_of())
+    ends = []
+    for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
+        comparison = Comparison(0, np.full(300, 100.0 + height), np.full(300, 100.0), 0.9)
+        profile = PhotoProfile(
+            comparison, photo.profile, photo=photo, is_outdated=is_outdated
+        )  # fmt: skip
+        view.show_photo_profile(profile)
+        ends.append(view.residual.plot.getViewBox().viewRange()[1][1])
+    assert ends == pytest.approx([1.4 * 200.0, 1.4 * 5.0, 1.4 * 50.0, 1.4 * 50.0])

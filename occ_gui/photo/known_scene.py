@@ -9,4 +9,5 @@ def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
     """Give the scene with what the user knows, and where the sent pattern is taken from."""
     if choice.sent != "square":
         return scene, choice.sent
-    return blinking(scene, choice.square_frequency), "scene"
+    # A lamp that is dimmed by the width of its pulses blinks too: "scene" would refuse it.
+    return blinking(scene, choice.square_frequency), "auto"

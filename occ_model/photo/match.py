@@ -118,8 +118,9 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     hypotheses = _hypotheses(candidates, sent, report)
     chosen = _chosen(judge, hypotheses, stripes, sent)
     case = _Case(photo, scene, estimate, candidates, judge, hypotheses, sent == "scene", report)
-    match = case.concluded(chosen)
     as_sent = next((one for one in hypotheses if not one.was_read), None)
+    noted = candidates.as_noted(chosen) if chosen is as_sent and sent == "auto" else None
+    match = case.concluded(noted or chosen)
     if as_sent is not None and chosen.rate != 1.0 and case.may_be_as_sent(match):
         match = case.concluded(as_sent)
     report(1.0)

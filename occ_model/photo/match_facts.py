@@ -127,7 +127,8 @@ def _duty(match: Match) -> tuple[str, str]:
     """Return the duty, with its error where it was measured, and its note."""
     deviation = match.uncertainties.get("duty")
     if deviation is None:
-        return f"lit for {100.0 * match.duty:.3g} % of a period", ""
+        pulses = (match.pattern + match.pattern[0]).count("01")
+        return f"lit for {100.0 * match.duty:.3g} % of a period", "given" if pulses == 1 else ""
     percent = Unit("%").format_estimate(100.0 * match.duty, 100.0 * deviation)
     note = "doubtful" if match.only_exposure_is_doubtful else ""
     return f"lit for {percent} of a period", note

@@ -2,7 +2,7 @@
 
 from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.repetition import strongest_line
-from occ_model.photo.fit.chip_runs import is_single_pulse, runs_of
+from occ_model.photo.fit.chip_runs import chips_as_one, is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_share
 from occ_model.results.match import Stripes
 
@@ -100,15 +100,18 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
             f"Only {found.periods:.2g} periods of {chips} chips are in view; at least {least:g} "
             "are needed."
         )
-    shortest = min(runs_of(found.chips))
+    one_pulse = is_single_pulse(found.chips)
+    # A pulse and its exposure share the stripes alike: only what the two chips of a period hide.
+    shortest = chips_as_one(found.chips) if one_pulse else min(runs_of(found.chips))
     exposure = found.fit.timing.exposure / shortest
     if exposure > _LONGEST_EXPOSURE:
         what = "a chip" if shortest == 1 else f"the shortest pulse of {shortest} chips"
+        what = "half a period" if one_pulse else what
         reasons.append(
             f"The exposure is {exposure:.2g} times as long as {what}; above {_LONGEST_EXPOSURE} "
             "different codes give nearly the same stripes."
         )
-    if found.was_read and found.rate == 1.0 and is_single_pulse(found.chips):
+    if found.was_read and found.rate == 1.0 and one_pulse:
         reasons.append(
             "The stripes are one pulse repeated, as those of any regular object are: that they are "
             "a lamp's is not known from the photo."

@@ -122,7 +122,8 @@ def test_the_model_is_asked_for_what_was_chosen(
 def test_a_square_wave_is_two_chips_a_cycle(bench: Bench, small_scene: Scene) -> None:
     bench.start(sent="square", square_frequency=1234.5)
     (asked,) = bench.asked
-    assert asked["sent"] == "scene"
+    # As the shell's --led-frequency asks for it: a lamp dimmed by its pulses' width blinks, too.
+    assert asked["sent"] == "auto"
     assert asked["scene"] == small_scene.replace(pattern=SQUARE_WAVE, switching_frequency=2469.0)
 
 

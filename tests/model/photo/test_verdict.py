@@ -1,6 +1,7 @@
 """A match says how sure it is, and why, and refuses what is no lamp's."""
 
 import pickle
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -100,21 +101,52 @@ def test_a_regular_pattern_is_a_lamps_only_where_that_is_said() -> None:
     assert (given_one.pattern, given_one.pattern_was_read) == ("10", False)
 
 
+CYCLES = 1500.0
+
+
+def dimmed(percent: int, exposed: float, noted: float | None) -> tuple[occ.Photo, occ.Scene]:
+    """Photograph a lamp dimmed by the width of its pulses; exposures are told in its periods."""
+    chips = "".join(map(str, pulse(percent, 100).tolist()))
+    camera = occ.load_preset("phone-68us").replace(
+        rows=100, columns=1200, readout_time=10e-6, exposure_time=exposed / CYCLES,
+        averaging="light", enhancement="none", panel_width=3.0,
+    )  # fmt: skip
+    photo = take(camera.replace(pattern=chips, switching_frequency=CYCLES * len(chips)))
+    told = camera.replace(pattern="10", switching_frequency=2.0 * CYCLES, readout_time=1e-6)
+    return replace(photo, exposure_time=noted and noted / CYCLES), told
+
+
 @pytest.mark.whole
 @pytest.mark.parametrize("percent", [20, 60])
 def test_the_duty_of_a_dimmed_lamp_comes_out(percent: int) -> None:
-    cycles = 1500.0
-    chips = "".join(map(str, pulse(percent, 100).tolist()))
-    camera = occ.load_preset("phone-68us").replace(
-        rows=100, columns=1200, readout_time=10e-6, exposure_time=80e-6, averaging="light",
-        enhancement="none", panel_width=3.0,
-    )  # fmt: skip
-    photo = take(camera.replace(pattern=chips, switching_frequency=cycles * len(chips)))
-    told = camera.replace(pattern="10", switching_frequency=2.0 * cycles, readout_time=1e-6)
-    match = occ.match_photo(photo, told)
+    match = occ.match_photo(*dimmed(percent, 0.12, None))
     assert match.duty == pytest.approx(percent / 100.0, abs=0.03)
     assert match.readout_time == pytest.approx(10e-6, rel=1e-3)
     assert match.exposure_time == pytest.approx(80e-6, rel=0.05)
+
+
+@pytest.mark.parametrize("percent", [13, pytest.param(28, marks=pytest.mark.whole)])
+def test_a_short_pulse_exposed_for_half_a_period_is_no_square_wave_if_that_is_noted(
+    percent: int,
+) -> None:
+    photo, told = dimmed(percent, 0.5, noted=0.5)
+    match = occ.match_photo(photo, told)
+    assert match.verdict == match.exposure_verdict == "sure"
+    assert abs(match.duty - percent / 100.0) < 2.0 * match.uncertainties["duty"]
+    error = match.exposure_time - 0.5 / CYCLES
+    assert abs(error) < 3.0 * match.uncertainties["exposure_time"]
+    # What is given stays, and the note contradicts it.
+    given_one = occ.match_photo(photo, told, sent="scene")
+    assert given_one.duty == 0.5
+    assert given_one.exposure_verdict == "doubtful"
+
+
+@pytest.mark.whole
+def test_a_square_wave_stays_one_whatever_is_noted() -> None:
+    for noted in (0.13, None):
+        match = occ.match_photo(*dimmed(50, 0.13, noted))
+        assert (match.duty, match.exposure_verdict) == (0.5, "sure")
+        assert match.exposure_time == pytest.approx(0.13 / CYCLES, rel=0.03)
 
 
 @pytest.mark.parametrize(

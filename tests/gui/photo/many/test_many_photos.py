@@ -332,7 +332,7 @@ def test_rows_appear_as_they_are_found_and_then_the_mean(
     with qtbot.waitSignal(bench.controller.runner.finished):
         bench.go_on.set()
     (settings,) = bench.settings
-    assert (settings.sent, settings.scan_axis, settings.channel) == ("scene", "lines", "green")
+    assert (settings.sent, settings.scan_axis, settings.channel) == ("auto", "lines", "green")
     assert settings.scene.transmitter.switching_frequency == 2e3
     assert bench.controller.table is not None
     assert bench.controller.table.rows == ROWS

@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
+from occ_model.scene.units import PIXEL
 
 _MOST_ROWS = 6
 """Rows of the table that are seen without scrolling."""
@@ -78,9 +79,7 @@ class LampForm(QWidget):
         self.table.setAccessibleName("Lamps in the photo")
         self.table.setToolTip(
             "The lamps, the brightest first: the columns that each covers, the columns of a "
-            "chip, and the periods in view. Fewer than 2.5 are doubtful, and so is a lamp so "
-            "faint beside the brightest that it may be a reflection, or whose stripes are faint "
-            "beside its light."
+            "chip with their standard deviation, and the periods in view. A doubtful lamp says why."
         )
         self.table.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.table.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
@@ -99,7 +98,9 @@ class LampForm(QWidget):
             self.table.setRowCount(len(lamps))
             for row, lamp in enumerate(lamps):
                 for column, text in enumerate(self._texts(row, lamp)):
-                    self.table.setItem(row, column, QTableWidgetItem(text))
+                    item = QTableWidgetItem(text)
+                    item.setToolTip("\n".join(f"Doubtful: {doubt}." for doubt in lamp.doubts))
+                    self.table.setItem(row, column, item)
             self.table.clearSelection()
             if chosen is not None:
                 self.table.selectRow(chosen)
@@ -114,7 +115,8 @@ class LampForm(QWidget):
         product = lamp.switching_frequency_times_readout
         if product is None:
             return str(row + 1), columns, "no stripes", ""
-        chip = f"{1.0 / product:.2f} px"
+        error = None if lamp.product_uncertainty is None else lamp.product_uncertainty / product**2
+        chip = PIXEL.format_estimate(1.0 / product, error)
         doubt = ", doubtful" if lamp.is_doubtful else ""
         periods = "code" if lamp.periods is None else f"{lamp.periods:.1f}"
         return str(row + 1), columns, chip, f"{periods}{doubt}"

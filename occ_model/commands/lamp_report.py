@@ -36,12 +36,8 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
     estimate = Unit("chips a column").format_estimate(product, deviation)
     lines.append(f"frequency times readout time {estimate}")
     if lamp.periods is not None:
-        doubt = ": doubtful, so few can be a coincidence" if lamp.repeats_seldom else ""
-        lines.append(f"{lamp.periods:.1f} periods in view{doubt}")
-    if lamp.is_faint:
-        lines.append("doubtful: so faint beside the brightest lamp, it may be a reflection")
-    if lamp.is_blurred:
-        lines.append("doubtful: its stripes are faint beside its light, so some may not be seen")
+        lines.append(f"{lamp.periods:.1f} periods in view")
+    lines += [f"doubtful: {doubt}" for doubt in lamp.doubts]
     if lamp.reflections:
         places = ", ".join(
             f"columns {one.first_column} to {one.last_column - 1}, rows {one.first_row} to "

@@ -5,19 +5,19 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import enhance
 from occ_model.errors import MatchError, ParameterError
-from occ_model.photo.stripes.envelope import MEAN_FREEDOM, trend_of
+from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of
 from occ_model.results.match import Comparison
 
 _LEAST_DEVIATION = 1e-9
-"""Standard deviation below which a profile differs by rounding only."""
+"""Standard deviation below which a profile is constant but for rounding."""
 
 _RIM = 6
 """Columns at either end of a photo's stripes where blur mixes the lamp with what is beside it: in
 the two sample photos residuals of up to 140 grey levels end within five."""
 
-_EDGES_A_SHAPE = 4
-"""Edges of stripes in view for each polynomial that the uneven light of a profile is made of: with
-fewer, the stripes themselves would count as uneven light."""
+_EDGES_PER_SHAPE = 4
+"""Edges in view for each polynomial that describes uneven light: with fewer, the stripes themselves
+would count as uneven light."""
 
 
 def compare(
@@ -79,7 +79,7 @@ def compare(
     seen, height = (np.interp(place, columns, of) for of in (flattened, swing))
     height /= np.sqrt(np.mean(height**2))
     under = simulated[first : last + 1]
-    of_mean = int(np.clip(_edges(seen) // _EDGES_A_SHAPE, 1, MEAN_FREEDOM))
+    of_mean = int(np.clip(_edges(seen) // _EDGES_PER_SHAPE, 1, MEAN_SHAPES))
     of_swing = -(-2 * of_mean // 3)
     (mean, deviation), (own, spread) = (trend_of(one, of_mean, of_swing) for one in (under, seen))
     evened = (seen - own) / spread

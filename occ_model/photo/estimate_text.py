@@ -2,11 +2,11 @@
 
 from occ_model.scene.parameter_kinds import Quantity
 
-_UNCERTAIN = 0.5
-"""Relative standard deviation above which a time is told by an upper limit."""
+_LARGEST_ERROR = 0.5
+"""Relative standard deviation above which only an upper limit is stated."""
 
-_DEVIATIONS = 2.0
-"""Standard deviations by which the limit lies above the estimate."""
+_LIMIT_DEVIATIONS = 2.0
+"""Number of standard deviations by which the limit exceeds the estimate."""
 
 
 def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
@@ -21,6 +21,6 @@ def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> 
         In SI units; without a deviation the value alone is written.
     """
     text = quantity.unit.format_estimate(value, deviation)
-    if quantity.name != "exposure_time" or deviation is None or deviation <= _UNCERTAIN * value:
+    if quantity.name != "exposure_time" or deviation is None or deviation <= _LARGEST_ERROR * value:
         return text
-    return f"below {quantity.format(value + _DEVIATIONS * deviation, 2)} ({text})"
+    return f"below {quantity.format(value + _LIMIT_DEVIATIONS * deviation, 2)} ({text})"

@@ -27,27 +27,27 @@ from occ_model.transmitter.packet import code_of, sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
 ESTIMATES = ("readout_time", "switching_frequency")
-"""The parameters of which one is estimated and the other one is known."""
+"""Parameters of which one is estimated and the other is known."""
 
-_TOO_FAR = 3.0
-"""Standard deviations from which two exposure times contradict each other."""
+_MOST_DEVIATIONS = 3.0
+"""Standard deviations above which two exposure times contradict each other."""
 
-_NOMINAL = 0.012
+_NOTE_ERROR = 0.012
 """Relative standard deviation of a noted exposure time: 1/500 stands for 1/512 s."""
 
-_STRAIGHTENINGS = 40
-"""Fixed-point steps of the inverse distortion: each leaves a few percent of the error."""
+_ITERATIONS = 40
+"""Fixed-point iterations of the inverse distortion; each leaves a few percent of the error."""
 
 _MOST_UNSURE, _MOST_UNKNOWN = 0.03, 0.1
-"""Relative standard deviations of the readout time, or the frequency, above which it is not sure,
-and above which it is not known."""
+"""Relative standard deviations of the readout time, or the frequency, above which a match is
+doubtful, and above which it is refused."""
 
-_OF_PULSE = 0.25
-"""Share of the shortest pulse by which the first and the last edge may be off, if the chips explain
-the stripes."""
+_MOST_EDGE_ERROR = 0.25
+"""Maximum error of the first and the last edge relative to the shortest pulse, if the chips are
+right."""
 
 _NOTED = ("iso", "f_number")
-"""Parameters in a photo's EXIF data besides the exposure time, which is fitted."""
+"""Parameters that are taken from a photo's EXIF data; the exposure time is fitted."""
 
 
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
@@ -148,7 +148,7 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
     if noted is None:
         return []
     off = abs(exposure - noted)
-    if off <= _TOO_FAR * math.hypot(deviation, _NOMINAL * noted):
+    if off <= _MOST_DEVIATIONS * math.hypot(deviation, _NOTE_ERROR * noted):
         return []
     unit = PARAMETERS["exposure_time"]
     assert isinstance(unit, Quantity)  # noqa: S101 - it is one
@@ -163,7 +163,7 @@ def _within_pulse(fit: StripeFit, shortest: int) -> StripeFit:
 
     Sharp edges that lie exactly between columns leave a fit no slope that tells the step.
     """
-    most = _OF_PULSE * shortest / len(fit.profile)
+    most = _MOST_EDGE_ERROR * shortest / len(fit.profile)
     factor = np.ones(4)
     factor[0] = min(1.0, most / max(math.sqrt(float(fit.covariance[0, 0])), 1e-300))
     return replace(fit, covariance=fit.covariance * np.outer(factor, factor))
@@ -308,7 +308,7 @@ def _straight(rays: FloatArray, lens: Lens) -> FloatArray:
     if not lens.distorts:
         return rays
     straight = rays
-    for _ in range(_STRAIGHTENINGS):
+    for _ in range(_ITERATIONS):
         straight = straight - (distorted(straight, lens) - rays)
     off = np.abs(distorted(straight, lens) - rays)
     return np.where(np.isfinite(off) & (off < 1e-6), straight, rays)

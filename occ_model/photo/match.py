@@ -39,13 +39,13 @@ PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
 
 _EXPLAINED = 0.998
-"""Correlation of a scene's pulse from which its duty is not searched anew."""
+"""Correlation of the scene's pulse above which no other duty is searched for."""
 
 _SAME_DUTY = 2.0
-"""Standard deviations within which a duty that was found is the scene's."""
+"""Standard deviations within which a measured duty is the scene's."""
 
 _SECONDS = 0.05
-"""Time between two reports of the progress."""
+"""Minimum time between two reports of progress."""
 
 
 def match_photo(  # noqa: PLR0913 - all but the first two are words with defaults

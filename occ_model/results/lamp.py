@@ -7,8 +7,11 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.decoding import Region
 
-_SURE_PERIODS = 2.5
-"""Fewest periods in view from which a frequency is no coincidence of two bright things."""
+_LEAST_PERIODS = 2.5
+"""Minimum number of periods in view: two bright things side by side look like fewer, too."""
+
+_MOST_UNSURE = 0.01 / 3.0
+"""Maximum relative standard deviation of a frequency: three of them are a percent."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -61,14 +64,24 @@ class Lamp:
     reflections: tuple[Region, ...] = ()
 
     @property
-    def is_doubtful(self) -> bool:
-        """Whether it may be none or blink otherwise: too faint, or stripes too few or too faint."""
-        return self.is_faint or self.is_blurred or self.repeats_seldom
+    def doubts(self) -> tuple[str, ...]:
+        """Why it may not be a lamp, or may blink otherwise, each without a full stop."""
+        found = []
+        if self.modulated and self.periods is not None and self.periods < _LEAST_PERIODS:
+            found.append(f"only {self.periods:.1f} periods are in view, which can be a coincidence")
+        if self.is_faint:
+            found.append("so faint beside the brightest lamp, it may be a reflection")
+        if self.is_blurred:
+            found.append("its stripes are faint beside its light, so some may not be seen")
+        product, error = self.switching_frequency_times_readout, self.product_uncertainty
+        if product is not None and error is not None and error > _MOST_UNSURE * product:
+            found.append(f"its frequency is known to {100.0 * error / product:.2g} % only")
+        return tuple(found)
 
     @property
-    def repeats_seldom(self) -> bool:
-        """Whether its stripes repeat too seldom in view for their frequency to be sure."""
-        return self.modulated and self.periods is not None and self.periods < _SURE_PERIODS
+    def is_doubtful(self) -> bool:
+        """Whether there is a reason to doubt it."""
+        return bool(self.doubts)
 
     @property
     def area(self) -> int:

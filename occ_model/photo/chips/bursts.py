@@ -9,14 +9,14 @@ from occ_model.photo.chips.edges import Edges
 from occ_model.photo.chips.lattice import coarsest, lattice_at
 
 _LEAST_EDGES = 8
-"""Fewest edges of a burst: fewer lie on some lattice by chance."""
+"""Minimum number of edges in a burst: fewer lie on some lattice by chance."""
 
-_PAUSE = 1.25
-"""Ratio to the longest bright run from which a dark one may be a pause."""
+_LEAST_PAUSE_RATIO = 1.25
+"""Minimum ratio of a pause to the longest bright run."""
 
-_LEFT, _COHERENT = 0.5, 0.9
-"""Share of the incoherence of one lattice that is left where each burst has its own, at most, and
-coherence that these have at least."""
+_MOST_INCOHERENCE_RATIO, _LEAST_COHERENCE = 0.5, 0.9
+"""Maximum incoherence with a lattice for each burst, relative to that with one lattice for all, and
+minimum coherence with the former."""
 
 
 def in_phase(edges: Edges) -> Edges | None:
@@ -44,7 +44,9 @@ def in_phase(edges: Edges) -> Edges | None:
     )
     lattice = coarsest(joined)
     before = 0.0 if whole is None else whole.coherence
-    if lattice is None or lattice.coherence < max(_COHERENT, 1.0 - _LEFT * (1.0 - before)):
+    if lattice is None or lattice.coherence < max(
+        _LEAST_COHERENCE, 1.0 - _MOST_INCOHERENCE_RATIO * (1.0 - before)
+    ):
         return None
     return joined
 
@@ -57,7 +59,7 @@ def _bursts(edges: Edges) -> list[Edges]:
     dark = _gaps(edges.falling, edges.rising)
     cuts = [
         float(place) for place, gap in zip(edges.falling[: len(dark)], dark, strict=True)
-        if gap > _PAUSE * bright.max()
+        if gap > _LEAST_PAUSE_RATIO * bright.max()
     ]  # fmt: skip
     bounds = [-np.inf, *cuts, np.inf]
     found: list[Edges] = []

@@ -7,7 +7,8 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 _HYSTERESIS = 0.15
-"""Distance from half-way that a profile must pass to either side: less is noise."""
+"""Distance from the middle level that a profile must pass on both sides of an edge; smaller
+excursions are noise."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -13,24 +13,24 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.chips.edges import Edges
 
-_AS_COHERENT = 0.93
-"""Share of the best lattice's coherence from which a coarser one explains the edges as well."""
+_LEAST_COHERENCE_RATIO = 0.93
+"""Minimum coherence of a coarser lattice relative to the most coherent one."""
 
-_SHORTER = 0.7
-"""Ratio to a chip of the mean length of the shortest bright and the shortest dark run: noise and
+_SHORTENING = 0.7
+"""Minimum ratio of the mean of the shortest bright and the shortest dark run to a chip: noise and
 uneven light shorten both."""
 
 _LEAST_COLUMNS = 2.0
-"""Smallest number of columns per chip."""
+"""Minimum number of columns per chip."""
 
-_STEPS_A_TURN = 6.0
-"""Lattices tried while the last edge moves by a chip against the first."""
+_STEPS_PER_CHIP = 6.0
+"""Number of lattices tried while the last edge moves by one chip relative to the first."""
 
-_RIM = 0.2
-"""Chips off the lattice from which an outermost edge is taken for the panel's rim."""
+_RIM_DISTANCE = 0.2
+"""Distance from the lattice, in chips, beyond which an outermost edge is the rim of the panel."""
 
 _LEAST_DEVIATION = 0.02
-"""Smallest standard deviation of an edge, in chips, that is believed."""
+"""Minimum standard deviation of an edge in chips."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,11 +77,11 @@ def coarsest(edges: Edges) -> Lattice | None:
     Lattice or None
         None where there are too few edges, or no lattice is coherent.
     """
-    longest = edges.shortest_pair / 2.0 / _SHORTER
+    longest = edges.shortest_pair / 2.0 / _SHORTENING
     if edges.count < 4 or not _LEAST_COLUMNS < longest < np.inf:
         return None
     extent = float(np.ptp(edges.places))
-    step = 1.0 / (_STEPS_A_TURN * extent)
+    step = 1.0 / (_STEPS_PER_CHIP * extent)
     frequencies = np.arange(1.0 / longest, 1.0 / _LEAST_COLUMNS, step)
     if frequencies.size < 3:
         return None
@@ -90,7 +90,7 @@ def coarsest(edges: Edges) -> Lattice | None:
     peaks = np.unique(np.append(peaks, 0)) if coherent[0] > coherent[1] else peaks
     if peaks.size == 0:
         return None
-    good = peaks[coherent[peaks] >= _AS_COHERENT * coherent[peaks].max()]
+    good = peaks[coherent[peaks] >= _LEAST_COHERENCE_RATIO * coherent[peaks].max()]
     fine = frequencies[good[0]] + np.linspace(-step, step, 41)
     return lattice_at(edges, float(fine[coherence(edges, fine).argmax()]))
 
@@ -128,8 +128,8 @@ def without_rims(edges: Edges, lattice: Lattice) -> Edges:
     numbers, places = np.concatenate(chip_numbers(edges, lattice))[order], edges.places
     nearest = np.rint(numbers)
     off, lengths = np.abs(numbers - nearest), np.diff(nearest)
-    first = places[1] if off[0] > _RIM or lengths[0] < 1 else places[0]
-    last = places[-2] if off[-1] > _RIM or lengths[-1] < 1 else places[-1]
+    first = places[1] if off[0] > _RIM_DISTANCE or lengths[0] < 1 else places[0]
+    last = places[-2] if off[-1] > _RIM_DISTANCE or lengths[-1] < 1 else places[-1]
     return edges.within(float(first), float(last))
 
 

@@ -14,11 +14,11 @@ from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading
 
 _EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
-"""Exposures in chips that are tried to explain the profile by the edges that were found."""
+"""Exposures in chips that are tried to explain the profile by its edges."""
 
-_EXPLAINED, _UNEXPLAINED = 0.02, 0.08
-"""Shares of the profile's variance that the edges leave unexplained up to which nearly all readings
-are right, and from which none is; about half are in the middle (1,300 simulated messages)."""
+_SURELY_RIGHT, _SURELY_WRONG = 0.02, 0.08
+"""Unexplained fractions of the variance below which nearly all readings are right, and above which
+none is; half-way about half of them are (1,300 simulated messages)."""
 
 
 def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReading:
@@ -66,7 +66,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     chips, first = found
     start = (first + 0.5 * (lattice.rising + lattice.falling)) / lattice.frequency
     unexplained = _unexplained(stripes.flattened, seen, lattice.frequency)
-    trust = np.clip((_UNEXPLAINED - unexplained) / (_UNEXPLAINED - _EXPLAINED), 0.0, 1.0)
+    trust = np.clip((_SURELY_WRONG - unexplained) / (_SURELY_WRONG - _SURELY_RIGHT), 0.0, 1.0)
     return ChipReading(
         chips=chips,
         columns_per_chip=1.0 / lattice.frequency,

@@ -19,38 +19,37 @@ from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-_SHIFTS = np.arange(-4, 5) / 8.0
-"""Shifts of the last chip, in chips, of the steps that are tried near a known step."""
+_STEP_CHANGES = np.arange(-4, 5) / 8.0
+"""Changes, in chips at the last column, of a known step that are tried."""
 
 _EXPLAINED = 0.98
-"""Correlation from which chips need not be fitted again at the period of the stripes."""
+"""Correlation above which chips need not be fitted again at the period of the stripes."""
 
 _WELL_READ = 0.985
-"""Correlation below which chips that were read are searched for otherwise, too."""
+"""Correlation below which other chips than those read first are searched for."""
 
-_SURELY = 100.0
-"""Bits by which they must be better than chance, for other chips to be read from the edges only."""
+_LEAST_INFORMATION = 100.0
+"""Information in bits above which other chips are read from the edges only."""
 
-_CORRECTIONS = 6
-"""Most times that chips which were read are replaced by others near to them."""
+_MOST_CORRECTIONS = 6
+"""Maximum number of times that the chips read are replaced by similar ones."""
 
-_MORE = 0.9
-"""Share of the sum of squared residuals below which other chips explain more than those read."""
+_MOST_POWER_RATIO = 0.9
+"""Ratio of squared residuals below which similar chips replace those read."""
 
-_DUTIES = 50
-"""Parts of a period of which a pulse takes up a whole number."""
+_PARTS_OF_A_PERIOD = 50
+"""Number of parts of a period; a pulse lasts a whole number of them."""
 
 _DUTY_STEPS = (4, 2, 1)
-"""Parts of a period by which the duty is changed, one after the other, to find the best."""
+"""Successive steps, in parts of a period, of the search for a duty."""
 
-_MOST_EXCHANGED = 1.5
-"""Ratio of squared residuals up to which a pulse and its exposure may be exchanged: both are only
-rounded to parts of a period."""
+_MOST_EXCHANGE_RATIO = 1.5
+"""Maximum ratio of squared residuals after a pulse and its exposure are exchanged: both are rounded
+to parts of a period."""
 
-_SAME_NOTE = 0.1
-"""Logarithm of the ratio of a noted exposure time to a pulse's duration up to which they may be the
-same: a camera's note is off by 1 to 2 %, a fitted exposure by up to 9 % (the table of real photos).
-"""
+_NOTE_TOLERANCE = 0.1
+"""Maximum logarithm of the ratio of a noted exposure time to a pulse's duration: notes are off by 1
+to 2 %, fitted exposures by up to 9 % (real photographs)."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -94,7 +93,7 @@ class Candidates:
             return []
         stripes = self.stripes
         explained = as_sent is not None and as_sent.fit.correlation >= _EXPLAINED
-        sure = explained and as_sent is not None and as_sent.information >= _SURELY
+        sure = explained and as_sent is not None and as_sent.information >= _LEAST_INFORMATION
         read = read_patterns(
             stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure,
             is_clipped=stripes.saturated > UNCLIPPED,
@@ -138,7 +137,7 @@ class Candidates:
         width = float(np.mean(self.stripes.flattened > 0.5))
         for step in _DUTY_STEPS:
             middle = min(found, key=lambda on: self._power(found[on])) if found else None
-            first = round(_DUTIES * width) if middle is None else middle
+            first = round(_PARTS_OF_A_PERIOD * width) if middle is None else middle
             for on in (first - step, first, first + step):
                 fitted = same._dimmed(on, period, len(sent)) if on not in found else None
                 if fitted is not None:
@@ -154,7 +153,7 @@ class Candidates:
         or the shorter one.
         """
         other = self._swapped(found, period, chips_sent)
-        if other is None or self._power(other) > _MOST_EXCHANGED * self._power(found):
+        if other is None or self._power(other) > _MOST_EXCHANGE_RATIO * self._power(found):
             return found
         times = {one: self.exposed(one.fit, one.rate) for one in (found, other)}
         noted = self.noted
@@ -175,14 +174,14 @@ class Candidates:
             return None
         pulse_time = self.exposed(as_sent.fit, 1.0) / as_sent.fit.timing.exposure * sent.sum()
         off = abs(np.log(self.exposed(as_sent.fit, 1.0) / self.noted))
-        if abs(np.log(pulse_time / self.noted)) > min(_SAME_NOTE, off):
+        if abs(np.log(pulse_time / self.noted)) > min(_NOTE_TOLERANCE, off):
             return None
         other = self._swapped(as_sent, period, len(sent))
         return other if other is not None and other.fit.correlation >= _EXPLAINED else None
 
     def _swapped(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis | None:
         """Suppose a pulse as long as a hypothesis' exposure."""
-        on = round(_DUTIES * found.fit.timing.exposure / len(found.chips))
+        on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(found.chips))
         return self._dimmed(on, period, chips_sent)
 
     def polished(self, found: Hypothesis) -> Hypothesis:
@@ -191,13 +190,15 @@ class Candidates:
         return replace(found, explanation=explanation, fit=self._nearest(explanation, found.rate))
 
     def _dimmed(self, on: int, period: float, chips_sent: int) -> Hypothesis | None:
-        if not 0 < on < _DUTIES:
+        if not 0 < on < _PARTS_OF_A_PERIOD:
             return None
-        chips = pulse(on, _DUTIES)
+        chips = pulse(on, _PARTS_OF_A_PERIOD)
         step = [self._near(len(chips) / period)]
-        sent = f"the scene's wave with a duty of {on * 100 // _DUTIES} %"
+        sent = f"the scene's wave with a duty of {on * 100 // _PARTS_OF_A_PERIOD} %"
         rate = len(chips) / chips_sent
-        return self._fitted(sent, chips, step, bits=np.log2(_DUTIES), was_read=True, rate=rate)
+        return self._fitted(
+            sent, chips, step, bits=np.log2(_PARTS_OF_A_PERIOD), was_read=True, rate=rate
+        )
 
     def _power(self, found: Hypothesis) -> float:
         return found.power(self.stripes.profile)
@@ -214,11 +215,11 @@ class Candidates:
             The others are those nearest to it and those that it was taken instead of.
         """
         others: list[Hypothesis] = []
-        for _ in range(_CORRECTIONS):
+        for _ in range(_MOST_CORRECTIONS):
             other = self.nearest_other(found)
             if other is None:
                 return found, others
-            if not found.was_read or self._power(other) >= _MORE * self._power(found):
+            if not found.was_read or self._power(other) >= _MOST_POWER_RATIO * self._power(found):
                 return found, [*others, other]
             others.append(found)
             found = self.polished(
@@ -253,7 +254,7 @@ class Candidates:
         return checked
 
     def _near(self, step: float) -> FloatArray:
-        return step + _SHIFTS / len(self.stripes.profile)
+        return step + _STEP_CHANGES / len(self.stripes.profile)
 
     def _named(self, chips: ByteArray) -> str:
         """Name chips by their code where they are a packet, else by their number."""

@@ -7,55 +7,56 @@ from occ_model.photo.stripes.period import unrepeated_share
 from occ_model.results.match import Stripes
 
 _LEAST_PERIODS = 1.5
-"""Periods of a long pattern in view below which hardly a chip is seen twice."""
+"""Minimum number of periods in view of a long pattern that is given, so that some chips are seen
+twice."""
 
 _LEAST_READ_PERIODS = 3.0
-"""The same for a pattern that was read: what is alike twice may be so by chance."""
+"""Minimum number of periods in view of a long pattern that was read: two may agree by chance."""
 
 _LONG_PATTERN = 8
-"""Chips from which a pattern counts as long."""
+"""Number of chips from which a pattern is long."""
 
-_LEAST_WAVES = 3.0
-"""Periods in view below which a short pattern may be a coincidence."""
+_LEAST_SHORT_PERIODS = 3.0
+"""Minimum number of periods in view of a short pattern."""
 
 _LONGEST_EXPOSURE = 3.2
-"""Exposure in chips above which different codes give nearly the same stripes."""
+"""Exposure in chips above which different codes make nearly the same stripes."""
 
 _LEAST_CORRELATION = 0.9
-"""Correlation below which something other than the fitted model shapes the stripes."""
+"""Correlation below which something other than the model shapes the stripes, too."""
 
 _LEAST_INFORMATION = {False: 40.0, True: 100.0}
-"""Bits by which given chips, and chips that were read, must be better than chance to be sure."""
+"""Minimum information in bits of given chips, and of chips that were read."""
 
 _MOST_UNEXPLAINED = 0.035
-"""Share of the variance that chips which were read may leave unexplained."""
+"""Maximum unexplained fraction of the variance for chips that were read."""
 
-_MORE_THAN_REPEATED = 2.0
-"""Ratio of that share to what any repeated wave leaves, above which the chips are not the cause."""
+_MOST_RATIO_TO_WAVE = 2.0
+"""Maximum ratio of that fraction to what the best periodic wave leaves unexplained."""
 
 _WELL_EXPLAINED = 0.02
-"""Share of the variance below which that ratio says nothing: cameras differ from the model."""
+"""Unexplained fraction of the variance that is always allowed: cameras differ from the model."""
 
 _LEAST_ROW_CORRELATION = 0.85
-"""Correlation of the rows' stripes with each other below which they may be a picture's objects."""
+"""Minimum correlation between the stripes of different rows."""
 
 _MOST_SATURATED = 0.5
-"""Share of white pixels above which the shape of the stripes is mostly unknown."""
+"""Saturated fraction of the pixels above which chips that were read are doubtful."""
 
-_MOST_FOR_EXPOSURE = 0.4
-"""Share of white pixels above which too few edges are seen from black to white: of 34 exposures of
-such photographs two stated deviations covered 79 % only (seeds 700000 to 700599)."""
+_MOST_SATURATED_FOR_EXPOSURE = 0.4
+"""Saturated fraction above which the exposure time is doubtful: of 34 exposures of such photographs
+two standard deviations covered 79 % only (seeds 700000 to 700599)."""
 
-_MOST_REPEATED = 0.02
-"""Amplitude, as a share of the swing, above which a residual that repeats is something else's."""
+_MOST_AMPLITUDE = 0.02
+"""Maximum amplitude of a periodic residual relative to the height of the stripes."""
 
-_ABOVE_NOISE = 50.0
-"""Power over that of the noise from which a line of the residual's spectrum is no chance: in a
-thousand bins of noise the strongest one is stronger than this once in 10^18 times."""
+_LEAST_LINE_RATIO = 50.0
+"""Minimum ratio of a line's power to that of the noise: among a thousand bins of noise the
+strongest one exceeds it once in 10^18 times."""
 
-_OF_RESIDUAL = 0.15
-"""Share of the residual's power that a line must have: sharp edges that fall between the columns
-leave many lines, each of a few percent."""
+_LEAST_LINE_FRACTION = 0.15
+"""Minimum fraction of the residual's power in a line: sharp edges between columns leave many lines
+of a few percent each."""
 
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:
@@ -75,11 +76,11 @@ def exposure_doubts(found: Hypothesis, stripes: Stripes) -> list[str]:
             f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
             "pulses: the duty may be smaller."
         ]
-    if stripes.saturated <= _MOST_FOR_EXPOSURE:
+    if stripes.saturated <= _MOST_SATURATED_FOR_EXPOSURE:
         return []
     if found.was_read and stripes.saturated > _MOST_SATURATED:
         return []  # then nothing of it is sure, for the same reason
-    return [_too_white(stripes.saturated, _MOST_FOR_EXPOSURE)]
+    return [_too_white(stripes.saturated, _MOST_SATURATED_FOR_EXPOSURE)]
 
 
 def _too_white(saturated: float, most: float) -> str:
@@ -94,7 +95,7 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
     reasons = []
     chips = len(found.chips)
     least = _LEAST_READ_PERIODS if found.was_read else _LEAST_PERIODS
-    least = least if chips >= _LONG_PATTERN else _LEAST_WAVES
+    least = least if chips >= _LONG_PATTERN else _LEAST_SHORT_PERIODS
     if found.periods < least:
         reasons.append(
             f"Only {found.periods:.2g} periods of {chips} chips are in view; at least {least:g} "
@@ -151,9 +152,9 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
         len(found.chips) / found.fit.timing.step,
         len(found.chips),
     )
-    if line is None or line.above_noise < _ABOVE_NOISE:
+    if line is None or line.above_noise < _LEAST_LINE_RATIO:
         return []
-    if line.amplitude < _MOST_REPEATED or line.share < _OF_RESIDUAL:
+    if line.amplitude < _MOST_AMPLITUDE or line.share < _LEAST_LINE_FRACTION:
         return []
     return [
         f"What is left of the stripes repeats after {line.period:.3g} columns, by "
@@ -173,7 +174,7 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
         return []
     left = 1.0 - max(found.fit.correlation, 0.0) ** 2
     repeated = unrepeated_share(stripes.flattened, stripes.period)
-    most = max(_MORE_THAN_REPEATED * repeated, _WELL_EXPLAINED)
+    most = max(_MOST_RATIO_TO_WAVE * repeated, _WELL_EXPLAINED)
     allowed = min(most, _MOST_UNEXPLAINED)
     if left <= allowed:
         return []

@@ -12,7 +12,8 @@ from occ_model.photo.fit.least_squares import StripeFit, level_freedom
 from occ_model.photo.stripes.period import correlated_columns
 
 UNCLIPPED = 0.02
-"""Share of white pixels up to which they hardly change the width of the stripes."""
+"""Saturated fraction of the pixels up to which saturation hardly changes the width of the
+stripes."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

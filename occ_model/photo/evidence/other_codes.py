@@ -9,10 +9,11 @@ from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.packet import packet_length, packets, sends_paper_code
 
 _MOST_BITS = 12
-"""Bits of a packet up to which all codes are compared; beyond, those that differ in one chip."""
+"""Number of bits up to which all codes are compared; of longer packets those that differ in one
+chip."""
 
 _MOST_CHIPS = 512
-"""Chips of a period up to which others are compared."""
+"""Number of chips up to which other sequences are compared."""
 
 
 def nearest_other(

@@ -9,18 +9,18 @@ from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.results.match import PLAIN_STRIPES
 
 _LEAST_GIVEN, _LEAST_READ = 0.8, 0.9
-"""Correlations below which given chips, and chips that were read, explain nothing."""
+"""Minimum correlations of given chips, and of chips that were read."""
 
-_LEAST_OF_ANYTHING = 0.975
-"""The same for chips that were read where it is not given that a lamp blinks: regular objects are
-explained about as well by some chips or other."""
+_LEAST_OF_OBJECTS = 0.975
+"""Minimum correlation of chips that were read where no lamp is known to blink: some chips explain
+the stripes of any regular object about as well."""
 
 _LEAST_INFORMATION = 30.0
-"""Bits by which a fit must be better than chance: so many timings are tried that the best of them
-is better by about 15 to 20 bits in any picture."""
+"""Minimum information in bits. The best of the many timings tried reaches 15 to 20 bits in any
+picture."""
 
 _LEAST_ROW_CORRELATION = 0.7
-"""Correlation of the rows' stripes with each other from which they can be those of the time."""
+"""Minimum correlation between the stripes of different rows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
     """
     least = _LEAST_GIVEN
     if found.was_read:
-        least = _LEAST_READ if blinks else _LEAST_OF_ANYTHING
+        least = _LEAST_READ if blinks else _LEAST_OF_OBJECTS
     what = found.sent[0].upper() + found.sent[1:]
     if found.fit.correlation < least:
         return [

@@ -7,25 +7,25 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-_HARMONICS = 2
-"""Multiples of the number of chips up to which a harmonic is the explained pattern's own: the
-model's error of a pattern repeats with it, too."""
+_OWN_HARMONICS = 2
+"""Multiple of the number of chips up to which harmonics belong to the pattern: the model's error
+repeats with it."""
 
 _LINE_BINS = 2
-"""Bins of the spectrum on either side that belong to a line: a Hann window spreads it so."""
+"""Half-width of a spectral line in bins: that of a Hann window."""
 
-_NEIGHBOUR_HARMONICS = (-4, -3, 3, 4)
-"""Harmonics of the pattern near one of them: an error at its edges is in all of them alike. The
-nearest ones may be sidebands of a light that the pattern modulates."""
+_NEIGHBOURS = (-4, -3, 3, 4)
+"""Distances to the harmonics that a harmonic is compared with: an error at the edges appears in all
+of them. The nearest ones may be sidebands of a light that the pattern modulates."""
 
 _MOST_POWER_RATIO = 4.0
-"""Ratio of powers up to which harmonics count as alike."""
+"""Ratio of powers up to which neighbouring harmonics have the same cause."""
 
 _LEAST_COLUMNS = 64
-"""Columns below which a spectrum tells nothing."""
+"""Minimum number of columns for a spectrum."""
 
 _LEAST_CYCLES = 6
-"""Periods in view from which something repeats; slower changes are uneven light."""
+"""Minimum number of periods in view; slower changes are uneven light."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ def strongest_line(
     relative = residual / np.maximum(swing, 1.0)
     power = np.abs(np.fft.rfft(window * (relative - relative.mean()))) ** 2
     possible = np.arange(len(power)) >= _LEAST_CYCLES
-    for place, beside in _harmonics(power, columns / pattern_period, _HARMONICS * chips):
+    for place, beside in _harmonics(power, columns / pattern_period, _OWN_HARMONICS * chips):
         around = slice(max(0, place - _LINE_BINS), place + _LINE_BINS + 1)
         possible[around] &= power[around] > beside
     if not possible.any():
@@ -111,11 +111,7 @@ def _harmonics(power: FloatArray, first: float, own: int) -> list[tuple[int, flo
             if index < own
             else _MOST_POWER_RATIO
             * max(
-                (
-                    strongest[index + step]
-                    for step in _NEIGHBOUR_HARMONICS
-                    if index + step < len(places)
-                ),
+                (strongest[index + step] for step in _NEIGHBOURS if index + step < len(places)),
                 default=0.0,
             ),
         )

@@ -13,14 +13,15 @@ from occ_model.photo.evidence.repeated_wave import repeated_wave
 from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
-_DECIDEDLY = 10.0
-"""Difference of log-likelihoods from which one explanation counts as decidedly better."""
+_DECISIVE = 10.0
+"""Difference of log-likelihoods above which one explanation is decidedly better: a factor of
+22,000."""
 
 _MODEL_ERROR = 0.02
-"""Share of the swing by which a camera's stripes may differ from the model in any case."""
+"""Error of the model relative to the height of the stripes, which every explanation may have."""
 
-_COSINES_A_CHIP = 2.0
-"""Cosines a chip in view up to which a smooth curve is tried."""
+_COSINES_PER_CHIP = 2.0
+"""Maximum number of cosines of a smooth curve per chip in view."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -67,7 +68,7 @@ class Judge:
         best = likelihoods[order[0]]
         for i, why in zip(order, reasons, strict=True):
             # What holds but is decidedly less likely than what was refused explains nothing.
-            if not why and likelihoods[i] > best - _DECIDEDLY:
+            if not why and likelihoods[i] > best - _DECISIVE:
                 return hypotheses[i]
         # What a user can do about it stands first, with what it rests on.
         reasons.sort(key=lambda why: PLAIN_STRIPES not in why)
@@ -95,10 +96,10 @@ class Judge:
             f"Nearly as likely is {other.sent}, with a correlation of {other.fit.correlation:.3f} "
             f"beside {found.fit.correlation:.3f}."
             for other, more in beside
-            if more > -_DECIDEDLY and not found.shares_timing_with(other, is_given=is_given)
+            if more > -_DECISIVE and not found.shares_timing_with(other, is_given=is_given)
         ]
         smooth = self._smooth(found, everyone)
-        if likelihoods[0] - smooth.likelihood < _DECIDEDLY:
+        if likelihoods[0] - smooth.likelihood < _DECISIVE:
             reasons.append("Light that varies slowly, without any code, is nearly as likely.")
         of_exposure = exposure_doubts(found, self._stripes)
         return Verdict(found, tuple(reasons), tuple(of_exposure), tuple(beside))
@@ -113,7 +114,7 @@ class Judge:
         return refusals(found, beside, blinks=self._blinks)
 
     def _smooth(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> SmoothCurve:
-        most = int(_COSINES_A_CHIP * found.counted_chips)
+        most = int(_COSINES_PER_CHIP * found.counted_chips)
         return best_smooth_curve(
             self._stripes.profile, most, self._independent(everyone), self._error
         )

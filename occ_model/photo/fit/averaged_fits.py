@@ -8,19 +8,19 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.fit.joint_fit import JointFit
 
 _UNMODELLED = 0.05
-"""Share of the data's misfit by which explanations must differ to be told apart: what a camera does
-beside the model changes each one's misfit by chance. Without it, a blur of the wrong shape is often
-taken for the only one. What is usual of a camera has no such error: it counts in full."""
+"""Fraction of the data's misfit by which explanations must differ: effects outside the model change
+the misfit of each by chance. Without it, a blur of the wrong shape is often the only one left. The
+misfit of the priors has no such error and counts in full."""
 
-_VANISHED = 2e-3
-"""Exposure in chips that is as good as none."""
+_LEAST_EXPOSURE = 2e-3
+"""Exposure in chips below which there is none."""
 
-_UNTOLD_STEP = 5.0
-"""Ratio to the smallest deviation of the step from which a fit tells none: the distances of edges
-are the same by every model, and so is how well they are known."""
+_MOST_STEP_RATIO = 5.0
+"""Maximum ratio of a step's standard deviation to the smallest one: all models have the same
+distances of edges, so that a larger one comes from a degenerate fit."""
 
-_UNTOLD = 1e3
-"""Variance of gamma's logarithm of a fit that ended at gamma's bound, where it has no slope."""
+_MOST_GAMMA_VARIANCE = 1e3
+"""Variance of gamma's logarithm that only a fit at gamma's bound reaches, where it has no slope."""
 
 
 def averaged(fits: Sequence[JointFit]) -> JointFit:
@@ -32,9 +32,13 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
     bound, or a step that is far less known than by another fit, has no slope, which tells no
     covariance: such a fit counts only where there is no other.
     """
-    most = _UNTOLD_STEP**2 * min(one.covariance[0, 0] for one in fits)
+    most = _MOST_STEP_RATIO**2 * min(one.covariance[0, 0] for one in fits)
     known = [one for one in fits if one.covariance[0, 0] <= most]
-    tell = [one for one in known if one.exposure > _VANISHED and one.covariance[3, 3] < _UNTOLD]
+    tell = [
+        one
+        for one in known
+        if one.exposure > _LEAST_EXPOSURE and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
+    ]
     fits = sorted(tell or known, key=lambda fit: fit.exposure)
     likeliest = min(fits, key=lambda fit: fit.misfit)
     likely = np.cumsum(_weights(np.array([fit.misfit for fit in fits])))

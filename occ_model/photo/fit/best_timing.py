@@ -13,43 +13,44 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results.match import Stripes
 
-_SURELY = 0.9
-"""Correlation from which a candidate is taken as no coincidence."""
+_LEAST_SURE_CORRELATION = 0.9
+"""Correlation above which a candidate is no coincidence."""
 
-_PROMISING = 0.85
-"""Share of the best candidate's correlation from which another is fitted too."""
+_LEAST_CORRELATION_RATIO = 0.85
+"""Minimum correlation of further candidates relative to the best one."""
 
 _BEST, _SHORTEST = 4, 4
-"""Numbers of candidates that are fitted: the best ones, and those of the shortest exposures."""
+"""Numbers of candidates that are fitted: the best ones, and those with the shortest exposures."""
 
 _ROUGH_ROUNDS = 4
-"""Steps after which fits are compared, to finish the promising ones."""
+"""Number of iterations after which fits are compared, and only good ones continued."""
 
 _MOST_RESIDUAL_RATIO = 4.0
-"""Ratio to the least residual from which a rough fit is not finished."""
+"""Maximum ratio of a rough fit to the best one for it to be continued."""
 
 _MOST_FINISHED = 6
 
-_AROUND = (0.85, 0.93, 1.07, 1.15)
-"""Factors by which an exposure is changed to fit it again."""
+_NEAR_EXPOSURES = (0.85, 0.93, 1.07, 1.15)
+"""Factors of an exposure from which it is fitted again."""
 
-_EXPOSURE_FACTORS = (0.8, 1.25)
-"""Factors by which an exposure is changed to explain other chips."""
+_OTHER_EXPOSURES = (0.8, 1.25)
+"""Factors of an exposure from which other chips are fitted."""
 
-_VALLEY = 1e-3
-"""Difference of exposures, in chips, below which fits count as the same."""
+_LEAST_SPREAD = 1e-3
+"""Difference of exposures in chips below which fits are the same."""
 
-_AS_GOOD = 1.05
-"""Factor by which a fit's residual may exceed the smallest one and still count as equally good."""
+_MOST_EQUAL_RATIO = 1.05
+"""Maximum ratio of residuals of fits that are equally good."""
 
-_DECIDEDLY = 0.5
-"""Share of the other cameras' residual from which a picture counts as equalized: cameras do not."""
+_EQUALIZED_RATIO = 0.5
+"""Ratio to the other cameras' residual below which a picture was equalized: cameras do not do
+so."""
 
 _EXPLAINED = 0.98
-"""Correlation of another camera's fit above which a picture is not taken to be equalized."""
+"""Correlation of another camera's fit above which equalization is not tried."""
 
 SAME_EXPOSURE = 0.04
-"""Difference in chips below which two fits have the same exposure."""
+"""Difference in chips below which two exposures are the same."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -124,9 +125,9 @@ def explain(
     candidates: list[Candidate] = []
     for group in steps:
         candidates = _candidates(even, chips, group, gamma, check)
-        if candidates[0].correlation >= _SURELY:
+        if candidates[0].correlation >= _LEAST_SURE_CORRELATION:
             break
-    if candidates[0].correlation < _SURELY:
+    if candidates[0].correlation < _LEAST_SURE_CORRELATION:
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
         others = _candidates(stripes.flattened, chips, steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
@@ -154,7 +155,7 @@ def explain_near(
         None where no fit has the levels of a picture.
     """
     starts = [
-        replace(timing, exposure=share * timing.exposure) for share in (1.0, *_EXPOSURE_FACTORS)
+        replace(timing, exposure=share * timing.exposure) for share in (1.0, *_OTHER_EXPOSURES)
     ]
     best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
     if best is None:
@@ -218,7 +219,7 @@ def _most_before(camera: CameraTone) -> float:
 
 def _share(camera: CameraTone) -> float:
     """Give the share of other cameras' residual below which a camera's fit is preferred."""
-    return _DECIDEDLY if camera.enhancement == "equalization" else 1.0
+    return _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
 
 
 def _candidates(
@@ -237,7 +238,7 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
 
     Many exposures give similar stripes, so that the search alone does not find the best.
     """
-    enough = _PROMISING * candidates[0].correlation
+    enough = _LEAST_CORRELATION_RATIO * candidates[0].correlation
     good = [one.timing for one in candidates if one.correlation >= enough]
     shortest = sorted(good, key=lambda timing: timing.exposure)
     return list(dict.fromkeys([*good[:_BEST], *shortest[:_SHORTEST]]))
@@ -264,12 +265,14 @@ def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit
     The lit fraction has corners, and few columns show an edge: the sum of squares has many shallow
     minima, of which the deepest is hardly more likely than the others.
     """
-    around = [replace(fit.timing, exposure=share * fit.timing.exposure) for share in _AROUND]
+    around = [
+        replace(fit.timing, exposure=share * fit.timing.exposure) for share in _NEAR_EXPOSURES
+    ]
     fits = [fit, *(model.fit(timing, with_gamma) for timing in around)]
     best = min(fits, key=lambda one: one.residual)
     exposures = [one.timing.exposure for one in fits if one.residual <= best.likely]
     spread = 0.5 * (max(exposures) - min(exposures))
-    if spread < _VALLEY:
+    if spread < _LEAST_SPREAD:
         return best
     middle = replace(best.timing, exposure=0.5 * (max(exposures) + min(exposures)))
     return model.fit(middle, with_gamma, spread)
@@ -278,5 +281,5 @@ def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit
 def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
     """Keep the best fit and those as good with another exposure, in order of the exposure."""
     least = min(fit.residual for fit in fits)
-    good = [fit for fit in fits if fit.residual <= _AS_GOOD * least]
+    good = [fit for fit in fits if fit.residual <= _MOST_EQUAL_RATIO * least]
     return sorted(good, key=lambda fit: fit.timing.exposure)

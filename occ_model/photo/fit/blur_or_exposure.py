@@ -9,25 +9,24 @@ from occ_model.photo.fit.averaged_fits import distinct
 from occ_model.photo.fit.blurred_light import BlurShape
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
 
-_BLURRED = 12.0
-"""Columns up to which an exposure may be mistaken for blur."""
+_MOST_COLUMNS = 12.0
+"""Exposure in columns below which blur may be taken for it."""
 
 _BLURS = (0.2, 0.7, 1.1, 1.5)
-"""Standard deviations of blur, in columns, that are tried then."""
+"""Standard deviations of blur, in columns, that are tried."""
 
-_OF_BOTH: dict[BlurShape | None, tuple[float, ...]] = {
+_BLUR_FRACTIONS: dict[BlurShape | None, tuple[float, ...]] = {
     None: (0.75, 0.9),
     "box": (0.1, 0.5, 0.75),
     "exponential": (0.1, 0.5, 0.75),
 }
-"""Shares of an edge's variance that are blur's, from which fits start then, by the blur's shape. A
-box and an exposure look alike: which of them an edge is, is not seen. Each shape has several
-minima: from a half of the variance alone a blur of 1.3 columns and an exposure of 2.2 were taken
-for one of 1.1 and 3.5, with a larger misfit."""
+"""Fractions of an edge's variance due to blur from which fits start, by the shape of the blur. A
+box of blur and an exposure look alike, and each shape has several minima: starts at one half alone
+took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
 
 _FIXED_BLUR = (7,)
-_KNOWN_BLUR = 0.1
-"""Standard deviation of a fitted blur, in columns, below which no other is likely."""
+_WELL_KNOWN_BLUR = 0.1
+"""Standard deviation of a fitted blur, in columns, below which no other blur is tried."""
 
 _LAST_ROUNDS = 10
 _SHORTEST = 0.2
@@ -48,16 +47,16 @@ class Possible:
         Each minimum counts once, however many starts end in it.
         """
         free = self.model.fit(self.fit.values, rounds=self.rounds)
-        if free.values[1] >= _BLURRED * free.values[0]:
+        if free.values[1] >= _MOST_COLUMNS * free.values[0]:
             return [free]
-        found = {shape: self._shared(free.values, shape) for shape in _OF_BOTH}
+        found = {shape: self._shared(free.values, shape) for shape in _BLUR_FRACTIONS}
         found["box"] += self._exchanged(found["box"])
         found[None].append(free)
         best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
         for shape, fits in found.items():
             # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
             fits.append(self.model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
-        if free.covariance[7, 7] >= _KNOWN_BLUR**2:
+        if free.covariance[7, 7] >= _WELL_KNOWN_BLUR**2:
             others = [_with_blur(free.values, blur) for blur in _BLURS]
             found[None] += [self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others]
         return [fit for fits in found.values() for fit in distinct(fits)]
@@ -80,14 +79,14 @@ class Possible:
         width = columns**2 / 12.0 + float(values[7]) ** 2
         return [
             self.model.fit(_with_blur(values, math.sqrt(share * width)), rounds=4, shape=shape)
-            for share in _OF_BOTH[shape]
+            for share in _BLUR_FRACTIONS[shape]
         ]
 
 
 def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Possible]:
     """Fit each model near an exposure; a short one with every blur, which it may be taken for."""
     columns = float(values[1] / values[0])
-    if columns > _BLURRED:
+    if columns > _MOST_COLUMNS:
         return [Possible(one, one.fit(one.adapted(values))) for one in models]
     found = []
     for model in models:

@@ -16,19 +16,19 @@ from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.timing import Timing
 
 _REACH = 8
-"""Columns to which blur spreads a column."""
+"""Maximum distance in columns over which blur acts."""
 
 _LEAST_BLUR = 0.05
-"""Columns of blur below which a picture is sharp."""
+"""Blur in columns below which a picture is sharp."""
 
 _CHANGE = 1e-5
-"""Columns by which blur is changed for the slope of its weights."""
+"""Finite difference of the blur in columns."""
 
-_LONGEST = 0.4
-"""Largest change of the time that the LED is on, as a share of the shortest run of chips."""
+_MOST_LONGER = 0.4
+"""Maximum change of the time that the LED is on, relative to the shortest run of chips."""
 
 BLUR = 3
-"""The blur's place among the parameters of slopes: step, exposure, middle, blur and longer."""
+"""The blur's index among the parameters of slopes: step, exposure, middle, blur and longer."""
 
 BlurShape = Literal["normal", "box", "exponential"]
 """Blur's distribution: of processing; a box, as resizing blurs; or one with long tails."""
@@ -45,7 +45,7 @@ class BlurredLight:
 
     def __init__(self, chips: ByteArray, columns: int) -> None:
         self._period = len(chips)
-        self._longest = _LONGEST * min(runs_of(chips))
+        self._longest = _MOST_LONGER * min(runs_of(chips))
         self._columns = columns
         change = chips.astype(np.int64) - np.roll(chips, 1)
         places = np.flatnonzero(change)

@@ -16,12 +16,12 @@ _BRIGHT = 1000.0
 """Luminance in cd/m2 of the lit panel; only its ratio to that of the dark panel matters."""
 
 _DARKEST = 0.5
-"""Grey levels below which dark columns are black."""
+"""Grey level below which dark columns are black."""
 
 _STEADY_LIGHT = np.ones(1)
 
 _RANK_RESOLUTION = 0.5
-"""Columns: a smaller change of the timing changes hardly any column's rank."""
+"""Change of the timing in columns that changes the columns' ranks noticeably."""
 
 AVERAGINGS = ("pixel-value", "light")
 

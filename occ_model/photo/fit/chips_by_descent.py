@@ -15,10 +15,10 @@ from occ_model.photo.fit.chips_of_harmonics import Harmonics, ReadPattern, boxes
 
 _EXPOSURES = (0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.0, 2.15, 2.3, 2.5, 2.7, 2.85, 3.0, 3.15)
 _PHASES = np.arange(16) / 16.0
-"""Exposures and phases, in chips, that are tried: twice as fine as where chips are divided only."""
+"""Exposures and phases in chips that are tried, twice as dense as for division."""
 
-_GAIN = 1e-9
-"""Rise of the likeness that is no mere rounding."""
+_LEAST_GAIN = 1e-9
+"""Increase of the likeness beyond rounding error."""
 
 
 def chips_by_descent(
@@ -66,7 +66,7 @@ def _ascended(
         others = chips ^ changes
         alike = _alike(others, towards, products)
         most = int(alike.argmax())
-        if alike[most] <= best + _GAIN:
+        if alike[most] <= best + _LEAST_GAIN:
             return chips, best
         chips, best = others[most], float(alike[most])
 

@@ -12,24 +12,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.stripes.envelope import MEAN_FREEDOM, smooth_shapes
+from occ_model.photo.stripes.envelope import MEAN_SHAPES, smooth_shapes
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
 _PHASES = np.arange(8) / 8.0
-"""Exposures and phases, in chips, that are tried."""
+"""Exposures and phases in chips that are tried."""
 
-_NOISE = 0.01
-"""Share of the largest weight below which a harmonic is dominated by noise."""
+_LEAST_WEIGHT = 0.01
+"""Weight relative to the largest one below which a harmonic is mostly noise."""
 
 _MOST_HARMONICS = 160
 
 _REGULARIZATION = 1e-6
-"""Share of a harmonic's energy that the normal equations get in addition."""
+"""Regularization of the normal equations relative to a harmonic's energy."""
 
-_REFINEMENTS = 120
+_MOST_EVALUATIONS = 120
 
 _MOST_LONGER = 0.5
-"""Chips by which gamma and saturation can make bright runs longer, or shorter, than they are."""
+"""Maximum change, in chips, of bright runs by gamma and saturation."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,9 +65,9 @@ def harmonics_of(even: FloatArray, period: float) -> Harmonics:
     """
     columns = len(even)
     count = int(np.clip(period / 2.0, 2, _MOST_HARMONICS))
-    count = min(count, max(2, (columns - MEAN_FREEDOM) // 3))
+    count = min(count, max(2, (columns - MEAN_SHAPES) // 3))
     turn = 2.0 * np.pi / period * np.outer(np.arange(columns), np.arange(1, count + 1))
-    parts = np.hstack([np.cos(turn), np.sin(turn), smooth_shapes(columns, MEAN_FREEDOM)])
+    parts = np.hstack([np.cos(turn), np.sin(turn), smooth_shapes(columns, MEAN_SHAPES)])
     products = parts.T @ parts
     # At half the column rate a sine has no energy of its own.
     products[np.diag_indices_from(products)] += _REGULARIZATION * columns
@@ -151,7 +151,12 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
         unlike,
         start,
         method="Nelder-Mead",
-        options={"initial_simplex": steps, "maxfev": _REFINEMENTS, "xatol": 0.01, "fatol": 1e-4},
+        options={
+            "initial_simplex": steps,
+            "maxfev": _MOST_EVALUATIONS,
+            "xatol": 0.01,
+            "fatol": 1e-4,
+        },
     )
     exposure, phase, longer = best.x.tolist()
     most = _MOST_LONGER if column is None else min(_MOST_LONGER, abs(exposure) + column)
@@ -182,7 +187,7 @@ def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> Fl
 
     power = folded(np.abs(weights) ** 2 + 0j).real
     sums = folded(lines * np.conj(weights))
-    spectrum = sums / (power + _NOISE * power.max(axis=1, keepdims=True))
+    spectrum = sums / (power + _LEAST_WEIGHT * power.max(axis=1, keepdims=True))
     # The spectrum of real levels is its own mirror image, conjugated.
     spectrum[:, 0] = 0.0
     mirror = -np.arange(count) % count

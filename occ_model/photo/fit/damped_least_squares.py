@@ -11,13 +11,13 @@ import numpy as np
 from occ_model.arrays import FloatArray
 
 DIFFERENCE = 0.02
-"""Change of the scaled parameters for finite differences."""
+"""Finite difference of the scaled parameters."""
 
-_NO_GAIN = 0.05
-"""Decrease of the sum of squares, in noise variances, that does not matter."""
+_LEAST_GAIN = 0.05
+"""Minimum decrease of the sum of squares, in variances of the noise, for a further iteration."""
 
-_TRIES = 6
-"""Times that a step which gains nothing is shortened before the search ends."""
+_MOST_TRIES = 6
+"""Maximum number of shorter steps after one that does not decrease the sum of squares."""
 
 
 def minimized(
@@ -54,7 +54,7 @@ def minimized(
     for _ in range(rounds):
         products, gradient = steep.T @ steep, steep.T @ value
         gain = 0.0
-        for _ in range(_TRIES):
+        for _ in range(_MOST_TRIES):
             damped = products + np.diag(damping * np.diag(products) + 1e-9)
             there = here - np.linalg.solve(damped, gradient)
             new = residual(there)
@@ -67,7 +67,7 @@ def minimized(
         if gain <= 0.0:
             break
         steep = slopes(here) if slopes else _differences(residual, here, value)
-        if gain < (share * float(value @ value) if share else _NO_GAIN):
+        if gain < (share * float(value @ value) if share else _LEAST_GAIN):
             break
     return here, value, steep
 

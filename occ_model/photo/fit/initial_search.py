@@ -16,24 +16,24 @@ from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.timing import Timing
 
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
-"""Exposures in chips, or for a pulse in half periods, that the search tries."""
+"""Exposures that are tried, in chips; of a pulse in half periods."""
 
-_ROUGHLY = (0.3, 1.4, 2.4, 3.5, 5.4)
-"""Exposures with which every step is tried."""
+_ROUGH_EXPOSURES = (0.3, 1.4, 2.4, 3.5, 5.4)
+"""Exposures with which all steps are compared."""
 
-_FASTEST = 0.95
-"""Largest number of chips per column: beyond it a chip has no column of its own."""
+_MOST_STEP = 0.95
+"""Maximum number of chips per column."""
 
 _PADDING = 4
 _PHASES_A_CHIP = 8
 _ROUGH_PHASES_A_CHIP = 2
 
-_STEPS_A_TURN = 3.0
-"""Number of steps tried while the position of the profile's last column changes by a chip."""
+_STEPS_PER_CHIP = 3.0
+"""Number of steps tried while the last column moves by one chip."""
 
 _BEST_STEPS = 24
 _AT_ONCE = 2**19
-"""Largest number of array elements at once: it bounds the memory for long patterns."""
+"""Maximum number of array elements at once, which bounds the memory."""
 
 
 def _nothing() -> None:
@@ -78,8 +78,8 @@ class Search:
     def steps(self) -> FloatArray:
         """Give all steps to try, in chips per column."""
         slowest = max(1.5, 0.75 * self._period) / self._columns
-        count = int(np.ceil((_FASTEST - slowest) * self._columns * _STEPS_A_TURN))
-        return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_A_TURN)
+        count = int(np.ceil((_MOST_STEP - slowest) * self._columns * _STEPS_PER_CHIP))
+        return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_PER_CHIP)
 
     def candidates(
         self, steps: FloatArray, gamma: float, check: Callable[[], object] = _nothing
@@ -94,7 +94,7 @@ class Search:
         for first in range(0, len(steps), together):
             part = slice(first, first + together)
             seen = self._sampled(steps[part], slow)
-            for exposure in self._as_one * np.array(_ROUGHLY):
+            for exposure in self._as_one * np.array(_ROUGH_EXPOSURES):
                 check()
                 scores = self._scores(seen, exposure, _ROUGH_PHASES_A_CHIP)[0]
                 rough[part] = np.maximum(rough[part], scores)

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 
-TRUSTED = 4.0
-"""Columns of a residual that count as one: it is no mere noise, but repeats with the stripes. Of
-151 exposures of simulated photographs one deviation covers 81 % with 6, and 76 % with this; two
-cover 87 % with 2, and 91 % with this."""
+CORRELATED_COLUMNS = 4.0
+"""Number of columns of a residual that count as one: it is not mere noise, but repeats with the
+stripes. Of 151 exposures of simulated photographs one standard deviation covers 76 %, and two 91 %;
+with 6 one covers 81 %, with 2 two cover 87 %."""
 
 
 def covariance_of(
@@ -45,6 +45,6 @@ def covariance_of(
     prior = slopes[data:].T @ slopes[data:]
     sandwich = inverse @ (scores.T @ scores + prior) @ inverse * (blocks / max(1, blocks - 1))
     ratio = np.diag(sandwich) / np.diag(inverse)
-    ratio = np.maximum(ratio, np.append(1.0 / TRUSTED, np.ones(len(ratio) - 1)))
+    ratio = np.maximum(ratio, np.append(1.0 / CORRELATED_COLUMNS, np.ones(len(ratio) - 1)))
     moved = inverse @ (slopes.T @ tails)
     return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)) + np.outer(moved, moved))

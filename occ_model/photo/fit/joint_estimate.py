@@ -27,37 +27,38 @@ from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results.match import Stripes
 
 _CHIPS_LIT = 8
-"""Chips within which an LED is surely on for once; a whole period where that is shorter, or where
+"""Number of chips within which an LED is on at least once; a period where that is shorter, or where
 it is on once only."""
 
 _MOST_EXCESS_MISFIT = 60.0
-"""Excess of the misfit from which an exposure is not refined."""
+"""Excess of the misfit above which an exposure is not refined."""
 
-_AS_LIKELY, _RATIO = 9.0, 1.3
-"""Excess of the misfit, three deviations, and its ratio, to which another exposure is as likely."""
+_MOST_EXCESS, _MOST_RATIO = 9.0, 1.3
+"""Excess of the misfit (three standard deviations), and its ratio, up to which another exposure is
+as likely."""
 
 _MOST_SQUARE_WAVE_RATIO = 3.0
-"""The same ratio from which another exposure of a square wave is surely worse: their stripes differ
-by blur and white only. An exposure of 2.2 chips had 1.5 to 2.4 times the misfit of one of 0.23,
-where 2.15 was right (seed 730036)."""
+"""The same ratio for a square wave, whose stripes at such exposures differ by blur and saturation
+only: an exposure of 2.2 chips had 1.5 to 2.4 times the misfit of 0.23, where 2.15 was right (seed
+730036)."""
 
 _UNKNOWN_RAMP = 0.002
-"""Standard deviation of an exposure as a share of it: switching, and processing that follows edges,
-change a ramp's shape."""
+"""Relative standard deviation of an exposure due to the shape of its ramps: switching, and
+processing at edges."""
 
 _UNKNOWN_BLUR = 0.02
-"""Standard deviation of a blur's variance, as a share of it: no camera's blur has exactly one of
-the shapes that are tried. An exposure of half a column behind a blur of one column is so known to a
-half, one of four columns to a percent."""
+"""Relative standard deviation of a blur's variance: no camera's blur has exactly one of the shapes
+tried. An exposure of half a column behind a blur of one column is thus known to 50 %, one of four
+columns to 1 %."""
 
 _LEAST_EDGES = 0.1
-"""Share of the edges' columns that must be seen without clipping."""
+"""Minimum fraction of the edges' columns that is seen without clipping."""
 
 _MOST_UNUSUAL = 3.55
-"""Standard deviations by which the camera's and the LED's unknowns may together be off what is
-usual: six that are usual are further off in one of twenty cases."""
+"""Distance of the camera's and the LED's six unknowns from their means, in standard deviations,
+that five of a hundred usual ones exceed (chi-square distribution)."""
 
-_CONTRADICTED = 0.02
+_MOST_LOSS = 0.02
 """Loss of correlation by which a refined fit contradicts the first one: exposures of 0.4 and 8.9
 columns, where 5.4 was right, had correlations of 0.944 and 0.988."""
 
@@ -137,7 +138,7 @@ def refined(
         for mode in found
     ]
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
-    if fits[0].correlation < explanation.correlation - _CONTRADICTED:
+    if fits[0].correlation < explanation.correlation - _MOST_LOSS:
         return Refined(
             explanation.fits, _doubts(unusual), (_CONTRADICTION, *_exposure_doubts(seen, alike))
         )
@@ -187,7 +188,7 @@ def _modes(
         means.append(averaged(fits))
         tried += fits
     least = min(fit.misfit for fit in means)
-    most = _RATIO * least + _AS_LIKELY
+    most = _MOST_RATIO * least + _MOST_EXCESS
     # A square wave's first one stays: its stripes are those of the others, to the last column.
     stays = means[0] if is_square else None
     kept = [fit for fit in means if fit.misfit < most or fit is stays]

@@ -17,7 +17,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.blurred_light import BlurShape
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import minimized
-from occ_model.photo.fit.joint_covariance import TRUSTED, covariance_of
+from occ_model.photo.fit.joint_covariance import CORRELATED_COLUMNS, covariance_of
 from occ_model.photo.fit.least_squares import level_freedom
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
 from occ_model.photo.fit.scaled_parameters import ScaledParameters
@@ -36,38 +36,40 @@ USUAL = {
     "blur": (0.5, 0.5),
     "longer": (0.0, 0.02),
 }
-"""Mean and standard deviation of what is usual: the logarithm of gamma over the scene's gamma, the
-tone curve's bends, the blur in columns, and the chips by which the LED is on longer."""
+"""Mean and standard deviation of the priors: gamma's logarithm over the scene's gamma, the tone
+curve's bends, the blur in columns, and the chips by which the LED is on longer."""
 
-_TAILS = 1.6
+_KURTOSIS = 1.6
 """Standard deviation of the blur's excess kurtosis: its root mean square if half of all blur is
-normal (0), a quarter of it resizing's (a box, -1.2), and a quarter has exponential tails (3). It is
-not fitted, since what the model leaves unexplained would be taken for it."""
+normal (0), a quarter a box from resizing (-1.2), and a quarter has exponential tails (3). It is not
+fitted, since it would absorb what the model leaves unexplained."""
 
-_KURTOSIS = 0.2
-"""Change of the excess kurtosis for finite differences."""
+_KURTOSIS_CHANGE = 0.2
+"""Finite difference of the excess kurtosis."""
 
 _ANY_GAMMA = 0.5
 """Standard deviation of gamma's logarithm where nothing is known of it."""
 
-_SHIFTED = 0.4
-"""Columns by which a stripe's two edges may be shifted: pixel values are blurred, not light."""
+_EDGE_SHIFT = 0.4
+"""Standard deviation in columns of the distance of a stripe's edges where pixel values are
+blurred."""
 
-_CHIPS_A_BLOCK = 2
+_CHIPS_PER_BLOCK = 2
 _LEAST_BLOCK = 16
-"""Lengths of a block of columns whose residuals may be correlated; JPEG has blocks of 8."""
+"""Length of a block of columns with correlated residuals, and its minimum: two of the blocks of
+JPEG."""
 
-_CHIPS_A_SLOW_SHAPE = 4
+_CHIPS_PER_SLOW_SHAPE = 4
 _MOST_SLOW_SHAPES = 32
-"""What varies as slowly in a residual says nothing of the timing: a lamp's brightness along the
-columns is no combination of a few shapes. What is left would count as noise of many columns, and
-let what is usual of a camera outweigh what is seen of it."""
+"""Polynomials that are projected out of a residual: a lamp's brightness along the columns is not a
+combination of a few of them. The rest would count as noise of many columns, and the priors would
+outweigh the data."""
 
 _EDGE = 0.05
-"""Share of the swing from which a column is on an edge."""
+"""Distance from both levels, relative to the swing, at which a column is on an edge."""
 
-_GAMMAS = (-0.9, 0.9)
-"""Bounds of gamma's logarithm where it is about known."""
+_GAMMA_BOUNDS = (-0.9, 0.9)
+"""Bounds of gamma's logarithm where it is roughly known."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -139,9 +141,9 @@ class JointModel:
         self._columns, self._step, self.gamma = columns, step, gamma
         counted = step * columns / as_one
         freedom = level_freedom(counted)
-        slow = int(np.clip(counted / _CHIPS_A_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
+        slow = int(np.clip(counted / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
         self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
-        width = max(_LEAST_BLOCK, round(_CHIPS_A_BLOCK * as_one / step))
+        width = max(_LEAST_BLOCK, round(_CHIPS_PER_BLOCK * as_one / step))
         self._block = np.concatenate(
             [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
         )
@@ -149,7 +151,7 @@ class JointModel:
         self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
         usual = np.array(list(USUAL.values()))
         self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
-        self._deviation[5] = math.hypot(as_one * self._deviation[5], _SHIFTED * step)
+        self._deviation[5] = math.hypot(as_one * self._deviation[5], _EDGE_SHIFT * step)
         if wide:
             self._deviation[0] = _ANY_GAMMA
         allowed = PARAMETERS["gamma"]
@@ -228,7 +230,9 @@ class JointModel:
         covariance = np.zeros((9, 9))
         moved = np.zeros_like(residual)
         if shape is None:
-            moved = (self._residual(values, _KURTOSIS) - residual) * (_TAILS / _KURTOSIS)
+            moved = (self._residual(values, _KURTOSIS_CHANGE) - residual) * (
+                _KURTOSIS / _KURTOSIS_CHANGE
+            )
         covariance[np.ix_(index, index)] = covariance_of(
             slopes, residual, moved, self._block
         ) * np.outer(rates, rates)
@@ -249,7 +253,7 @@ class JointModel:
             deviation = deviation_of(residual, part.slope, part.freedom + slow.shape[1] / 2.0)
             whole = np.zeros(self._columns)
             whole[part.kept] = residual / deviation
-            deviation *= math.sqrt(TRUSTED * correlated_columns(whole))
+            deviation *= math.sqrt(CORRELATED_COLUMNS * correlated_columns(whole))
             white = np.full(part.clipped.size, float(np.median(deviation)))
             self._noise[number] = np.concatenate([deviation, white])
             self._slow[number] = part.slow(deviation)
@@ -265,7 +269,7 @@ class JointModel:
     def _gammas(self) -> tuple[float, float]:
         """Give the bounds of gamma's logarithm."""
         if not self.is_wide:
-            return _GAMMAS
+            return _GAMMA_BOUNDS
         inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
         low, high = np.log(self._allowed * inside / self.gamma).tolist()
         return low, high

@@ -24,40 +24,40 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.transmitter.waveform import Waveform
 
-_TIMING_STEP = 0.02
-"""Columns by which the timing is changed for finite differences."""
+_TIMING_CHANGE = 0.02
+"""Finite difference of the timing in columns."""
 
 Tone = Callable[[FloatArray, float], FloatArray]
 """A camera's response: from lit fractions and gamma to pixel values between any two levels."""
 
 _FULL = WHITE - 0.5
 _LEAST_KEPT = 0.4
-"""Share of unsaturated columns from which the saturated ones are left out of the fit."""
+"""Minimum unsaturated fraction of the columns for the saturated ones to be left out."""
 
 _MOST_ROUNDS = 25
-_NO_GAIN = 1e-6
-"""Share of the sum of squares whose decrease does not matter."""
+_LEAST_GAIN = 1e-6
+"""Minimum relative decrease of the sum of squares for a further iteration."""
 
-_UNSEEN = 1e-4
+_REGULARIZATION = 1e-4
 """Regularization of the covariance: a parameter on which no column depends gets a standard
 deviation of a hundred of its scales."""
 
 _LEAST_SWING = 0.05
-"""Share of the largest swing below which a column's stripes are not significant."""
+"""Minimum swing relative to the largest one."""
 
-_CHIPS_A_FREEDOM = 6
-"""Chips in view for each parameter of a level."""
+_CHIPS_PER_SHAPE = 6
+"""Number of chips in view for each polynomial of a level."""
 
-_MOST_FREEDOM = 8
+_MOST_SHAPES = 8
 
 _SHORTEST = 1e-4
-"""Shortest exposure in chips: shorter ones give the same stripes."""
+"""Shortest exposure in chips: shorter ones make the same stripes."""
 
-_BLUR = 0.4
-"""Standard deviation, in columns, of blur by lens and image processing outside the model."""
+_UNKNOWN_BLUR = 0.4
+"""Standard deviation in columns of the blur that this model does not fit."""
 
 _DARKEST = -0.1
-"""Lowest dark level of a possible fit, as a share of the swing: pixel values are not negative."""
+"""Minimum dark level relative to the swing: pixel values are not negative."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -123,7 +123,7 @@ class StripeModel:
         self._profile = profile
         self._waveform = Waveform(chips)
         self._tone = tone
-        self._change = max(_TIMING_STEP, rank_resolution) * step
+        self._change = max(_TIMING_CHANGE, rank_resolution) * step
         # The same number for both levels, or else the mean would fit better than the swing.
         counted = step * len(profile) / chips_as_one(chips)
         self._shapes = smooth_shapes(len(profile), level_freedom(counted))
@@ -203,7 +203,7 @@ class StripeModel:
             lambda scaled: self._profile - self.levels(timing_of(scaled))[2],
             np.zeros(len(free)),
             rounds,
-            _NO_GAIN,
+            _LEAST_GAIN,
         )
         covariance = np.zeros((4, 4))
         covariance[np.ix_(free, free)] = _covariance(slopes, residual) * np.outer(scale, scale)
@@ -239,7 +239,7 @@ def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
 
 def level_freedom(counted: float) -> int:
     """Give the number of parameters of either level, for the chips in view that count."""
-    return int(np.clip(counted / _CHIPS_A_FREEDOM, 1, _MOST_FREEDOM))
+    return int(np.clip(counted / _CHIPS_PER_SHAPE, 1, _MOST_SHAPES))
 
 
 def _blur_deviation(timing: Timing) -> float:
@@ -248,7 +248,7 @@ def _blur_deviation(timing: Timing) -> float:
     An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur; to second
     order a blur of sigma lengthens t by 6 sigma^2 / t, and never by more than its own width.
     """
-    blur = _BLUR * timing.step
+    blur = _UNKNOWN_BLUR * timing.step
     return min(6.0 * blur**2 / timing.exposure, math.sqrt(12.0) * blur)
 
 
@@ -258,7 +258,7 @@ def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
     variance *= correlated_columns(residual)
     products = slopes.T @ slopes
     # A parameter on which no column depends gets a large variance instead of a division by zero.
-    products[np.diag_indices_from(products)] += _UNSEEN * max(variance, 1e-12)
+    products[np.diag_indices_from(products)] += _REGULARIZATION * max(variance, 1e-12)
     return np.asarray(np.linalg.inv(products) * variance)
 
 

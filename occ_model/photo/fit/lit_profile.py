@@ -20,11 +20,11 @@ from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
-_PRECISE = 0.02
-"""Smallest standard deviation of a column mean, in grey levels."""
+_LEAST_DEVIATION = 0.02
+"""Minimum standard deviation of a column mean in grey levels."""
 
-_COLUMNS_A_SLOW_SHAPE = 8
-"""Least number of columns for each slow shape that is left out of account."""
+_COLUMNS_PER_SLOW_SHAPE = 8
+"""Minimum number of columns per polynomial that is projected out."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -149,7 +149,7 @@ class LitProfile:
 
     def _slow_shapes(self, columns: int, count: int) -> FloatArray:
         """Give the slow shapes at the kept columns, shape (kept, count)."""
-        count = min(count, self.kept.size // _COLUMNS_A_SLOW_SHAPE)
+        count = min(count, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
         return np.ascontiguousarray(smooth_shapes(columns, count)[self.kept])
 
     def slow(self, noise: FloatArray) -> FloatArray:
@@ -271,10 +271,10 @@ def deviation_of(residual: FloatArray, slope: FloatArray, freedom: float) -> Flo
     square = residual**2 * (residual.size / max(1.0, residual.size - 2.0 * freedom))
     steep = slope**2
     parts = np.stack([np.ones_like(steep), steep], axis=1)
-    variance = np.full(residual.size, max(float(square.mean()), _PRECISE**2))
+    variance = np.full(residual.size, max(float(square.mean()), _LEAST_DEVIATION**2))
     for _ in range(3):
         weighted = parts / variance[:, None]
         level, rate = np.linalg.lstsq(weighted, square / variance, rcond=None)[0].tolist()
-        level = max(level, 0.05 * float(square.mean()), _PRECISE**2)
+        level = max(level, 0.05 * float(square.mean()), _LEAST_DEVIATION**2)
         variance = level + max(rate, 0.0) * steep
     return np.asarray(np.sqrt(variance))

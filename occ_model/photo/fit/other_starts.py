@@ -16,13 +16,13 @@ _LONGEST = 4.2
 
 _MOST_SCANNED = 2
 _MOST_MISFIT_RATIO = 4.0
-"""Ratio to the misfit of the exposure found from which another one is no start."""
+"""Maximum misfit ratio of a starting value."""
 
-_BUT_EXPOSURE = (0, 3, 4, 5, 6, 7, 8)
-"""Indices of the parameters that are held while exposures are compared: but for the phase, too."""
+_HELD = (0, 3, 4, 5, 6, 7, 8)
+"""Indices of the parameters that are held while exposures are compared: all but the phase."""
 
 _ROUGH_ROUNDS = 3
-"""Steps that tell a hopeless exposure from others."""
+"""Number of iterations that separate promising exposures from others."""
 
 
 def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
@@ -62,7 +62,7 @@ def scanned_starts(
     def rough(exposure: float) -> tuple[float, FloatArray]:
         values = usual.copy()
         values[1] = exposure
-        fit = model.fit(values, _BUT_EXPOSURE, _ROUGH_ROUNDS)
+        fit = model.fit(values, _HELD, _ROUGH_ROUNDS)
         return fit.misfit, fit.values
 
     most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]

@@ -24,48 +24,45 @@ from occ_model.photo.fit.chips_of_harmonics import (
 from occ_model.photo.stripes.envelope import without_trend
 
 MOST_CHIPS = 128
-"""Largest number of chips in a period."""
+"""Maximum number of chips in a period."""
 
 _LEAST_COLUMNS = 2.0
-"""Smallest number of columns per chip."""
+"""Minimum number of columns per chip."""
 
-_COHERENT = 0.93
-"""Coherence of the edges with a lattice of chips, as a share of the most coherent lattice's.
-
-Below 1 for the noise of the edges.
-"""
+_LEAST_COHERENCE_RATIO = 0.93
+"""Minimum coherence of edges with a lattice of chips relative to the most coherent one."""
 
 _LEAST_COHERENCE = 0.6
 
 _LONGEST_FOR_EDGES = 1.5
-"""Exposure in chips above which the edges alone may not show the lattice of the chips."""
+"""Exposure in chips above which edges may not show the lattice of the chips."""
 
 _MOST_COUNTS = 12
-"""Numbers of chips, on whose lattices the edges lie, that are tried."""
+"""Maximum number of lattices that are tried."""
 
 _WELL_EXPLAINED = 0.04
-"""Share of the harmonics' power that the right chips may leave unexplained without a doubt."""
+"""Unexplained fraction of the harmonics' power at which the search ends."""
 
-_AS_GOOD = 1.5
-"""Ratio of the unexplained power to the least one up to which fewer chips are preferred."""
+_MOST_EQUAL_RATIO = 1.5
+"""Maximum ratio of the unexplained power to the least one at which fewer chips are preferred."""
 
 _LEAST_CROSSINGS = 4
 
-_UNEXPLAINED = 0.15
-"""Largest share of the harmonics' power that the right chips leave unexplained."""
+_MOST_UNEXPLAINED = 0.15
+"""Maximum unexplained fraction of the harmonics' power."""
 
-_DIP = 0.5
-"""Ratio to neighbouring numbers of chips of the power that the right one leaves unexplained."""
+_MOST_NEIGHBOUR_RATIO = 0.5
+"""Maximum ratio of the unexplained power to that of neighbouring numbers of chips."""
 
 _PARTS = (1, 2, 3, 4)
-_LEAST_OTHERWISE = 5
-_OTHERS_A_COUNT = 2
+_LEAST_CHIPS = 5
+_MOST_PER_COUNT = 2
 _LEAST_HARMONIC_CORRELATION = 0.85
-"""Parts of the numbers of chips read, the least number, how many sequences of each are tried where
-what was read explains the stripes badly, and the correlation of their harmonics from which."""
+"""Chips that are searched for where those read explain the stripes badly: divisors of the number
+read, minimum number, sequences for each number, and minimum correlation of their harmonics."""
 
-_NEIGHBOUR_COUNTS = (-3, -2, -1, 1, 2, 3)
-"""Differences of the numbers of chips with which one is compared."""
+_NEIGHBOURS = (-3, -2, -1, 1, 2, 3)
+"""Differences of the numbers of chips that are compared with one."""
 
 
 def read_patterns(
@@ -142,9 +139,9 @@ def read_otherwise(
     known = {canonical(one.chips).tobytes() for one in read}
     found: dict[bytes, ReadPattern] = {}
     for count in sorted(counts):
-        if count < _LEAST_OTHERWISE:
+        if count < _LEAST_CHIPS:
             continue
-        for one in chips_by_descent(lines, count, check)[:_OTHERS_A_COUNT]:
+        for one in chips_by_descent(lines, count, check)[:_MOST_PER_COUNT]:
             short = _shortened(one)
             if one.explained > _LEAST_HARMONIC_CORRELATION and short.chips.tobytes() not in known:
                 found[short.chips.tobytes()] = short
@@ -173,7 +170,7 @@ def _fewest(
 
 def _enough(left: Sequence[float]) -> float:
     """Return the share of the power that the fewest chips may leave unexplained."""
-    return min(_UNEXPLAINED, max(_WELL_EXPLAINED, _AS_GOOD * min(left, default=1.0)))
+    return min(_MOST_UNEXPLAINED, max(_WELL_EXPLAINED, _MOST_EQUAL_RATIO * min(left, default=1.0)))
 
 
 def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
@@ -184,7 +181,7 @@ def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
     coherent = coherence(edges, count / period)
     if coherent.max() < _LEAST_COHERENCE:
         return []
-    good: list[int] = count[coherent >= _COHERENT * coherent.max()].tolist()
+    good: list[int] = count[coherent >= _LEAST_COHERENCE_RATIO * coherent.max()].tolist()
     divisors = [part for part in range(2, good[0]) if good[0] % part == 0]
     # An exposure of nearly a chip shifts edges off the lattice of the chips, onto a finer one.
     return [*divisors, *good[:_MOST_COUNTS]]
@@ -204,8 +201,10 @@ def _chips_by_lines(
     left = {count: 1.0 if one is None else _unexplained(one) for count, one in read.items()}
     enough = _enough(list(left.values()))
     for count, one in read.items():
-        beside = [left[count + step] for step in _NEIGHBOUR_COUNTS if count + step in left]
-        stands_out = bool(beside) and left[count] <= _DIP * float(np.median(beside))
+        beside = [left[count + step] for step in _NEIGHBOURS if count + step in left]
+        stands_out = bool(beside) and left[count] <= _MOST_NEIGHBOUR_RATIO * float(
+            np.median(beside)
+        )
         if one is not None and left[count] <= enough and stands_out:
             return refined(lines, one, column and count * column)
     return None

@@ -10,13 +10,13 @@ from occ_model.arrays import FloatArray
 _SHORTEST = 1e-3
 _LOW = np.array([0.5, _SHORTEST, -np.inf, -np.inf, -0.1, -0.9, -0.9, 0.0, -0.3])
 _HIGH = np.array([2.0, np.inf, np.inf, np.inf, 0.3, 0.9, 1.5, 3.0, 0.3])
-"""Bounds of the parameters but gamma; those of the step are ratios."""
+"""Bounds of the parameters except gamma; those of the step are relative to it."""
 
-_EXPOSURE = 0.05
-"""Scale of the exposure's logarithm: it is positive, and known by ratio."""
+_EXPOSURE_SCALE = 0.05
+"""Scale of the exposure's logarithm."""
 
 _MOST_LOG_CHANGE = 5.0
-"""Largest change of that logarithm."""
+"""Maximum change of that logarithm."""
 
 
 class ScaledParameters:
@@ -50,7 +50,7 @@ class ScaledParameters:
         self._high[0] *= step
         self._low[3], self._high[3] = gamma
         self._first, self._index = np.clip(first, self._low, self._high), index
-        self._scale = np.where(index == 1, _EXPOSURE, scale[index])
+        self._scale = np.where(index == 1, _EXPOSURE_SCALE, scale[index])
 
     def values(self, scaled: FloatArray) -> FloatArray:
         """Give all nine parameters, within their bounds."""

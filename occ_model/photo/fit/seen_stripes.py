@@ -17,7 +17,7 @@ from occ_model.photo.fit.tone_curve import ToneCurve
 
 GAMMA = 3
 IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
-"""Gamma's place among the parameters, and those of what slopes are over, in their order."""
+"""Gamma's index among the parameters, and the parameters in the order of slopes."""
 
 
 class SeenStripes:

@@ -9,13 +9,13 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 
 _TOE = 0.03
-"""Pixel value, as a share of white, below which the curve goes on straight: noise lifts blacks."""
+"""Fraction of white below which the curve is straight: noise lifts black."""
 
 _GRID = np.linspace(-0.1, 1.0, 441)
 _STEP = float(_GRID[1] - _GRID[0])
 _LEAST_SLOPE = 0.05
 _BENDS = np.diff([_GRID * (1.0 - _GRID), _GRID * (1.0 - _GRID) * (1.0 - 2.0 * _GRID)])
-"""By how much shoulder and contrast change each step of the grid."""
+"""Change of each step of the grid by shoulder and contrast."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from occ_model.scene.scene import Scene
 MatchedLamp: TypeAlias = tuple[Lamp, Match | MatchError]
 
 _SEARCH = 0.2
-"""Share of the work that finding the lamps is."""
+"""Fraction of the work that finding the lamps takes."""
 
 
 def match_lamps(

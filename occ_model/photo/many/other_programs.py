@@ -28,8 +28,8 @@ DIRECTION_NOTE = (
 
 _MILLISECOND = 1e-3
 
-_PRECISE = 0.01
-"""Relative error up to which photos that differ by more than their errors give one answer."""
+_MOST_SCATTER = 0.01
+"""Maximum relative error of the mean of photos that scatter by more than their errors."""
 
 
 def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
@@ -67,7 +67,7 @@ def lines_to_paste(table: PhotoTable) -> dict[str, str]:
     frame = frame_readout_time(table)
     if frame is None or table.estimated is None:
         return {}
-    if not table.estimated.agrees and frame[1] > _PRECISE * frame[0]:
+    if not table.estimated.agrees and frame[1] > _MOST_SCATTER * frame[0]:
         return {}
     axes = {row.scanned_along for row in _counted(table)}
     return lines_of_frame(*frame, axes.pop() if len(axes) == 1 else "")

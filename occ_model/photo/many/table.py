@@ -10,7 +10,7 @@ from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoRow, Phot
 from occ_model.scene.parameters import quantity
 
 _SAME_EXPOSURE = 1.02
-"""Ratio of exposure times, as cameras noted them, up to which they count as the same."""
+"""Maximum ratio of noted exposure times that are the same."""
 
 
 def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:

@@ -20,13 +20,13 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.photo_table import CombinedEstimate
 
 _FALSE_ALARM = 0.01
-"""Probability that any of several estimates with right deviations is taken for an outlier."""
+"""Probability that one of several estimates with correct errors is taken for an outlier."""
 
 _NORMAL_MAD = 1.4826
-"""Standard deviation of a normal distribution over its median absolute deviation."""
+"""Ratio of the standard deviation of a normal distribution to its median absolute deviation."""
 
 _LEAST_FOR_OUTLIERS = 3
-"""Fewer estimates do not tell which of them is wrong."""
+"""Minimum number of estimates among which an outlier can be identified."""
 
 
 def combine(

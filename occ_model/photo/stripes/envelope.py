@@ -5,11 +5,11 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-MEAN_FREEDOM, _SWING_FREEDOM = 6, 4
-"""Numbers of polynomials of the trends of a profile's mean and swing."""
+MEAN_SHAPES, _SWING_SHAPES = 6, 4
+"""Numbers of polynomials that describe the trends of a profile's mean and swing."""
 
 _LEAST_POWER = 0.05
-"""Share of the mean square to which a profile's local power is limited from below."""
+"""Minimum local power of a profile relative to its mean square."""
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
@@ -59,7 +59,7 @@ def without_trend(profile: FloatArray) -> FloatArray:
     ndarray of float64, shape as ``profile``
         With mean 0 and a standard deviation of about 1 everywhere.
     """
-    mean, deviation = trend_of(profile, MEAN_FREEDOM, _SWING_FREEDOM)
+    mean, deviation = trend_of(profile, MEAN_SHAPES, _SWING_SHAPES)
     return np.asarray((profile - mean) / deviation)
 
 

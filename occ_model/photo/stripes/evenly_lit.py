@@ -18,40 +18,40 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 
 _BANDS = 64
-"""Largest number of bands of rows whose pixels are compared."""
+"""Maximum number of bands of rows."""
 
 _CLIPPED = 0.98
-"""Share of white from which a pixel may have been clipped: compression changes it a little."""
+"""Fraction of white above which a pixel may have been clipped: compression changes it a little."""
 
-_CLIPPED_FRACTION = 0.002
-"""Share of clipped pixels from which a profile is no longer fitted as if it had none."""
+_LEAST_CLIPPED = 0.002
+"""Clipped fraction of the pixels above which a profile is divided into groups."""
 
-_SOME, _ALL = 0.005, 0.9
-"""Shares of a column's pixels up to which it counts as not clipped, and from which as clipped."""
+_UNCLIPPED, _ALL_CLIPPED = 0.005, 0.9
+"""Clipped fractions of a column's pixels below which it is not clipped, and above which it is."""
 
 _BLURRED_COLUMNS = 3
 """Columns beside a clipped one that blur may have darkened."""
 
-_EVEN = 0.6
-"""Share of the brightest light from which pixels that are not clipped are one group."""
+_LEAST_LIGHT = 0.6
+"""Minimum brightness of a group where no pixel is clipped, relative to the brightest."""
 
-_USUAL = 0.75
-"""Quantile along a row of its brightness, where its ends do not show the lamp."""
+_QUANTILE = 0.75
+"""Quantile that represents the brightness along a row: its ends may not show the lamp."""
 
-_STEPS = (0.2, 0.35, 0.5, 0.65, 0.8)
-"""Shares of white that divide pixels into groups where others are clipped."""
+_GROUP_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8)
+"""Fractions of white that divide pixels into groups where some are clipped."""
 
-_CORES = 2
-"""Number of groups into which the pixels that are clipped while lit are divided."""
+_CLIPPED_GROUPS = 2
+"""Number of groups of pixels that are clipped while the lamp is on."""
 
 _MOST_GROUPS = 3
 _HALF_WEIGHT_ROWS = 16.0
-"""Rows that tell half of what any number of them would: their noise is averaged out, and what the
-camera's processing does to the stripes is the same in all of them."""
+"""Number of rows that contain half of the information of arbitrarily many: more rows average noise,
+but not the errors that all rows share."""
 
 _LEAST_COLUMNS = 24
 _LEAST_CELLS = 0.15
-"""Share of a group's usual number of pixels that a column must have to be used."""
+"""Minimum number of pixels in a column relative to the group's median."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -128,10 +128,10 @@ class Cells:
         width = max(3, min(width, 2 * self.means.shape[1] - 1)) | 1
         lit = cv2.dilate(self.means, np.ones((1, width), dtype=np.uint8))
         lit = cv2.blur(lit, (width, 1), borderType=cv2.BORDER_REFLECT)
-        rows = np.quantile(lit, _USUAL, axis=1)
-        shows = lit > _EVEN * rows[:, None]
-        if float(self.clipped.mean()) < _CLIPPED_FRACTION:
-            groups = [rows > _EVEN * rows.max()]
+        rows = np.quantile(lit, _QUANTILE, axis=1)
+        shows = lit > _LEAST_LIGHT * rows[:, None]
+        if float(self.clipped.mean()) < _LEAST_CLIPPED:
+            groups = [rows > _LEAST_LIGHT * rows.max()]
         else:
             groups = self._groups(rows)
         found = [self._profile(shows & group[:, None]) for group in groups]
@@ -141,13 +141,13 @@ class Cells:
 
     def _groups(self, rows: FloatArray) -> list[NDArray[np.bool_]]:
         """Divide the bands of rows, where some pixels are clipped."""
-        steps = [*(step * WHITE for step in _STEPS), _CLIPPED * WHITE]
+        steps = [*(step * WHITE for step in _GROUP_LEVELS), _CLIPPED * WHITE]
         groups = [(low < rows) & (rows <= high) for low, high in pairwise(steps)]
         core = rows > steps[-1]
         if core.any():
             # The brighter a row is lit, the more of it is clipped.
             share = self.clipped.mean(axis=1)
-            ranks = np.quantile(share[core], np.linspace(0.0, 1.0, _CORES + 1))
+            ranks = np.quantile(share[core], np.linspace(0.0, 1.0, _CLIPPED_GROUPS + 1))
             groups += [core & (low <= share) & (share <= high) for low, high in pairwise(ranks)]
         return [group for group in groups if group.any()]
 
@@ -160,13 +160,14 @@ class Cells:
         values = np.where(group, self.means, 0.0).sum(axis=0, dtype=np.float64) / count
         share = np.where(group, self.clipped, 0.0).sum(axis=0, dtype=np.float64) / count
         near = cv2.dilate(
-            (share > _SOME).astype(np.uint8)[None], np.ones((1, 2 * _BLURRED_COLUMNS + 1), np.uint8)
+            (share > _UNCLIPPED).astype(np.uint8)[None],
+            np.ones((1, 2 * _BLURRED_COLUMNS + 1), np.uint8),
         )[0]
         kept = seen & (near == 0)
         if kept.sum() < _LEAST_COLUMNS:
             return None
         rows = self.rows_a_band * float(np.median(count[kept]))
-        return EvenProfile(values, kept, seen & (share > _ALL), rows)
+        return EvenProfile(values, kept, seen & (share > _ALL_CLIPPED), rows)
 
 
 def _row_mean(rows: NDArray[np.uint8 | np.uint16]) -> FloatArray:

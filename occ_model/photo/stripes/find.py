@@ -22,40 +22,40 @@ from occ_model.results.lamp import Lamp
 from occ_model.results.match import Stripes
 
 _BANDS = 64
-"""Number of bands of rows whose means are compared with each other."""
+"""Number of bands of rows that are compared."""
 
-_LEAST_STRENGTH_FRACTION = 0.25
-"""Share of the median strength with which a row must show the common stripes."""
+_LEAST_STRENGTH = 0.25
+"""Minimum strength of the common stripes in a row relative to the median."""
 
-_EDGE = 0.3
-"""Share of a steep edge's slope from which a slope is an edge, also where a lens darkens it."""
+_LEAST_SLOPE = 0.3
+"""Minimum slope of an edge relative to a steep one; lenses darken the rim."""
 
-_FAINTER = 0.6
-"""Share of the steepness of the edges beside it that an edge outside these must have."""
+_LEAST_NEIGHBOUR_RATIO = 0.6
+"""Minimum slope of an outer edge relative to the edges beside it."""
 
-_FAINTEST = 0.08
-"""Share of a steep edge's slope below which a slope is noise, or what compression leaves."""
+_NOISE_SLOPE = 0.08
+"""Slope relative to a steep edge below which it is noise or compression."""
 
 _SLOPE_COLUMNS = 4
 """Number of columns over which a slope is measured."""
 
-_FURTHER = 1.6
-"""Ratio to the widest gap between edges within the panel from which a gap ends the panel."""
+_MOST_GAP_RATIO = 1.6
+"""Ratio to the widest gap between edges above which a gap ends the panel."""
 
-_STEEP = 0.98
-"""Quantile of all slopes that represents a steep edge: the panel's own rim is steeper."""
+_STEEP_QUANTILE = 0.98
+"""Quantile of all slopes that represents a steep edge: the panel's rim is steeper."""
 
 _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
 
 _LEAST_COHERENCE = 0.2
-"""Smallest share of the variation of all bands that is common to them."""
+"""Minimum fraction of the variation that all bands have in common."""
 
 _FULL = 0.996
-"""Share of white from which a sample counts as saturated."""
+"""Fraction of white above which a sample is saturated."""
 
 _MOST_FULL = 0.8
-"""Largest share of white columns with which the other columns still show the stripes."""
+"""Saturated fraction of the columns above which the others do not show the stripes."""
 
 
 def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
@@ -145,9 +145,7 @@ def _striped_rows(photo: Photo) -> tuple[int, int]:
     common, strengths = _common_slopes(slopes)
     if bands > 1 and strengths @ strengths < _LEAST_COHERENCE * float((slopes**2).sum()):
         raise MatchError("No stripes: the rows of the photo do not vary together.")
-    shows = strengths > _LEAST_STRENGTH_FRACTION * np.median(
-        np.sort(strengths)[-(bands // 2 + 1) :]
-    )
+    shows = strengths > _LEAST_STRENGTH * np.median(np.sort(strengths)[-(bands // 2 + 1) :])
     best = int(strengths.argmax())
     first, last = best, best + 1
     while first > 0 and shows[first - 1]:
@@ -189,12 +187,12 @@ def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outwa
 def _striped_columns(profile: FloatArray) -> tuple[int, int, int]:
     """Find the columns from the first edge to the last, and the widest gap between two edges."""
     slopes = _local_range(profile)
-    steep = float(np.quantile(slopes, _STEEP))
-    edges = np.flatnonzero(slopes > _EDGE * steep) if steep > 0.0 else np.zeros(0, np.int64)
+    steep = float(np.quantile(slopes, _STEEP_QUANTILE))
+    edges = np.flatnonzero(slopes > _LEAST_SLOPE * steep) if steep > 0.0 else np.zeros(0, np.int64)
     gaps = np.diff(edges)
     # Noise outside the panel is farther from its edges than they are from each other.
     inner = gaps[len(gaps) // 4 : len(gaps) - len(gaps) // 4]
-    longest = int(_FURTHER * inner.max()) if inner.size else 0
+    longest = int(_MOST_GAP_RATIO * inner.max()) if inner.size else 0
     far = np.flatnonzero(gaps > max(longest, _SLOPE_COLUMNS))
     before, after = far[far < len(gaps) // 4], far[far >= len(gaps) - len(gaps) // 4]
     edges = edges[
@@ -217,7 +215,9 @@ def _reversals(profile: FloatArray, edges: IndexArray) -> int:
     if edges.size == 0:
         return 0
     slopes = np.diff(profile[edges[0] : edges[-1] + 2])
-    steep = slopes[np.abs(slopes) > _EDGE * float(np.quantile(np.abs(slopes), _STEEP))]
+    steep = slopes[
+        np.abs(slopes) > _LEAST_SLOPE * float(np.quantile(np.abs(slopes), _STEEP_QUANTILE))
+    ]
     return 1 + int(np.count_nonzero(np.diff(np.sign(steep)))) if steep.size else 0
 
 
@@ -230,9 +230,9 @@ def _faintest(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
     while True:
         window = slopes[max(0, edge - gap) : edge]
         here = float(window.max(initial=0.0))
-        if here < max(_FAINTER * beside, _FAINTEST * steep):
+        if here < max(_LEAST_NEIGHBOUR_RATIO * beside, _NOISE_SLOPE * steep):
             return edge
-        edge += int(np.flatnonzero(window >= _FAINTEST * steep)[0]) - len(window)
+        edge += int(np.flatnonzero(window >= _NOISE_SLOPE * steep)[0]) - len(window)
         beside = here
 
 

@@ -9,8 +9,8 @@ from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo
 from occ_model.results.lamp import Lamp
 
-_RIM_STRIPS = 3
-"""Fewest strips of which the first and the last, which the lamp's rim cuts, are left out."""
+_LEAST_STRIPS = 3
+"""Number of strips above which the first and the last, which the lamp's rim cuts, are left out."""
 
 
 def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
@@ -32,7 +32,7 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
             f"{columns} columns."
         )
     sums, counts = np.zeros(region.columns), np.zeros(region.columns)
-    spans = lamp.spans[1:-1] if len(lamp.spans) > _RIM_STRIPS else lamp.spans
+    spans = lamp.spans[1:-1] if len(lamp.spans) > _LEAST_STRIPS else lamp.spans
     for chosen in (spans, lamp.spans):
         # Where only the outermost strips cover a column, they count.
         missing = counts == 0

@@ -6,22 +6,22 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
 
 _SHORTEST = 3
-"""Shortest period in columns: anything shorter is noise."""
+"""Shortest period in columns."""
 
 _LEAST_AUTOCORRELATION = 0.5
-"""Autocorrelation after one period below which nothing repeats."""
+"""Minimum autocorrelation after one period."""
 
-_AS_GOOD = 0.06
-"""Difference from the best by which the autocorrelation after the shortest period may be lower."""
+_TOLERANCE = 0.06
+"""Maximum difference of the autocorrelation after the shortest period from the best one."""
 
-_LONGEST_PERIOD_FRACTION = 0.67
-"""Longest period as a share of the columns: part of it must be seen twice."""
+_LONGEST_FRACTION = 0.67
+"""Longest period relative to the width: part of it must be seen twice."""
 
-_HARMONICS = 24
-"""Most harmonics of a wave that repeats; short periods have fewer."""
+_MOST_HARMONICS = 24
+"""Maximum number of harmonics."""
 
-_STEPS = 8
-"""Most Gauss-Newton steps."""
+_MOST_ITERATIONS = 8
+"""Maximum number of Gauss-Newton iterations."""
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
@@ -44,7 +44,7 @@ def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
 def _rough_period(flattened: FloatArray) -> float | None:
     """Find the shortest lag whose autocorrelation is about the best."""
     alike = autocorrelation(flattened)
-    count = int(_LONGEST_PERIOD_FRACTION * len(alike))
+    count = int(_LONGEST_FRACTION * len(alike))
     negative = np.flatnonzero(alike[:count] < 0.0)
     start = max(_SHORTEST, int(negative[0]) if negative.size else _SHORTEST)
     inner = alike[start : count - 1]
@@ -62,7 +62,7 @@ def _rough_period(flattened: FloatArray) -> float | None:
     height = here - 0.25 * (before - after) * aside
     if height.max() < _LEAST_AUTOCORRELATION:
         return None
-    first = int(np.flatnonzero(height >= height.max() - _AS_GOOD)[0])
+    first = int(np.flatnonzero(height >= height.max() - _TOLERANCE)[0])
     return float(peaks[first] + aside[first])
 
 
@@ -92,7 +92,7 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
     change = 0.1 * period / count  # small against a column at the last stripe
     best, best_residual = period, np.inf
     slope = residual = np.zeros(count)
-    for _ in range(_STEPS):
+    for _ in range(_MOST_ITERATIONS):
         residual = _residual(flattened, period, harmonics)
         power = float(residual @ residual)
         if power >= best_residual * (1.0 - 1e-9):
@@ -129,7 +129,7 @@ def without_repetition(flattened: FloatArray, period: float) -> FloatArray:
 
 def harmonics_within(columns: int, period: float) -> int:
     """Return the number of harmonics of a repeated wave that columns tell apart."""
-    return int(np.clip(period / 2.5, 1, min(_HARMONICS, columns / 6)))
+    return int(np.clip(period / 2.5, 1, min(_MOST_HARMONICS, columns / 6)))
 
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.joint_covariance import TRUSTED, covariance_of
+from occ_model.photo.fit.joint_covariance import CORRELATED_COLUMNS, covariance_of
 
 DATA, PRIOR = 6400, 2
 BLOCK = np.arange(DATA) // 16
@@ -18,7 +18,7 @@ def test_mere_noise_leaves_the_inverse_of_the_information() -> None:
     """The step's is that of columns that all count: the others' noise was taken as larger."""
     found = covariance_of(SLOPES, 0.1 * NOISE, NONE, BLOCK)
     assert found[1:, 1:] == pytest.approx(INVERSE[1:, 1:], rel=1e-6)
-    assert found[0, 0] == pytest.approx(INVERSE[0, 0] / TRUSTED, rel=1e-6)
+    assert found[0, 0] == pytest.approx(INVERSE[0, 0] / CORRELATED_COLUMNS, rel=1e-6)
 
 
 def test_what_is_alike_in_a_block_counts_once() -> None:

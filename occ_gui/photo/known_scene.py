@@ -6,7 +6,7 @@ from occ_model.scene.square_wave import blinking
 
 
 def known_scene(scene: Scene, choice: MatchChoice) -> tuple[Scene, str]:
-    """Give the scene with what the user knows, and where the sent pattern is taken from."""
+    """Return the scene with what the user knows, and where the sent pattern is taken from."""
     if choice.sent != "square":
         return scene, choice.sent
     # A lamp that is dimmed by the width of its pulses blinks too: "scene" would refuse it.

@@ -54,7 +54,7 @@ def sources_of(
 
 
 def cure_of_match(found: Match) -> Cure:
-    """Give the shutter speeds without bars of the lamp that a match has found."""
+    """Return the shutter speeds without bars of the lamp that a match has found."""
     return cure_of(found.scene, found.uncertainties.get("exposure_time", 0.0))
 
 

@@ -15,7 +15,7 @@ _LEAST_SWING = 0.5
 
 
 def compared(part: PhotoPart) -> tuple[object, ...]:
-    """Give what a comparison follows from."""
+    """Return what a comparison follows from."""
     found = (part.compared_stripes, part.why_no_stripes)
     return (part.photo, part.reading, *found, part.placement, part.is_enhanced)
 

@@ -22,7 +22,7 @@ Part: TypeAlias = Lamp | Region | None
 
 
 def part_of(choice: PhotoChoice, results: Results) -> Part:
-    """Give what of the open photo is matched: of a lamp that is not known any more, its place."""
+    """Return what of the open photo is matched: of a lamp that is not known any more, its place."""
     opened = results.opened
     if opened is None:
         return None
@@ -43,7 +43,7 @@ def lies_within(photo: Photo, region: Region) -> bool:
 
 
 def found_in(results: Results) -> FoundMatch | None:
-    """Give the match of the open photo: its own, or that of its row in the table."""
+    """Return the match of the open photo: its own, or that of its row in the table."""
     opened, found, listed = results.opened, results.match, results.listed
     if opened is None:
         return None
@@ -100,7 +100,7 @@ class PhotoPart:
 
     @classmethod
     def of(cls, workspace: Workspace, results: Results) -> "PhotoPart":
-        """Give what is to be shown."""
+        """Return what is to be shown."""
         choice, opened, reading = workspace.photo, results.opened, results.reading
         there = cls(workspace.scene, reading, choice)
         if opened is None:

@@ -51,14 +51,14 @@ _NOTED = ("iso", "f_number")
 
 
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:
-    """Give the exposure time of a fit in seconds."""
+    """Return the exposure time of a fit in seconds."""
     if estimate == "readout_time":
         return fit.timing.exposure * scene.transmitter.switching_period
     return fit.timing.exposure / fit.timing.step * scene.camera.readout_time
 
 
 def readout_and_frequency(fit: StripeFit, scene: Scene, estimate: str) -> tuple[float, float]:
-    """Give a fit's readout time and switching frequency in SI units; one is the scene's."""
+    """Return a fit's readout time and switching frequency in SI units; one is the scene's."""
     if estimate == "readout_time":
         frequency = scene.transmitter.switching_frequency
         return fit.timing.step / frequency, frequency

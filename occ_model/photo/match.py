@@ -84,7 +84,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         First row, row after the last, first column and column after the last of the rectangle in
         which stripes are searched; or a lamp; None for the whole photo.
     progress
-        Called with the share of the work that is done. What it raises ends the match.
+        Called with the fraction of the work that is done. What it raises ends the match.
 
     Raises
     ------
@@ -179,7 +179,7 @@ class _Case:
 
 
 class _Progress:
-    """Reports the share of the work that is done, again and again while a part of it lasts."""
+    """Reports the fraction of the work that is done, again and again while a part of it lasts."""
 
     def __init__(self, report: Callable[[float], object]) -> None:
         self._report, self._share, self._last = report, 0.0, 0.0
@@ -203,7 +203,7 @@ def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
 
 
 def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> list[CameraTone]:
-    """Give the camera responses that are tried."""
+    """Return the camera responses that are tried."""
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)

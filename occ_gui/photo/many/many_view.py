@@ -166,7 +166,7 @@ class ManyPhotosView(QWidget):
         self.table.activated.connect(self._choose)
 
     def _fit_columns(self) -> None:
-        """Give the columns the width of their texts, long texts less, and show the first."""
+        """Make the columns as wide as their texts, long texts less, and show the first."""
         self.table.resizeColumnsToContents()
         for column, widest in _WIDEST.items():
             self.table.setColumnWidth(column, min(self.table.columnWidth(column), widest))

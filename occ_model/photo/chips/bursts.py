@@ -76,7 +76,7 @@ def _bursts(edges: Edges) -> list[Edges]:
 
 
 def _gaps(begins: FloatArray, ends: FloatArray) -> FloatArray:
-    """Give the distance from each edge of a kind to the next one of the other, where there is."""
+    """Return the distance from each edge of a kind to the next one of the other, where there is."""
     after = np.searchsorted(ends, begins)
     inside = after < len(ends)
     return np.asarray(ends[after[inside]] - begins[inside])

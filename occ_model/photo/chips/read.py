@@ -85,7 +85,7 @@ def _alike(seen: Edges, moved: Edges, kept: Edges) -> Edges:
 
 
 def _unexplained(flattened: FloatArray, edges: Edges, frequency: float) -> float:
-    """Return the share of a profile's variance that chips leave unexplained at the best exposure.
+    """Return the variance fraction of a profile that chips leave unexplained at the best exposure.
 
     Between the first edge and the last; longer bright runs than the chips' are allowed for by the
     edges themselves: each chip is seen where its own edges are.

@@ -88,17 +88,17 @@ class Hypothesis:
         return same and (is_given or (known and is_single_pulse(self.chips)))
 
     def residual(self, profile: FloatArray) -> FloatArray:
-        """Give a profile less that of the fit."""
+        """Return a profile less that of the fit."""
         return profile - self.fit.profile
 
     def power(self, profile: FloatArray) -> float:
-        """Give the sum of the squared residuals."""
+        """Return the sum of the squared residuals."""
         residual = self.residual(profile)
         return float(residual @ residual)
 
 
 def log_likelihood(power: float, columns: int, independent: float, freedom: float) -> float:
-    """Give the logarithm of a fit's likelihood, less a penalty for its parameters.
+    """Return the logarithm of a fit's likelihood, less a penalty for its parameters.
 
     Half of the Bayesian information criterion, negative (Schwarz, Ann. Stat. 6:461, 1978), for
     Gaussian residuals of which only some are independent.
@@ -117,7 +117,7 @@ def log_likelihood(power: float, columns: int, independent: float, freedom: floa
 
 
 def independent_columns(residual: FloatArray) -> float:
-    """Give the number of columns that count as independent, by a fit's residual."""
+    """Return the number of columns that count as independent, by a fit's residual."""
     return len(residual) / correlated_columns(residual)
 
 

@@ -37,7 +37,7 @@ class Repetition:
     period
         In columns.
     amplitude
-        Half the difference of its crests and troughs, as a share of the stripes' swing.
+        Half the difference of its crests and troughs, as a fraction of the stripes' swing.
     above_noise
         Its power over that of the noise around it.
     share

@@ -213,12 +213,12 @@ def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> lis
 
 
 def _most_before(camera: CameraTone) -> float:
-    """Give the correlation by other cameras above which a camera need not be tried."""
+    """Return the correlation by other cameras above which a camera need not be tried."""
     return _EXPLAINED if camera.enhancement == "equalization" else 1.0
 
 
 def _share(camera: CameraTone) -> float:
-    """Give the share of other cameras' residual below which a camera's fit is preferred."""
+    """Return the fraction of other cameras' residual below which a camera's fit is preferred."""
     return _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
 
 

@@ -74,7 +74,7 @@ class Possible:
         return [self.model.fit(one, rounds=_LAST_ROUNDS, shape="box") for one in starts]
 
     def _shared(self, values: FloatArray, shape: BlurShape | None) -> list[JointFit]:
-        """Fit with another shape of the blur, and from other shares of it in the edges' width."""
+        """Fit with another shape of the blur, starting from its fractions of the edges' width."""
         columns = float(values[1] / values[0])
         width = columns**2 / 12.0 + float(values[7]) ** 2
         return [

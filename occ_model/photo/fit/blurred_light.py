@@ -64,7 +64,7 @@ class BlurredLight:
         tails: float = 0.0,
         shape: BlurShape = "normal",
     ) -> FloatArray:
-        """Give the share of each column's exposure in which the LED is on, shape (columns,).
+        """Return the fraction of each column's exposure in which the LED is on, shape (columns,).
 
         Parameters
         ----------
@@ -83,7 +83,7 @@ class BlurredLight:
     def slopes(
         self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
     ) -> FloatArray:
-        """Give the lit fractions' slopes over step, exposure, middle, blur and longer.
+        """Return the lit fractions' slopes over step, exposure, middle, blur and longer.
 
         The running integral's slope is the level, and the edges that were passed before are each
         early by half of what the time on is longer.
@@ -112,12 +112,12 @@ class BlurredLight:
         return self._edges - 0.5 * longer * self._changes
 
     def _places(self, timing: Timing) -> FloatArray:
-        """Give where the exposures start of all columns that blur reaches."""
+        """Return where the exposures start of all columns that blur reaches."""
         column = np.arange(-_REACH, self._columns + _REACH)
         return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
 
     def _sharp(self, timing: Timing, edges: FloatArray) -> FloatArray:
-        """Give the lit fractions without blur."""
+        """Return the lit fractions without blur."""
         # The running integral has corners at the edges; it is 0 at the first of them.
         levels = self._level_before + np.cumsum(self._changes)
         integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])
@@ -145,12 +145,12 @@ def _blurred(lit: FloatArray, kernel: FloatArray) -> FloatArray:
 
 
 def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") -> FloatArray:
-    """Give the weights of blur of the standard deviation ``blur``, in columns, around a column.
+    """Return the weights of blur of the standard deviation ``blur``, in columns, around a column.
 
     A normal distribution is multiplied by 1 + k/24 He4, which gives it the excess kurtosis
     k = ``tails`` (Gram and Charlier's series; Kendall and Stuart, The Advanced Theory of
     Statistics, 6.17); sharpening makes weights negative. A box of the half width sqrt(3) blur gives
-    each column the share of it that the column covers; exponential tails decay by the same ratio
+    each column the fraction of it that the column covers; exponential tails decay by the same ratio
     from column to column.
     """
     off = np.abs(np.arange(-_REACH, _REACH + 1)).astype(np.float64)
@@ -169,6 +169,6 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
 
 
 def kernel_slope(blur: float, shape: BlurShape = "normal") -> FloatArray:
-    """Give the slope of the weights of blur over its standard deviation."""
+    """Return the slope of the weights of blur over its standard deviation."""
     more, less = (blur_kernel(blur + change, 0.0, shape) for change in (_CHANGE, -_CHANGE))
     return np.asarray((more - less) / (2.0 * _CHANGE))

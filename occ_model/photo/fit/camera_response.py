@@ -47,7 +47,7 @@ class CameraTone:
 def camera_tones(
     scene: Scene, averagings: Sequence[str], low: float, high: float
 ) -> list[CameraTone]:
-    """Give the responses that a scene's camera can have, for stripes between two grey levels.
+    """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def camera_tones(
 
 
 def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
-    """Give the response of a scene's camera."""
+    """Return the response of a scene's camera."""
 
     @lru_cache(maxsize=4)  # a fit evaluates the same gamma many times
     def levels(gamma: float) -> tuple[Scene, float, float]:
@@ -91,7 +91,7 @@ def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
 
 
 def _equalized(tone: Tone) -> Tone:
-    """Give the response of a picture with equalized histogram: each column's rank."""
+    """Return the response of a picture with equalized histogram: each column's rank."""
 
     def of_rank(lit: FloatArray, gamma: float) -> FloatArray:
         values = np.round(tone(lit, gamma), 3)  # grey levels are no finer

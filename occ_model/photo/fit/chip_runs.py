@@ -32,7 +32,7 @@ def is_single_pulse(chips: ByteArray) -> bool:
 
 
 def pulse(on: int, count: int) -> ByteArray:
-    """Give the fewest chips of a pulse that is on for some of a number of parts of its period."""
+    """Return the fewest chips of a pulse that is on for some of a number of parts of its period."""
     shared = math.gcd(on, count)
     chips = np.zeros(count // shared, dtype=np.uint8)
     chips[: on // shared] = 1
@@ -40,7 +40,7 @@ def pulse(on: int, count: int) -> ByteArray:
 
 
 def chips_as_one(chips: ByteArray) -> float:
-    """Give how many chips count as one: of a pulse half a period, however finely it is told.
+    """Return how many chips count as one: of a pulse half a period, however finely it is told.
 
     A pulse has two edges a period: it tells no more of how bright a lamp is here and there than a
     square wave of two chips does.

@@ -14,7 +14,7 @@ with 6 one covers 81 %, with 2 two cover 87 %."""
 def covariance_of(
     slopes: FloatArray, residual: FloatArray, tails: FloatArray, block: NDArray[np.int64]
 ) -> FloatArray:
-    """Give the parameters' covariance.
+    """Return the parameters' covariance.
 
     Of two estimates the larger one is taken: the inverse of the information, and the sandwich with
     the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and West,

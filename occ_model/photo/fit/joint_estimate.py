@@ -208,7 +208,7 @@ def _other_starts(
     explanation: Explanation,
     is_possible: Callable[[Timing], bool],
 ) -> list[FloatArray]:
-    """Give the parameters to start from, for other exposures than the one found."""
+    """Return the parameters to start from, for other exposures than the one found."""
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
     starts = [model.start(one) for one in other_starts(explanation, best) if is_possible(one)]
     if len(explanation.chips) == 2:
@@ -285,7 +285,7 @@ def _with_width(timing: Timing, mode: JointFit) -> Timing:
 def _described(
     model: StripeModel, timing: Timing, mode: JointFit, covariance: FloatArray
 ) -> StripeFit:
-    """Give the fit of a timing, whose profile is as blurred as the photo's where that is nearer."""
+    """Return the fit of a timing; its profile is as blurred as the photo's where that is nearer."""
     sharp = model.described(timing, covariance)
     wide = model.described(_with_width(timing, mode), covariance)
     if wide.correlation <= sharp.correlation:
@@ -294,7 +294,7 @@ def _described(
 
 
 def _rounding(model: StripeModel, timing: Timing) -> float:
-    """Give the share of an exposure by which the rounding of both levels changes it.
+    """Return the fraction of an exposure by which the rounding of both levels changes it.
 
     A level is rounded by up to half of one, of standard deviation 1/sqrt(12), the same in all rows
     where there is little noise; a ramp between two levels changes its length as their distance. A
@@ -307,7 +307,7 @@ def _rounding(model: StripeModel, timing: Timing) -> float:
 
 
 def _by_unknown_blur(timing: Timing, blur: float) -> float:
-    """Give the chips by which an exposure changes with what is not known of a blur's variance.
+    """Return the chips by which an exposure changes with what is not known of a blur's variance.
 
     An edge's variance is t^2/12 + blur^2: if the second term is larger by d, then t is smaller by
     6 d / t, and never by more than makes t^2/12 as small as d.

@@ -164,19 +164,19 @@ class JointModel:
         self._seen = SeenStripes(chips, columns, gamma, values_blurred=values_blurred)
 
     def start(self, timing: Timing) -> FloatArray:
-        """Give the parameters of a timing, and what is usual."""
+        """Return the parameters of a timing, and what is usual."""
         values = np.array([timing.step, timing.exposure, timing.middle, *self._mean])
         if self.gamma == 1.0:
             values[4] = 0.0
         return values
 
     def timing(self, values: FloatArray) -> Timing:
-        """Give the timing of parameters, by the usual gamma."""
+        """Return the timing of parameters, by the usual gamma."""
         step, exposure, middle = values[:3].tolist()
         return Timing(step, exposure, middle, self.gamma)
 
     def adapted(self, values: FloatArray) -> FloatArray:
-        """Give another model's parameters, what this one does not fit being as usual."""
+        """Return another model's parameters, what this one does not fit being as usual."""
         usual = self.start(self.timing(values))
         return np.where(self._free, values, usual)
 
@@ -240,7 +240,7 @@ class JointModel:
         return JointFit(values, covariance, float(residual @ residual), float(prior @ prior))
 
     def unusual(self, values: FloatArray) -> float:
-        """Give by how many standard deviations the unknowns of a fit are off what is usual."""
+        """Return by how many standard deviations the unknowns of a fit are off what is usual."""
         return float(np.linalg.norm((values[3:] - self._mean) / self._deviation))
 
     def estimate_noise(self, values: FloatArray) -> None:
@@ -259,7 +259,7 @@ class JointModel:
             self._slow[number] = part.slow(deviation)
 
     def edges_seen(self, values: FloatArray) -> float:
-        """Give the largest share of the edges' columns that a profile shows without clipping."""
+        """Return the largest unclipped fraction of the edges' columns in a profile."""
         lit = self._seen.by(values).lit
         low, high = float(lit.min()), float(lit.max())
         edges = (lit > low + _EDGE * (high - low)) & (lit < high - _EDGE * (high - low))
@@ -267,7 +267,7 @@ class JointModel:
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
     def _gammas(self) -> tuple[float, float]:
-        """Give the bounds of gamma's logarithm."""
+        """Return the bounds of gamma's logarithm."""
         if not self.is_wide:
             return _GAMMA_BOUNDS
         inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
@@ -277,14 +277,14 @@ class JointModel:
     def _residual(
         self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
     ) -> FloatArray:
-        """Give the residual in standard deviations, at last that of what is usual."""
+        """Return the residual in standard deviations, at last that of what is usual."""
         self._check()
         seen = self._seen.by(values, tails, shape)
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
 
     def _slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
-        """Give the residual's slopes over all nine parameters, shape (residuals, 9)."""
+        """Return the residual's slopes over all nine parameters, shape (residuals, 9)."""
         self._check()
         seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))

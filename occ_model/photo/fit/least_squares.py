@@ -17,6 +17,8 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
+from occ_model.photo.fit.lit_columns import LitColumns
+from occ_model.photo.fit.normal_equations import NormalEquations, solved
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
@@ -125,15 +127,15 @@ class StripeModel:
         self._tone = tone
         self._change = max(_TIMING_CHANGE, rank_resolution) * step
         # The same number for both levels, or else the mean would fit better than the swing.
-        counted = step * len(profile) / chips_as_one(chips)
-        self._shapes = smooth_shapes(len(profile), level_freedom(counted))
+        freedom = level_freedom(step * len(profile) / chips_as_one(chips))
         kept: NDArray[np.bool_] = profile < _FULL
         self._kept = kept if kept.mean() > _LEAST_KEPT else np.ones_like(kept)
-        shapes = smooth_shapes(len(profile), 2 * self._shapes.shape[1] - 1)
-        self._kept_shapes = np.ascontiguousarray(shapes[self._kept].T)
+        shapes = smooth_shapes(len(profile), 2 * freedom - 1)
+        self._equations = NormalEquations(shapes[self._kept], freedom)
+        self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
+        self._kept_shapes = np.ascontiguousarray(self._shapes[:, self._kept])
         self._kept_profile = profile[self._kept]
-        self._of_ones = self._products(np.ones(len(self._kept_profile)))
-        self._of_profile = self._kept_shapes[: len(self._of_ones)] @ self._kept_profile
+        self._weight = np.ones(len(self._kept_profile))
 
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Fit the levels for a given timing.
@@ -143,31 +145,12 @@ class StripeModel:
         low, swing, profile : ndarray of float64, shape (columns,)
             The profile is the model's, limited to white.
         """
-        lit = timing.lit_fraction(self._waveform, len(self._profile))
-        tone = self._tone(lit, timing.gamma)
-        kept = tone[self._kept]
-        once, twice = self._products(kept), self._products(kept**2)
-        freedom = self._shapes.shape[1]
-        products = np.empty((2 * freedom, 2 * freedom))
-        products[:freedom, :freedom], products[freedom:, freedom:] = self._of_ones, twice
-        products[:freedom, freedom:] = products[freedom:, :freedom] = once
-        # Where the response hardly varies the levels are undetermined: keep them small.
-        products.flat[:: 2 * freedom + 1] += 1e-9 * len(kept)
-        of_lit = self._kept_shapes[:freedom] @ (kept * self._kept_profile)
-        weights = np.linalg.solve(products, np.concatenate([self._of_profile, of_lit]))
-        low, swing = self._shapes @ weights[:freedom], self._shapes @ weights[freedom:]
+        tone = self._tone(timing.lit_fraction(self._waveform, len(self._profile)), timing.gamma)
+        kept = LitColumns(self._kept_shapes, tone[self._kept])
+        matrix = self._equations.matrix(self._weight, kept.lit)
+        levels = solved(matrix, kept.sums(self._kept_profile))
+        low, swing = levels.reshape(2, -1) @ self._shapes
         return low, swing, np.minimum(low + swing * tone, WHITE)
-
-    def _products(self, weights: FloatArray) -> FloatArray:
-        """Give the weighted sums over columns of the products of any two shapes.
-
-        Of Chebyshev polynomials the product is half the sum of two others,
-        T_i T_j = (T_(i+j) + T_|i-j|) / 2: all products follow from one sum for each polynomial.
-        """
-        sums = self._kept_shapes @ weights
-        place = np.arange(self._shapes.shape[1])
-        up, down = place[:, None] + place, np.abs(place[:, None] - place)
-        return np.asarray(0.5 * (sums[up] + sums[down]))
 
     def fit(
         self,
@@ -217,7 +200,7 @@ class StripeModel:
         return _can_be_levels(low, swing)
 
     def described(self, timing: Timing, covariance: FloatArray) -> StripeFit:
-        """Give the fit of a timing with a covariance, shape (4, 4), of its fields."""
+        """Return the fit of a timing with a covariance, shape (4, 4), of its fields."""
         low, swing, profile = self.levels(timing)
         possible = _can_be_levels(low, swing)
         # Bounded below, since flattening divides by it.
@@ -238,12 +221,12 @@ def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
 
 
 def level_freedom(counted: float) -> int:
-    """Give the number of parameters of either level, for the chips in view that count."""
+    """Return the number of parameters of either level, for the chips in view that count."""
     return int(np.clip(counted / _CHIPS_PER_SHAPE, 1, _MOST_SHAPES))
 
 
 def _blur_deviation(timing: Timing) -> float:
-    """Give the chips by which an unknown blur may lengthen the fitted exposure.
+    """Return the chips by which an unknown blur may lengthen the fitted exposure.
 
     An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur; to second
     order a blur of sigma lengthens t by 6 sigma^2 / t, and never by more than its own width.
@@ -253,7 +236,7 @@ def _blur_deviation(timing: Timing) -> float:
 
 
 def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
-    """Give the covariance of fitted parameters from the model's slopes and the residual."""
+    """Return the covariance of fitted parameters from the model's slopes and the residual."""
     variance = float(residual @ residual) / max(1, len(residual) - slopes.shape[1])
     variance *= correlated_columns(residual)
     products = slopes.T @ slopes

@@ -29,12 +29,12 @@ class LitColumns:
     lit: FloatArray
 
     def light(self, levels: FloatArray) -> FloatArray:
-        """Give the light of levels, shape (2 shapes,), or of several, (any, 2 shapes)."""
+        """Return the light of levels, shape (2 shapes,), or of several, (any, 2 shapes)."""
         dark = levels[..., : len(self.shapes)] @ self.shapes
         return np.asarray(dark + self.lit * self.swing(levels))
 
     def swing(self, levels: FloatArray) -> FloatArray:
-        """Give the light that being lit adds."""
+        """Return the light that being lit adds."""
         return np.asarray(levels[..., len(self.shapes) :] @ self.shapes)
 
     def sums(self, values: FloatArray) -> FloatArray:
@@ -43,7 +43,7 @@ class LitColumns:
         return np.concatenate(both, axis=-1)
 
     def slopes(self, levels: FloatArray, of_levels: FloatArray, by_lit: FloatArray) -> FloatArray:
-        """Give the light's slopes, shape (parameters, columns).
+        """Return the light's slopes, shape (parameters, columns).
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class LitColumns:
         by_lit: FloatArray,
         by_tone: FloatArray,
     ) -> FloatArray:
-        """Give the slopes of the sums that are 0, the levels being fixed.
+        """Return the slopes of the sums that are 0, the levels being fixed.
 
         Parameters
         ----------

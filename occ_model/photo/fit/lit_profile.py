@@ -120,7 +120,7 @@ class LitProfile:
         self._of_levels = lru_cache(maxsize=1)(self._slopes_of_levels)
 
     def residual(self, seen: Seen) -> FloatArray:
-        """Give data less model in grey levels: of the kept columns, then of the clipped ones."""
+        """Return data less model in grey levels: of the kept columns, then of the clipped ones."""
         fitted = self._fitted(seen)
         if seen.sharp is None:
             kept = self.data - seen.table.value_of(fitted.kept.light(fitted.levels))
@@ -133,7 +133,7 @@ class LitProfile:
         return np.concatenate([kept, seen.table.steepness * np.maximum(short, 0.0)])
 
     def slopes(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
-        """Give the residual's slopes over the parameters of the light, then over the tone's.
+        """Return the residual's slopes over the parameters of the light, then over the tone's.
 
         Where pixel values are blurred, what has the residual as a factor is left out (Kaufman, BIT
         15:49, 1975).
@@ -148,12 +148,12 @@ class LitProfile:
         return np.hstack([kept, self._slopes_of_clipped(seen, rates)])
 
     def _slow_shapes(self, columns: int, count: int) -> FloatArray:
-        """Give the slow shapes at the kept columns, shape (kept, count)."""
+        """Return the slow shapes at the kept columns, shape (kept, count)."""
         count = min(count, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
         return np.ascontiguousarray(smooth_shapes(columns, count)[self.kept])
 
     def slow(self, noise: FloatArray) -> FloatArray:
-        """Give an orthonormal basis of what is slow in a residual that is divided by its noise."""
+        """Return an orthonormal basis of slow changes in a residual divided by its noise."""
         return np.asarray(np.linalg.qr(self._slow / noise[:, None])[0])
 
     def _beyond(self, seen: Seen) -> LitColumns:
@@ -200,7 +200,7 @@ class LitProfile:
         return np.where(short > 0.0, slopes, 0.0)
 
     def _slopes_of_levels(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
-        """Give the levels' slopes, shape (parameters, levels)."""
+        """Return the levels' slopes, shape (parameters, levels)."""
         fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
         error, weight = fitted.error, fitted.slope**2
         by_light, by_slope = rates.tone.at(self.data)
@@ -227,7 +227,7 @@ class LitProfile:
     def _slopes_of_blurred(
         self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray
     ) -> FloatArray:
-        """Give the slopes of the kept columns' residual where pixel values are blurred."""
+        """Return the slopes of the kept columns' residual where pixel values are blurred."""
         levels, picture = self._fitted(seen).shown, LitColumns(self._shapes, sharp)
         light, fixed = picture.light(levels), np.zeros((rates.parameters, len(levels)))
         values = seen.table.value_of(light)
@@ -242,18 +242,18 @@ class LitProfile:
     def _steep(
         self, seen: Seen, sharp: FloatArray, light: FloatArray
     ) -> tuple[FloatArray, LitColumns]:
-        """Give the kept columns' slopes over the levels: a factor of columns."""
+        """Return the kept columns' slopes over the levels: a factor of columns."""
         steep = seen.table.slope_of(light)
         both = _convolved(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
         return both[0], LitColumns(self._kept_shapes, both[1] / both[0])
 
     def _explained(self, steep: FloatArray, columns: LitColumns, values: FloatArray) -> FloatArray:
-        """Give the changes of the levels that explain changes of the kept columns' values best."""
+        """Return the changes of the levels that best explain changes of the kept columns."""
         products = self._equations.matrix(steep**2, columns.lit)
         return solved(products, columns.sums(steep * values))
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
-        """Give the kept columns' data less the blurred values of light."""
+        """Return the kept columns' data less the blurred values of light."""
         return np.asarray(
             self.data - _convolved(seen.table.value_of(light), seen.kernel)[self.kept]
         )

@@ -25,7 +25,7 @@ class NormalEquations:
         self._up, self._down = place[:, None] + place, np.abs(place[:, None] - place)
 
     def matrix(self, weight: FloatArray, lit: FloatArray) -> FloatArray:
-        """Give the matrix for the weights and the lit fractions of the columns."""
+        """Return the matrix for the weights and the lit fractions of the columns."""
         count, once = self._freedom, weight * lit
         matrix = np.empty((2 * count, 2 * count))
         matrix[:count, :count] = self._products(weight)
@@ -34,7 +34,7 @@ class NormalEquations:
         return matrix
 
     def _products(self, weight: FloatArray) -> FloatArray:
-        """Give the weighted sums over the columns of the products of any two shapes."""
+        """Return the weighted sums over the columns of the products of any two shapes."""
         sums = self._shapes @ weight
         return np.asarray(0.5 * (sums[self._up] + sums[self._down]))
 

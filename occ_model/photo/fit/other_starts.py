@@ -26,7 +26,7 @@ _ROUGH_ROUNDS = 3
 
 
 def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
-    """Give further exposures to start from: for a square wave, those that look the same."""
+    """Return further exposures to start from: for a square wave, those that look the same."""
     starts = [one for one in explanation.starts if one is not best]
     if len(explanation.chips) == 2:
         t = best.exposure
@@ -43,7 +43,7 @@ def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
 def scanned_starts(
     model: JointModel, found: FloatArray, is_possible: Callable[[Timing], bool]
 ) -> list[FloatArray]:
-    """Give the parameters of the best other exposures of all, the camera being as usual.
+    """Return the parameters of the best other exposures of all, the camera being as usual.
 
     The first search compares exposures by a profile without blur and by one tone curve: it may keep
     only a wrong one, whose errors look small.
@@ -81,7 +81,7 @@ def alike_among(
     most: float,
     is_possible: Callable[[JointFit], bool],
 ) -> list[JointFit]:
-    """Give the fits of a square wave by other exposures that look like one of those kept.
+    """Return the fits of a square wave by other exposures that look like one of those kept.
 
     A search that begins near one exposure may end at another, where blur of a wrong shape fits
     better: 1.39 chips behind exponential tails had less than two thirds of the misfit of 0.62
@@ -116,5 +116,5 @@ def _look_alike(one: float, other: float) -> bool:
 
 
 def _turned(one: float, other: float) -> float:
-    """Give the chips by which a square wave's stripes are shifted between two exposures."""
+    """Return the chips by which a square wave's stripes are shifted between two exposures."""
     return float((math.floor(one / 2.0) + math.floor(other / 2.0)) % 2)

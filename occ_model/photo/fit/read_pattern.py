@@ -153,7 +153,7 @@ def _fewest(
 ) -> ReadPattern | None:
     """Find the fewest chips that explain the harmonics about as well as the best number does.
 
-    ``column`` is the share of a period that a column takes, where no pixel is white.
+    ``column`` is the fraction of a period that a column takes, where no pixel is white.
     """
     read = []
     for count in counts:
@@ -169,7 +169,7 @@ def _fewest(
 
 
 def _enough(left: Sequence[float]) -> float:
-    """Return the share of the power that the fewest chips may leave unexplained."""
+    """Return the fraction of the power that the fewest chips may leave unexplained."""
     return min(_MOST_UNEXPLAINED, max(_WELL_EXPLAINED, _MOST_EQUAL_RATIO * min(left, default=1.0)))
 
 

@@ -53,15 +53,15 @@ class ScaledParameters:
         self._scale = np.where(index == 1, _EXPOSURE_SCALE, scale[index])
 
     def values(self, scaled: FloatArray) -> FloatArray:
-        """Give all nine parameters, within their bounds."""
+        """Return all nine parameters, within their bounds."""
         return np.clip(self._unbounded(scaled), self._low, self._high)
 
     def rates(self, values: FloatArray) -> FloatArray:
-        """Give the rate at which each parameter that is fitted changes, bounds left aside."""
+        """Return the rate at which each parameter that is fitted changes, bounds left aside."""
         return np.where(self._index == 1, self._scale * values[1], self._scale)
 
     def slopes(self, scaled: FloatArray) -> FloatArray:
-        """Give the slope of each parameter that is fitted; 0 beyond its bounds.
+        """Return the slope of each parameter that is fitted; 0 beyond its bounds.
 
         At a bound it is the slope upwards: from the upper one nothing can change that way.
         """

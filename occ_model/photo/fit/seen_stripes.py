@@ -40,11 +40,11 @@ class SeenStripes:
         self._last = lru_cache(maxsize=1)(self._by)
 
     def by(self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal") -> Seen:
-        """Give what is seen by parameters, shape (9,), and the blur's excess kurtosis and shape."""
+        """Return what is seen by nine parameters, and the blur's excess kurtosis and shape."""
         return self._last(tuple(values.tolist()), tails, shape)
 
     def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
-        """Give its slopes, those of the tone over gamma itself."""
+        """Return its slopes, those of the tone over gamma itself."""
         timing, curve, blur, longer = self._parts(values.tolist())
         table = self.by(values, 0.0, shape).table
         sharp = self._light.slopes(timing, 0.0, longer) if self._values_blurred else None
@@ -56,7 +56,7 @@ class SeenStripes:
         )
 
     def gamma(self, values: FloatArray | Sequence[float]) -> float:
-        """Give the gamma, of which the parameters hold the logarithm over the usual one."""
+        """Return the gamma, of which the parameters hold the logarithm over the usual one."""
         return self._gamma * math.exp(values[GAMMA])
 
     def _by(self, values: Sequence[float], tails: float, shape: BlurShape) -> Seen:
@@ -70,7 +70,7 @@ class SeenStripes:
         )
 
     def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:
-        """Give the timing, the tone curve, the blur, and how much longer the LED is on."""
+        """Return the timing, the tone curve, the blur, and how much longer the LED is on."""
         step, exposure, middle, _, offset, shoulder, contrast, blur, longer = values
         curve = ToneCurve(self.gamma(values), offset, shoulder, contrast)
         return Timing(step, exposure, middle, self._gamma), curve, blur, longer

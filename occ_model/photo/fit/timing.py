@@ -36,7 +36,7 @@ class Timing:
         return self.middle - 0.5 * self.step * (columns - 1) - 0.5 * self.exposure
 
     def lit_fraction(self, waveform: Waveform, columns: int) -> FloatArray:
-        """Return the share of each column's exposure in which the LED is on, shape (columns,)."""
+        """Return the fraction of each exposure in which the LED is on, shape (columns,)."""
         place = self.start(columns) + self.step * np.arange(columns, dtype=np.float64)
         chip = np.floor(place)
         phases = Phases((chip % waveform.period).astype(np.int64), place - chip)

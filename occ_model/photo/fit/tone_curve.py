@@ -22,8 +22,8 @@ _BENDS = np.diff([_GRID * (1.0 - _GRID), _GRID * (1.0 - _GRID) * (1.0 - 2.0 * _G
 class ToneCurve:
     """A monotonic tone curve, by its inverse.
 
-    A pixel value u, as a share of white, is bent into v = u + s u(1-u) + k u(1-u)(1-2u). Its light
-    is (v + o) / (1 + o) to the power of gamma. The offset o makes shadows straight, as in
+    A pixel value u relative to white is bent into v = u + s u(1-u) + k u(1-u)(1-2u). Its light is
+    (v + o) / (1 + o) to the power of gamma. The offset o makes shadows straight, as in
     IEC 61966-2-1 (o = 0.055 with a gamma of 2.4) and ITU-R BT.709 (0.099 with 1 / 0.45).
 
     Parameters
@@ -56,7 +56,7 @@ class ToneCurve:
         return ToneSlopes(table, np.vstack([by_gamma, steep / (1.0 + self.offset) * by_bends]))
 
     def _bent(self) -> tuple[FloatArray, NDArray[np.bool_]]:
-        """Give what is raised to the power of gamma, and which of its steps are not the least."""
+        """Return what is raised to the power of gamma, and which of its steps are not the least."""
         steps = _STEP + self.shoulder * _BENDS[0] + self.contrast * _BENDS[1]
         least = _LEAST_SLOPE * _STEP
         bent = _summed(np.maximum(steps, least))
@@ -70,7 +70,7 @@ def _summed(steps: FloatArray) -> FloatArray:
 
 
 def _risen(values: FloatArray) -> FloatArray:
-    """Give half of the rise from the value before to the value after; at the ends the whole one."""
+    """Return half the rise from the value before to the one after; at the ends the whole."""
     risen = np.empty_like(values)
     risen[..., 1:-1] = 0.5 * (values[..., 2:] - values[..., :-2])
     risen[..., 0] = values[..., 1] - values[..., 0]
@@ -96,7 +96,7 @@ class EvenTable:
         self._rise = np.diff(values, append=values[..., -1:])
 
     def at(self, places: FloatArray) -> FloatArray:
-        """Give the function at some places, by linear interpolation."""
+        """Return the function at some places, by linear interpolation."""
         place = np.clip((places - self._first) * self._rate, 0.0, self._most)
         below = place.astype(np.intp)
         found = self._rise.take(below, axis=-1)
@@ -126,19 +126,19 @@ class ToneTable:
         self._slope = EvenTable(_GRID[0], _GRID[-1], slope)
 
     def light_of(self, values: FloatArray) -> FloatArray:
-        """Give the light of grey levels; 1 makes white."""
+        """Return the light of grey levels; 1 makes white."""
         return self._light.at(values / WHITE)
 
     def slope_at(self, values: FloatArray) -> FloatArray:
-        """Give the slope of grey levels over light."""
+        """Return the slope of grey levels over light."""
         return np.asarray(WHITE * self._slope.at(values / WHITE))
 
     def slope_of(self, light: FloatArray) -> FloatArray:
-        """Give the slope of grey levels over light, at light."""
+        """Return the slope of grey levels over light, at light."""
         return np.asarray(WHITE * np.interp(light, self.light, self.slope))
 
     def value_of(self, light: FloatArray) -> FloatArray:
-        """Give the grey levels of light; it goes on straight beyond both ends."""
+        """Return the grey levels of light; it goes on straight beyond both ends."""
         over = np.maximum(light - self.light[-1], 0.0) * self.slope[-1]
         under = np.minimum(light - self.light[0], 0.0) * self.slope[0]
         return np.asarray(WHITE * (np.interp(light, self.light, _GRID) + over + under))
@@ -166,7 +166,7 @@ class ToneSlopes:
         self.of_steepness = WHITE * slope[:, -1]
 
     def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Give the slopes of grey levels' light, and of their slope over light.
+        """Return the slopes of grey levels' light, and of their slope over light.
 
         Returns
         -------
@@ -176,7 +176,7 @@ class ToneSlopes:
         return both[: self.parameters], both[self.parameters :]
 
     def of_values(self, values: FloatArray, light: FloatArray) -> FloatArray:
-        """Give the slopes of grey levels, shape (parameters, values).
+        """Return the slopes of grey levels, shape (parameters, values).
 
         Parameters
         ----------

@@ -11,10 +11,10 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.lamp import Lamp
 
 _IN_LINE = 0.5
-"""Share of the rows of the lower one that two parts of a lamp have in common."""
+"""Fraction of the rows of the lower one that two parts of a lamp have in common."""
 
 _AS_BRIGHT = 0.5
-"""Share of a part's light that another part of the lamp has at least: it falls off to the rim."""
+"""Fraction of a part's light that another part of the lamp has at least: it falls off to the rim."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -13,7 +13,7 @@ LEAST_SWING = 6.0
 """Grey levels that a step must have."""
 
 _LEAST_STEP_FRACTION = 0.15
-"""Share of a neighbouring step below which a step is ringing, scatter or texture beside it."""
+"""Fraction of a neighbouring step below which a step is ringing, scatter or texture beside it."""
 
 
 _CHAIN, _ALIKE = 5, 0.2
@@ -47,11 +47,11 @@ class Edges:
         return len(self.place)
 
     def part(self, first: int, last: int) -> "Edges":
-        """Give the edges from the first to before the last."""
+        """Return the edges from the first to before the last."""
         return self.where(slice(first, last))
 
     def where(self, chosen: slice | np.ndarray) -> "Edges":
-        """Give the edges that are chosen, in their order."""
+        """Return the edges that are chosen, in their order."""
         return Edges(self.place[chosen], self.rises[chosen], self.low[chosen], self.high[chosen])
 
 
@@ -127,7 +127,7 @@ def _in_chain(steps: FloatArray) -> np.ndarray:
 
 
 def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Give the level at which each edge is placed, at either of its ends.
+    """Return the level at which each edge is placed, at either of its ends.
 
     It is the middle between the levels around the edge, which may rise or fall along a lamp. A chip
     shorter than the exposure does not reach the levels of its neighbours, yet it is as long as them
@@ -150,7 +150,7 @@ def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatAr
 
 
 def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> FloatArray:
-    """Give the level that the high turning points follow, at each turning point."""
+    """Return the level that the high turning points follow, at each turning point."""
     place, high = turns[is_high].astype(np.float64), levels[is_high].copy()
     if len(high) > 2:
         # A line through its neighbours passes above a short chip.
@@ -182,7 +182,7 @@ def matches(edges: Edges, others: Edges, off: float) -> np.ndarray:
 
 
 def _distance(places: FloatArray, others: FloatArray) -> FloatArray:
-    """Give the distance of each place from the nearest of others, which are in order."""
+    """Return the distance of each place from the nearest of others, which are in order."""
     after = np.clip(np.searchsorted(others, places), 0, len(others) - 1)
     before = np.maximum(after - 1, 0)
     return np.minimum(np.abs(others[after] - places), np.abs(others[before] - places))

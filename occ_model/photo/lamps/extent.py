@@ -23,7 +23,7 @@ _FALL = 0.65
 falls less over two cells, a lamp's rim more."""
 
 _LEAST = 0.2
-"""Share of a shape below which what is left is a hot spot, not the lamp."""
+"""Fraction of a shape below which what is left is a hot spot, not the lamp."""
 
 
 def without_halo(

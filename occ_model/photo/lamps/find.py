@@ -23,19 +23,19 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
 _FAINT = 0.45
-"""Share of a lamp's light below which what blinks in time with it is its reflection."""
+"""Fraction of a lamp's light below which what blinks in time with it is its reflection."""
 
 _REFLECTION_FRACTION = 0.25
-"""Share of the brightest modulated lamp's light below which a lamp may be a reflection."""
+"""Fraction of the brightest modulated lamp's light below which a lamp may be a reflection."""
 
 _SILENT, _SELDOM = 0.1, 3.0
-"""Share of that light, and periods in view, below which together nothing is reported."""
+"""Fraction of that light, and periods in view, below which together nothing is reported."""
 
 _GAMMA = 2.2
 """Exponent by which grey levels are compared as light."""
 
 _PANES = 0.65
-"""Share of a period that is lit from which two stripes are the panes of a window between bars."""
+"""Fraction of a period that is lit from which two stripes are the panes of a window between bars."""
 
 _FEW_EDGES = 4
 """Edges, from a rising to a falling one, that two bright things side by side have."""
@@ -47,27 +47,27 @@ _LEAST_COLUMNS, _REPEATED = 16, 2.0
 """Columns, and periods, that a lamp has at least."""
 
 _LEAST_PERIODIC_STRIPS = 0.3
-"""Share of a lamp's strips that must show its period by themselves."""
+"""Fraction of a lamp's strips that must show its period by themselves."""
 
 _OWN = 0.65
-"""Share of a segment's edges that are a lamp's where the segment is of that lamp."""
+"""Fraction of a segment's edges that are a lamp's where the segment is of that lamp."""
 
 _CHIP_TOLERANCE = 0.02
-"""Share by which the chips of one lamp's segments may differ."""
+"""Fraction by which the chips of one lamp's segments may differ."""
 
 _BLURRED, _HARDLY_STRIPED = 0.15, 0.3
-"""Light between the stripes, as a share of that of the stripes, from which the exposure may be
+"""Light between the stripes, as a fraction of that of the stripes, from which the exposure may be
 longer than a chip, and from which it is so."""
 
 _SAME_PERIOD = 0.03
-"""Share by which the distance of a lamp's edges may differ from that after which its light repeats.
+"""Fraction by which the distance of a lamp's edges may differ from that after which its light repeats.
 """
 
 _WITHIN = 0.5
-"""Share of a lamp within another one from which it is a part of that one."""
+"""Fraction of a lamp within another one from which it is a part of that one."""
 
 _GLOW, _GLOW_STRIPS = 0.5, 4
-"""Share of a lamp's light, and number of strips, up to which stripes at its rim are its glow."""
+"""Fraction of a lamp's light, and number of strips, up to which stripes at its rim are its glow."""
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -81,7 +81,7 @@ def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) 
     photo
         The photo, columns being the scan axis.
     progress
-        Called with the share of the work that is done. What it raises ends the search.
+        Called with the fraction of the work that is done. What it raises ends the search.
 
     Returns
     -------
@@ -182,7 +182,7 @@ def _columns(spans: IndexArray) -> int:
 
 
 def _least_columns(timing: LampTiming) -> float:
-    """Give the columns that a lamp fills at least, if a period is to be seen repeating."""
+    """Return the columns that a lamp fills at least, if a period is to be seen repeating."""
     return _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _REPEATED * timing.spacing)
 
 
@@ -271,7 +271,7 @@ def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
 
 
 def _shared(one: Lamp, other: Lamp) -> float:
-    """Give the share of a lamp's area that lies within another one."""
+    """Return the fraction of a lamp's area that lies within another one."""
     here, there = one.spans[:, None, :], other.spans[None, :, :]
     high = np.minimum(here[..., 1], there[..., 1]) - np.maximum(here[..., 0], there[..., 0])
     wide = np.minimum(here[..., 3], there[..., 3]) - np.maximum(here[..., 2], there[..., 2])
@@ -289,7 +289,7 @@ def _with_doubts(blinking: Sequence[Blinking]) -> list[Blinking]:
 
 
 def _without_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
-    """Give the lamps, each with the regions of the fainter ones that blink in time with it."""
+    """Return the lamps, each with the regions of the fainter ones that blink in time with it."""
     ordered = sorted(_with_doubts(blinking), key=lambda one: -one.light)
     kept: list[Blinking] = []
     mirrored: dict[int, list[Region]] = {}

@@ -15,7 +15,7 @@ _MOST_STRIP_DISTANCE = 2
 """Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""
 
 _LEAST_EQUAL_FRACTION = 0.65
-"""Share of the edges of two segments that must agree.
+"""Fraction of the edges of two segments that must agree.
 
 Of the longer one: in a strip, noise or a rim can join the edges of two lamps side by side, and such
 a segment must not join the lamps.
@@ -25,13 +25,13 @@ _LEAST_EQUAL_EDGES = 3
 """Fewest edges that must agree."""
 
 _EDGE_TOLERANCE = 0.06
-"""Share of a chip, besides a column, by which edges of one lamp may differ."""
+"""Fraction of a chip, besides a column, by which edges of one lamp may differ."""
 
 LEAST_STRIPS = 2
 """Strips that show a lamp at least: noise makes edges alike in one."""
 
 _SHARED = 0.2
-"""Share of a group's strips that must show an edge."""
+"""Fraction of a group's strips that must show an edge."""
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
@@ -75,7 +75,7 @@ def _agree(one: Segment, other: Segment) -> bool:
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
-    """Give the edges that several segments of a group share, and how many share each.
+    """Return the edges that several segments of a group share, and how many share each.
 
     The rim of a round lamp lies at other columns in each strip, and so is not among them.
     """

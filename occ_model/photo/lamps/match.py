@@ -34,7 +34,7 @@ def match_lamps(
     photo, scene, estimate, sent, averaging, fit_gamma
         As in :func:`occ_model.match_photo`.
     progress
-        Called with the share of the work that is done. What it raises ends the match.
+        Called with the fraction of the work that is done. What it raises ends the match.
 
     Returns
     -------

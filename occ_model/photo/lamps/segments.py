@@ -14,7 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.lamps.edges import Edges
 
 _TOLERANCE = 0.04
-"""Share of a period by which an edge may lie off its place, besides that of a column."""
+"""Fraction of a period by which an edge may lie off its place, besides that of a column."""
 
 _COLUMN = 0.8
 """Columns by which an edge may lie off its place: pixels and noise."""
@@ -48,7 +48,7 @@ _SHORTEST, _LONGEST, _STEPS = 0.72, 1.4, 200
 """Lengths of a chip that are tried: ratios to the distances of near edges, and their number."""
 
 _OFF_LATTICE = 0.2
-"""Share of a chip by which a code's edge may lie off its lattice."""
+"""Fraction of a chip by which a code's edge may lie off its lattice."""
 
 _LONGEST_RUN = 5.5
 """Chips of the longest run within a code; beyond it another lamp begins."""
@@ -124,7 +124,7 @@ def segments_of(
 
 
 def _repeated(edges: Edges, chip: float) -> float | None:
-    """Give the period where all edges of a kind are as many chips apart: a pulse that repeats."""
+    """Return the period where all edges of a kind are as many chips apart: a pulse that repeats."""
     apart = [np.diff(edges.place[edges.rises == kind]) / chip for kind in (True, False)]
     turns = np.rint(np.concatenate(apart))
     return float(turns[0]) * chip if (turns == turns[0]).all() and turns[0] > 0 else None
@@ -140,7 +140,7 @@ def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: in
 def _clipped(
     progressions: list[tuple[int, int, float]], first: int, last: int
 ) -> list[tuple[int, int, float]]:
-    """Give the parts of progressions that lie within some edges."""
+    """Return the parts of progressions that lie within some edges."""
     parts = [(max(a, first), min(b, last), period) for a, b, period in progressions]
     return [part for part in parts if part[1] - part[0] >= _LEAST_EDGES]
 
@@ -224,7 +224,7 @@ def chip_of(edges: Edges) -> float | None:
 
 
 def coherence_of(edges: Edges, chips: FloatArray) -> FloatArray:
-    """Give how well edges lie on the lattices of some lengths of a chip, from 0 to 1."""
+    """Return how well edges lie on the lattices of some lengths of a chip, from 0 to 1."""
     turns = np.exp(2j * np.pi * edges.place[None, :] / chips[:, None])
     sums = sum(np.abs(turns[:, one].sum(axis=1)) for one in (edges.rises, ~edges.rises))
     return np.asarray(sums / len(edges))

@@ -10,19 +10,19 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
 _EDGE_TOLERANCE = 0.06
-"""Share of a chip, besides a column, by which an edge may lie off the lamp's."""
+"""Fraction of a chip, besides a column, by which an edge may lie off the lamp's."""
 
 _FAINT = 0.4
-"""Share of a lamp's swing below which a strip shows light scattered from it, not the lamp."""
+"""Fraction of a lamp's swing below which a strip shows light scattered from it, not the lamp."""
 
 _MOSTLY = 0.7
-"""Share of the edges between a lamp's outermost ones that must be its own."""
+"""Fraction of the edges between a lamp's outermost ones that must be its own."""
 
 _RIM = 0.4
-"""Share of the swing beside it with which a rim cuts a bright stripe."""
+"""Fraction of the swing beside it with which a rim cuts a bright stripe."""
 
 _CUT_OFF = 0.3
-"""Share of a chip by which an edge may lie off its place where a rim cuts the stripe beside it."""
+"""Fraction of a chip by which an edge may lie off its place where a rim cuts the stripe beside it."""
 
 _WIDER = 1.15
 """Ratio to a whole bright stripe up to which a stripe is one that the rim cuts."""

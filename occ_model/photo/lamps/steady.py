@@ -11,13 +11,13 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
 _BRIGHT = 0.6
-"""Share of white from which a place is bright."""
+"""Fraction of white from which a place is bright."""
 
 _ABOVE_MEDIAN = 1.6
 """Ratio to the picture's median from which a place stands out of it."""
 
 _LEAST_SHARE = 3e-4
-"""Share of the picture that a lamp fills at least."""
+"""Fraction of the picture that a lamp fills at least."""
 
 _OWN = 0.3
 """Largest share of a bright place that lies within lamps with stripes."""

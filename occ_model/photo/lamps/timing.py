@@ -9,19 +9,19 @@ from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import Segment, segments_of
 
 _LATTICE_TOLERANCE = 0.12
-"""Share of the spacing by which an edge may lie off a lattice and still count."""
+"""Fraction of the spacing by which an edge may lie off a lattice and still count."""
 
 
 _CODE_OFF, _CODE_COLUMN = 0.045, 0.12
 _PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
-"""Shares of a chip, and of a column besides, by which the edges of a code, and of a pulse that
+"""Fractions of a chip, and of a column besides, by which the edges of a code, and of a pulse that
 repeats, lie off their lattices at most, on average."""
 
 _TIGHTER = 0.5
-"""Share of the tolerance of a single strip's edges with which those of many rows are judged."""
+"""Fraction of the tolerance of a single strip's edges with which those of many rows are judged."""
 
 _MUCH_BETTER = 0.5
-"""Share of the distances from a code's lattices that is left where a rim is left out."""
+"""Fraction of the distances from a code's lattices that is left where a rim is left out."""
 
 _CODE_EDGES = 6
 """Fewest edges that are left of a code."""
@@ -30,7 +30,7 @@ _FINEST = 0.1
 """Columns to which the place of an edge is known at best."""
 
 _SAME, _SHADED = 0.003, 0.06
-"""Shares of the spacing by which those of a lamp and of its reflection may differ.
+"""Fractions of the spacing by which those of a lamp and of its reflection may differ.
 
 The second is divided by the number of edges: a lamp that is darker towards its rim, seen on a lit
 wall, has its outer edges a little farther inside.
@@ -52,7 +52,7 @@ class LampTiming:
     is_code
         Whether the spacing is that of a code's chips.
     off
-        Root mean square of the edges' distances from their places, as a share of a chip.
+        Root mean square of the edges' distances from their places, as a fraction of a chip.
     edges
         The edges.
     """

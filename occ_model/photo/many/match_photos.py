@@ -135,7 +135,7 @@ def matched_rows(
 
 
 def usual_jobs() -> int:
-    """Give the number of processes that use this computer well: one for each core allowed."""
+    """Return the number of processes that use this computer well: one for each core allowed."""
     try:
         cores = len(os.sched_getaffinity(0))
     except AttributeError:  # not on every system

@@ -39,7 +39,7 @@ class MatchSettings:
     known: tuple[tuple[int, float], ...] = ()
 
     def of(self, place: int) -> "MatchSettings":
-        """Give the settings of the photo at a place."""
+        """Return the settings of the photo at a place."""
         own = dict(self.known).get(place)
         if own is None:
             return self

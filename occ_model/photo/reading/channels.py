@@ -21,7 +21,7 @@ _NEAR_TIE = 0.5
 
 
 def white_of(samples: Samples) -> int:
-    """Give the sample value of white."""
+    """Return the sample value of white."""
     return int(np.iinfo(samples.dtype).max)
 
 
@@ -80,7 +80,7 @@ def _only(index: int) -> _Take:
 
 
 def _colours_of(picture: DecodedPicture, report: Progress) -> tuple[FloatArray, bool]:
-    """Give the means of red, green and blue, and whether they differ anywhere."""
+    """Return the means of red, green and blue, and whether they differ anywhere."""
     rows, columns = picture.shape
     sums, has_colours = np.zeros(3), False
     for left, top, right, bottom in picture.boxes():

@@ -26,7 +26,7 @@ _UNITS = {2.0: 25.4e-3, 3.0: 1e-2, 4.0: 1e-3}
 """Metres in which the pixels of the sensor are counted."""
 
 _SQUARE = 0.02
-"""Share by which a pixel's sides may differ."""
+"""Fraction by which a pixel's sides may differ."""
 
 _DECIMALS = 3
 """Decimals of millimetres that a focal length is written in at most."""

@@ -73,7 +73,7 @@ def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[Watched
 def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
     """Return the function that opens a file's first picture, not yet decoded, at each call.
 
-    Its arguments are the shares of the work between which the picture will be decoded. It raises
+    Its arguments are the fractions of the work between which the picture will be decoded. It raises
     PhotoError where the file is no image, damaged or too large.
     """
     return lambda first, last: _first_picture(path, file, max_pixels, (first, last))

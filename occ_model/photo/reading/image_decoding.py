@@ -25,7 +25,7 @@ Box: TypeAlias = tuple[int, int, int, int]
 """A rectangle of a picture: its first column and row, and the column and row after its last."""
 
 DECODED = 0.8
-"""Share of the work that is done when a picture is decoded."""
+"""Fraction of the work that is done when a picture is decoded."""
 
 _GREY_LEVEL = 257
 """One grey level in samples of 16 bits: 65535 / 255."""
@@ -49,8 +49,8 @@ class DecodedPicture:
     Parameters
     ----------
     opened
-        Function that opens the file's picture, not yet decoded; its arguments are the shares of the
-        work between which it will be decoded.
+        Function that opens the file's picture, not yet decoded; its arguments are the fractions of
+        the work between which it will be decoded.
     """
 
     def __init__(self, opened: "Callable[[float, float], ImageFile]") -> None:
@@ -77,7 +77,7 @@ class DecodedPicture:
         return self.picture.height, self.picture.width
 
     def boxes(self) -> Iterator[Box]:
-        """Give rectangles that cover the picture, from top to bottom."""
+        """Return rectangles that cover the picture, from top to bottom."""
         rows, columns = self.shape
         across = min(columns, _PART)
         down = max(_PART // across, 1)

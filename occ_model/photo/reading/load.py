@@ -106,7 +106,7 @@ def load_photo(
     max_pixels
         Largest number of pixels. Some formats' decoders allow fewer: the memory is limited too.
     progress
-        Called with the share of the work that is done, from 0 to 1. What it raises cancels the
+        Called with the fraction of the work that is done, from 0 to 1. What it raises cancels the
         reading, though JPEG 2000, WebP, AVIF, HEIC, RAW and compressed TIFF only after
         decoding.
 

@@ -9,7 +9,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.image_decoding import Samples
 
 _USUAL = 0.97
-"""Share of the differences between neighbours that are not at a panel's edges."""
+"""Fraction of the differences between neighbours that are not at a panel's edges."""
 
 
 def stripes_are_lines(samples: Samples, lying: bool) -> bool:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[float], object]
-"""Called with the share of the work that is done, from 0 to 1; cancels the work by raising."""
+"""Called with the fraction of the work that is done, from 0 to 1; cancels the work by raising."""
 
 _STEP = 1 << 16
 """Bytes after which progress is reported again: decoders read as many at once."""
@@ -23,7 +23,7 @@ class Reporter:
         self.ended_by: BaseException | None = None
 
     def __call__(self, share: float) -> None:
-        """Report the share of the work that is done, from 0 to 1."""
+        """Report the fraction of the work that is done, from 0 to 1."""
         if self._progress is None:
             return
         try:

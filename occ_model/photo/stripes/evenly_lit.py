@@ -77,7 +77,7 @@ class EvenProfile:
 
     @property
     def tells(self) -> float:
-        """How much it tells: its columns, each by the share of noise that its rows average out."""
+        """Its information: its columns times the fraction of noise that its rows average out."""
         return float(self.kept.sum()) * self.rows / (self.rows + _HALF_WEIGHT_ROWS)
 
 
@@ -90,7 +90,7 @@ class Cells:
     means : ndarray of float32, shape (bands, columns)
         In grey levels.
     clipped : ndarray of float32, shape (bands, columns)
-        Share of clipped pixels.
+        Fraction of clipped pixels.
     rows_a_band
         Number of the photo's rows in a band, on average.
     """

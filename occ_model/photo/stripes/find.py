@@ -237,7 +237,7 @@ def _faintest(slopes: FloatArray, edge: int, gap: int, steep: float) -> int:
 
 
 def _local_range(profile: FloatArray) -> FloatArray:
-    """Give the range of values in the few columns around each: on a slope it exceeds the noise."""
+    """Return the range of values in a few columns around each; on a slope it exceeds the noise."""
     kernel = np.ones((1, _SLOPE_COLUMNS), dtype=np.uint8)
     line = profile[None, :]
     return np.asarray((cv2.dilate(line, kernel) - cv2.erode(line, kernel))[0], dtype=np.float64)

@@ -108,7 +108,7 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
 
 
 def unrepeated_share(flattened: FloatArray, period: float) -> float:
-    """Return the share of a profile's variance that no repeated wave of a period explains.
+    """Return the fraction of a profile's variance that no repeated wave of a period explains.
 
     Parameters
     ----------

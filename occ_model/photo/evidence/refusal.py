@@ -1,10 +1,6 @@
 """When an explanation is refused: something else explains the stripes better, or chance does."""
 
-from dataclasses import dataclass
-
 from occ_model.photo.evidence.hypothesis import Hypothesis
-from occ_model.photo.evidence.repeated_wave import RepeatedWave
-from occ_model.photo.evidence.smooth_curve import SmoothCurve
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.results.match import PLAIN_STRIPES
 
@@ -23,29 +19,23 @@ _LEAST_ROW_CORRELATION = 0.7
 """Minimum correlation between the stripes of different rows."""
 
 
-@dataclass(frozen=True, slots=True)
-class Surroundings:
-    """What is compared with a hypothesis.
-
-    Parameters
-    ----------
-    smooth, wave
-        The explanations without a code: a smooth curve, and any wave that repeats.
-    rows_alike
-        Correlation of the rows' stripes with each other.
-    """
-
-    smooth: SmoothCurve
-    wave: RepeatedWave
-    likelihood: float
-    rows_alike: float
-
-
-def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[str]:
+def refusals(
+    found: Hypothesis,
+    *,
+    curve: float,
+    wave: float,
+    likelihood: float,
+    rows_alike: float,
+    blinks: bool,
+) -> list[str]:
     """Say why a hypothesis is refused, in sentences.
 
     Parameters
     ----------
+    curve, wave, likelihood
+        Log-likelihoods of a smooth curve, of any periodic wave, and of the hypothesis.
+    rows_alike
+        Correlation between the stripes of different rows.
     blinks
         Whether it is given that a lamp blinks.
     """
@@ -67,7 +57,7 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
             f"They repeat after {columns:.1f} columns and are bright for {share:.0f} % of them, as "
             "those of any regular object are, such as a blind.",
         ]
-    elif found.was_read and not blinks and beside.likelihood < beside.wave.likelihood:
+    elif found.was_read and not blinks and likelihood < wave:
         reasons.append(
             "A wave of another shape that repeats as often, as of any regular object, explains the "
             f"stripes better than {found.sent}."
@@ -77,14 +67,14 @@ def refusals(found: Hypothesis, beside: Surroundings, *, blinks: bool) -> list[s
             f"{what} explains the stripes hardly better than chance: {found.chips_in_view:.1f} "
             f"chips are in view, and the exposure is {found.fit.timing.exposure:.1f} chips long."
         )
-    if beside.likelihood < beside.smooth.likelihood:
+    if likelihood < curve:
         reasons.append(
             "Light that varies slowly, without any code, explains the stripes better than "
             f"{found.sent}."
         )
-    if beside.rows_alike < _LEAST_ROW_CORRELATION:
+    if rows_alike < _LEAST_ROW_CORRELATION:
         reasons.append(
             "The rows do not show the same stripes: their correlation is "
-            f"{beside.rows_alike:.2f}; at least {_LEAST_ROW_CORRELATION} is needed."
+            f"{rows_alike:.2f}; at least {_LEAST_ROW_CORRELATION} is needed."
         )
     return reasons

@@ -8,9 +8,8 @@ import numpy as np
 from occ_model.errors import MatchError
 from occ_model.photo.evidence.doubts import doubts, exposure_doubts
 from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
-from occ_model.photo.evidence.refusal import Surroundings, refusals
-from occ_model.photo.evidence.repeated_wave import repeated_wave
-from occ_model.photo.evidence.smooth_curve import SmoothCurve, best_smooth_curve
+from occ_model.photo.evidence.refusal import refusals
+from occ_model.photo.evidence.without_code import likelihood_of_curve, likelihood_of_wave
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
 _DECISIVE = 10.0
@@ -98,8 +97,7 @@ class Judge:
             for other, more in beside
             if more > -_DECISIVE and not found.shares_timing_with(other, is_given=is_given)
         ]
-        smooth = self._smooth(found, everyone)
-        if likelihoods[0] - smooth.likelihood < _DECISIVE:
+        if likelihoods[0] - self._of_curve(found, everyone) < _DECISIVE:
             reasons.append("Light that varies slowly, without any code, is nearly as likely.")
         of_exposure = exposure_doubts(found, self._stripes)
         return Verdict(found, tuple(reasons), tuple(of_exposure), tuple(beside))
@@ -108,16 +106,19 @@ class Judge:
         self, found: Hypothesis, likelihood: float, everyone: Sequence[Hypothesis]
     ) -> list[str]:
         independent = self._independent(everyone)
-        wave = repeated_wave(self._stripes.profile, found, independent, self._error)
-        smooth = self._smooth(found, everyone)
-        beside = Surroundings(smooth, wave, likelihood, self._rows_alike)
-        return refusals(found, beside, blinks=self._blinks)
-
-    def _smooth(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> SmoothCurve:
-        most = int(_COSINES_PER_CHIP * found.counted_chips)
-        return best_smooth_curve(
-            self._stripes.profile, most, self._independent(everyone), self._error
+        return refusals(
+            found,
+            curve=self._of_curve(found, everyone),
+            wave=likelihood_of_wave(self._stripes.profile, found, independent, self._error),
+            likelihood=likelihood,
+            rows_alike=self._rows_alike,
+            blinks=self._blinks,
         )
+
+    def _of_curve(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> float:
+        most = int(_COSINES_PER_CHIP * found.counted_chips)
+        independent = self._independent(everyone)
+        return likelihood_of_curve(self._stripes.profile, most, independent, self._error)
 
     def _likelihoods(self, hypotheses: Sequence[Hypothesis]) -> list[float]:
         independent, profile = self._independent(hypotheses), self._stripes.profile

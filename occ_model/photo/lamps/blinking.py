@@ -10,11 +10,11 @@ from occ_model.photo.lamps.shape import around
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.lamp import Lamp
 
-_IN_LINE = 0.5
-"""Fraction of the rows of the lower one that two parts of a lamp have in common."""
+_LEAST_SHARED_ROWS = 0.5
+"""Minimum fraction of rows that two parts of one lamp have in common."""
 
-_AS_BRIGHT = 0.5
-"""Fraction of a part's light that another part of the lamp has at least: it falls off to the rim."""
+_LEAST_LIGHT_RATIO = 0.5
+"""Minimum brightness of a part, and of what lies between two parts, relative to the other part."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -56,19 +56,19 @@ def _is_one(left: Blinking, right: Blinking, means: FloatArray, bounds: IndexArr
     """Whether two pulses that repeat are parts of one code, the first one's columns being less."""
     here, there = left.lamp.region, right.lamp.region
     first, last = max(here.first_row, there.first_row), min(here.last_row, there.last_row)
-    if last - first < _IN_LINE * min(here.rows, there.rows):
+    if last - first < _LEAST_SHARED_ROWS * min(here.rows, there.rows):
         return False
     gap = slice(here.last_column, there.first_column)
     if gap.stop <= gap.start or left.timing.is_code or right.timing.is_code:
         return False
-    if min(left.light, right.light) < _AS_BRIGHT * max(left.light, right.light):
+    if min(left.light, right.light) < _LEAST_LIGHT_RATIO * max(left.light, right.light):
         return False
     if not left.timing.agrees(right.timing):
         return False
     rows = slice(*np.searchsorted(bounds, [first, last]).tolist())
     between = means[rows, gap].mean(axis=0)
     bright = min(left.lamp.level, right.lamp.level)
-    return bool(between.size and between.max() > _AS_BRIGHT * bright)
+    return bool(between.size and between.max() > _LEAST_LIGHT_RATIO * bright)
 
 
 def _joined(left: Blinking, right: Blinking) -> Blinking:

@@ -6,22 +6,24 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 
-_ABOVE_NOISE = 6.0
-"""Number of standard deviations of noise that a step must have."""
+_LEAST_DEVIATIONS = 6.0
+"""Minimum height of a step in standard deviations of the noise."""
 
-LEAST_SWING = 6.0
-"""Grey levels that a step must have."""
+_LEAST_HEIGHT = 6.0
+"""Minimum height of a step in grey levels."""
 
-_LEAST_STEP_FRACTION = 0.15
-"""Fraction of a neighbouring step below which a step is ringing, scatter or texture beside it."""
+_LEAST_STEP_RATIO = 0.15
+"""Minimum height of a step relative to its neighbours; smaller ones are ringing, scatter or
+texture."""
 
 
-_CHAIN, _ALIKE = 5, 0.2
-"""Steps that follow each other, and ratio of neighbouring ones, from which even small ones are the
-stripes of a lamp: an exposure longer than a chip leaves them faint, beside a steep rim."""
+_CHAIN, _LEAST_CHAIN_RATIO = 5, 0.2
+"""Number of consecutive steps, and minimum ratio of neighbouring ones, of a chain that is kept even
+beside a steep rim: exposures longer than a chip leave faint stripes."""
 
 _LEAST_SWING_RATIO = 0.5
-"""Ratio to the swing around it from which an edge is one of the same lamp."""
+"""Minimum height of an edge relative to the swing around it for the middle level to be that around
+it."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,7 +67,7 @@ def edges_of(profile: FloatArray) -> Edges:
     """
     steps = np.diff(profile)
     noise = 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / np.sqrt(2.0)
-    turns = _turning_points(profile, max(_ABOVE_NOISE * noise, LEAST_SWING))
+    turns = _turning_points(profile, max(_LEAST_DEVIATIONS * noise, _LEAST_HEIGHT))
     turns = _without_ringing(profile, turns)
     first, last = turns[:-1], turns[1:]
     levels = profile[turns]
@@ -106,7 +108,7 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
     while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
         left, right = np.append(0.0, steps[:-1]), np.append(steps[1:], 0.0)
-        small = (steps < _LEAST_STEP_FRACTION * np.maximum(left, right)) & ~_in_chain(steps)
+        small = (steps < _LEAST_STEP_RATIO * np.maximum(left, right)) & ~_in_chain(steps)
         outer = np.zeros(len(kept), dtype=bool)
         outer[[0, -1]] = small[[0, -1]]
         # Both ends of a small step go; of small steps side by side the smallest goes first.
@@ -122,7 +124,7 @@ def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
 def _in_chain(steps: FloatArray) -> np.ndarray:
     """Whether each step is one of several that follow each other and are about as large."""
     ratio = np.minimum(steps[1:], steps[:-1]) / np.maximum(steps[1:], steps[:-1])
-    chains = np.append(0, np.cumsum(ratio < _ALIKE))
+    chains = np.append(0, np.cumsum(ratio < _LEAST_CHAIN_RATIO))
     return np.asarray(np.bincount(chains)[chains] >= _CHAIN)
 
 

@@ -10,20 +10,19 @@ _CELL = 8
 """Columns over which levels are averaged, about as many as a strip has rows."""
 
 _PADDING = 3
-"""Cells around a shape in which its rim may lie."""
+"""Cells around a shape within which its rim may lie."""
 
 _LEVELS = np.linspace(0.08, 0.92, 15)
-"""Levels between the darkest and the brightest place at which a rim is looked for."""
+"""Levels between the darkest and the brightest cell at which a rim is searched for."""
 
 _DARK = 10.0
-"""Grey levels added before levels are compared by their ratio: darker ones are noise."""
+"""Grey levels added before ratios are formed: lower levels are noise."""
 
-_FALL = 0.65
-"""Ratio of the levels beside a rim, a cell outside and a cell inside, up to which it is one: a halo
-falls less over two cells, a lamp's rim more."""
+_MOST_FALL = 0.65
+"""Maximum ratio of the levels outside and inside a rim; across two cells a halo falls less."""
 
-_LEAST = 0.2
-"""Fraction of a shape below which what is left is a hot spot, not the lamp."""
+_LEAST_AREA = 0.2
+"""Minimum area within the rim relative to the shape; less is a hot spot."""
 
 
 def without_halo(
@@ -51,7 +50,7 @@ def without_halo(
     filled = _filled(part, timing)
     levels = cv2.resize(filled, (cells, len(part)), interpolation=cv2.INTER_AREA)
     width = part.shape[1] / cells
-    least = _LEAST * float(((spans[:, 3] - spans[:, 2]) / width).sum())
+    least = _LEAST_AREA * float(((spans[:, 3] - spans[:, 2]) / width).sum())
     shape = _within_rim(np.asarray(levels, dtype=np.float64), least)
     if shape is None:
         return spans
@@ -66,7 +65,7 @@ def without_halo(
             if end > begin:
                 kept.append((top, bottom, begin, end))
     found = np.array(kept, dtype=np.int64).reshape(-1, 4)
-    return found if _area(found) >= _LEAST * _area(spans) else spans
+    return found if _area(found) >= _LEAST_AREA * _area(spans) else spans
 
 
 def _area(spans: IndexArray) -> int:
@@ -88,7 +87,7 @@ def _within_rim(levels: FloatArray, least: float) -> np.ndarray | None:
     """Find the place around the brightest cell at whose rim the level falls most, if it falls."""
     top = np.unravel_index(int(levels.argmax()), levels.shape)
     low, high = float(levels.min()), float(levels.max())
-    best, found = _FALL, None
+    best, found = _MOST_FALL, None
     ring = np.ones((3, 3), dtype=np.uint8)
     for level in low + (high - low) * _LEVELS:
         _, labels = cv2.connectedComponents((levels > level).astype(np.uint8), connectivity=4)

@@ -22,52 +22,52 @@ from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
-_FAINT = 0.45
-"""Fraction of a lamp's light below which what blinks in time with it is its reflection."""
+_MOST_REFLECTED = 0.45
+"""Brightness relative to a lamp below which what blinks in time with it is its reflection."""
 
-_REFLECTION_FRACTION = 0.25
-"""Fraction of the brightest modulated lamp's light below which a lamp may be a reflection."""
+_FAINT = 0.25
+"""Brightness relative to the brightest lamp below which a lamp may be a reflection."""
 
-_SILENT, _SELDOM = 0.1, 3.0
-"""Fraction of that light, and periods in view, below which together nothing is reported."""
+_FAINTEST, _FEW_PERIODS = 0.1, 3.0
+"""Relative brightness and periods in view below which, together, nothing is reported."""
 
 _GAMMA = 2.2
-"""Exponent by which grey levels are compared as light."""
+"""Exponent that converts grey levels to light for comparison."""
 
-_PANES = 0.65
-"""Fraction of a period that is lit from which two stripes are the panes of a window between bars."""
+_MOST_LIT = 0.65
+"""Maximum duty of two stripes; two panes of a window between bars have a larger one."""
 
 _FEW_EDGES = 4
-"""Edges, from a rising to a falling one, that two bright things side by side have."""
+"""Number of edges of two bright objects side by side."""
 
 _LEAST_SPACING = 3.0
-"""Fewest columns of a period or a chip: what is shorter is noise."""
+"""Minimum number of columns of a period or a chip."""
 
-_LEAST_COLUMNS, _REPEATED = 16, 2.0
-"""Columns, and periods, that a lamp has at least."""
+_LEAST_COLUMNS, _LEAST_PERIODS = 16, 2.0
+"""Minimum width of a lamp in columns, and in periods."""
 
-_LEAST_PERIODIC_STRIPS = 0.3
-"""Fraction of a lamp's strips that must show its period by themselves."""
+_LEAST_STRIP_FRACTION = 0.3
+"""Minimum fraction of a lamp's strips that show its period by themselves."""
 
-_OWN = 0.65
-"""Fraction of a segment's edges that are a lamp's where the segment is of that lamp."""
+_LEAST_OWN = 0.65
+"""Minimum fraction of a segment's edges that are the lamp's."""
 
 _CHIP_TOLERANCE = 0.02
-"""Fraction by which the chips of one lamp's segments may differ."""
+"""Maximum relative difference of a chip between a lamp and its segments."""
 
 _BLURRED, _HARDLY_STRIPED = 0.15, 0.3
-"""Light between the stripes, as a fraction of that of the stripes, from which the exposure may be
-longer than a chip, and from which it is so."""
+"""Light between the stripes relative to that of the stripes above which the exposure may be longer
+than a chip, and above which it is."""
 
-_SAME_PERIOD = 0.03
-"""Fraction by which the distance of a lamp's edges may differ from that after which its light repeats.
-"""
+_PERIOD_TOLERANCE = 0.03
+"""Maximum relative difference of a period from the edges and from the autocorrelation."""
 
-_WITHIN = 0.5
-"""Fraction of a lamp within another one from which it is a part of that one."""
+_MOST_SHARED = 0.5
+"""Fraction of a lamp inside another one above which it is a part of that one."""
 
 _GLOW, _GLOW_STRIPS = 0.5, 4
-"""Fraction of a lamp's light, and number of strips, up to which stripes at its rim are its glow."""
+"""Brightness relative to a lamp, and number of strips, below which stripes at its rim are its
+glow."""
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:
@@ -157,7 +157,7 @@ def _is_seen(
         one.strip for one in segments
         if first <= one.strip <= last and _is_of(one, timing)
     }  # fmt: skip
-    return len(shown) >= _LEAST_PERIODIC_STRIPS * len(spans)
+    return len(shown) >= _LEAST_STRIP_FRACTION * len(spans)
 
 
 def _is_of(segment: Segment, timing: LampTiming) -> bool:
@@ -170,7 +170,7 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
     if abs(segment.chip - timing.chip) > _CHIP_TOLERANCE * timing.chip:
         return False
     near = np.count_nonzero(matches(segment.edges, timing.edges, _near(timing)))
-    return bool(near > 2 and near >= _OWN * len(segment.edges))
+    return bool(near > 2 and near >= _LEAST_OWN * len(segment.edges))
 
 
 def _near(timing: LampTiming) -> float:
@@ -183,7 +183,9 @@ def _columns(spans: IndexArray) -> int:
 
 def _least_columns(timing: LampTiming) -> float:
     """Return the columns that a lamp fills at least, if a period is to be seen repeating."""
-    return _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _REPEATED * timing.spacing)
+    return (
+        _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _LEAST_PERIODS * timing.spacing)
+    )
 
 
 def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:
@@ -221,7 +223,7 @@ def _counts_some(one: Blinking, means: FloatArray) -> bool:
     found = repeat_period(without_trend(inner.mean(axis=0)))
     if period is None or found is None:
         return True
-    return abs(found[0] - period) > _SAME_PERIOD * period
+    return abs(found[0] - period) > _PERIOD_TOLERANCE * period
 
 
 def _is_lamp(timing: LampTiming) -> bool:
@@ -232,7 +234,7 @@ def _is_lamp(timing: LampTiming) -> bool:
     if timing.is_code or len(edges) > _FEW_EDGES or not edges.rises[0]:
         return True
     lit = (timing.fall - timing.rise) / timing.spacing % 1.0
-    return lit <= _PANES
+    return lit <= _MOST_LIT
 
 
 def _without_glow(blinking: Sequence[Blinking]) -> list[Blinking]:
@@ -265,7 +267,7 @@ def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
     for one in ordered:
         # A lamp may lie within the light that another one scatters.
         near = [other for other in kept if other.light > _GLOW * one.light]
-        if all(_shared(one.lamp, other.lamp) < _WITHIN for other in near):
+        if all(_shared(one.lamp, other.lamp) < _MOST_SHARED for other in near):
             kept.append(one)
     return kept
 
@@ -282,9 +284,9 @@ def _with_doubts(blinking: Sequence[Blinking]) -> list[Blinking]:
     """Mark what is faint beside the brightest one, and leave out what is little else than noise."""
     brightest = max((one.light for one in blinking), default=0.0)
     return [
-        replace(one, lamp=replace(one.lamp, is_faint=one.light < _REFLECTION_FRACTION * brightest))
+        replace(one, lamp=replace(one.lamp, is_faint=one.light < _FAINT * brightest))
         for one in blinking
-        if one.light >= _SILENT * brightest or (one.lamp.periods or _SELDOM) >= _SELDOM
+        if one.light >= _FAINTEST * brightest or (one.lamp.periods or _FEW_PERIODS) >= _FEW_PERIODS
     ]
 
 
@@ -297,7 +299,7 @@ def _without_reflections(blinking: Sequence[Blinking]) -> list[Lamp]:
         source = next(
             (
                 number for number, lamp in enumerate(kept)
-                if one.light < _FAINT * lamp.light and lamp.timing.agrees(one.timing)
+                if one.light < _MOST_REFLECTED * lamp.light and lamp.timing.agrees(one.timing)
             ),
             None,
         )  # fmt: skip

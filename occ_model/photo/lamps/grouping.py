@@ -11,27 +11,24 @@ import numpy as np
 from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.segments import Segment
 
-_MOST_STRIP_DISTANCE = 2
-"""Strips beyond which a segment is no neighbour: noise may hide a lamp in one between."""
+_MOST_DISTANCE = 2
+"""Maximum distance of neighbouring segments in strips: noise may hide a lamp in one between."""
 
 _LEAST_EQUAL_FRACTION = 0.65
-"""Fraction of the edges of two segments that must agree.
-
-Of the longer one: in a strip, noise or a rim can join the edges of two lamps side by side, and such
-a segment must not join the lamps.
-"""
+"""Minimum fraction of equal edges of two segments, relative to the longer one: in a strip, noise or
+a rim can join the edges of two lamps, and such a segment must not join the lamps."""
 
 _LEAST_EQUAL_EDGES = 3
-"""Fewest edges that must agree."""
+"""Minimum number of equal edges."""
 
 _EDGE_TOLERANCE = 0.06
-"""Fraction of a chip, besides a column, by which edges of one lamp may differ."""
+"""Maximum distance of equal edges in chips, besides a column."""
 
 LEAST_STRIPS = 2
-"""Strips that show a lamp at least: noise makes edges alike in one."""
+"""Minimum number of strips of a lamp: in one, noise makes edges equal."""
 
-_SHARED = 0.2
-"""Fraction of a group's strips that must show an edge."""
+_LEAST_STRIP_FRACTION = 0.2
+"""Minimum fraction of a group's strips that show an edge."""
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
@@ -51,7 +48,7 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
     for index, segment in enumerate(segments):
         by_strip.setdefault(segment.strip, []).append(index)
     for index, segment in enumerate(segments):
-        for strip in range(segment.strip + 1, segment.strip + 1 + _MOST_STRIP_DISTANCE):
+        for strip in range(segment.strip + 1, segment.strip + 1 + _MOST_DISTANCE):
             for other in by_strip.get(strip, ()):
                 if _agree(segment, segments[other]):
                     parents[root(other)] = root(index)
@@ -85,7 +82,7 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
     low = np.concatenate([one.edges.low for one in group])
     high = np.concatenate([one.edges.high for one in group])
     rows: list[tuple[float, bool, float, float, int]] = []
-    least = max(LEAST_STRIPS, _SHARED * len(group))
+    least = max(LEAST_STRIPS, _LEAST_STRIP_FRACTION * len(group))
     for kind in (True, False):
         order = np.flatnonzero(rises == kind)
         order = order[np.argsort(place[order], kind="stable")]

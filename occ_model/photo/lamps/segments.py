@@ -14,47 +14,48 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.lamps.edges import Edges
 
 _TOLERANCE = 0.04
-"""Fraction of a period by which an edge may lie off its place, besides that of a column."""
+"""Maximum distance of an edge from its place, in periods and, besides, in columns."""
 
-_COLUMN = 0.8
+_COLUMN_TOLERANCE = 0.8
 """Columns by which an edge may lie off its place: pixels and noise."""
 
 _LEAST_EDGES = 4
-"""Fewest edges of a lamp: two rising and two falling ones."""
+"""Minimum number of edges of a lamp: two rising and two falling ones."""
 
-_RIM_EDGES = 4
-"""Edges by which a code must explain more than a progression does: a lamp's rim has two of them."""
+_LEAST_MORE_EDGES = 4
+"""Minimum number of edges by which a code must exceed a progression: a lamp's rim has two."""
 
 _MOST_LAMPS = 64
-"""Largest number of lamps beside each other in a strip: of more, those of the strongest stripes."""
+"""Maximum number of lamps in a strip; of more, those with the strongest stripes."""
 
-_GAP_RATIO = 5.0
-"""Ratio to the median distance of edges from which a gap lies between two lamps."""
+_MOST_GAP_RATIO = 5.0
+"""Ratio to the median distance of edges above which a gap lies between two lamps."""
 
-_LONG_EDGES, _ALL = 6, 0.9
-"""Edges of a long progression, and share of a code's edges from which those are all of them."""
+_LONG_EDGES, _NEARLY_ALL = 6, 0.9
+"""Number of edges of a long progression, and fraction of a code's edges above which progressions
+explain all of them."""
 
-_CODE_EDGES = 7
-"""Fewest edges from which the length of a chip is told."""
+_LEAST_CODE_EDGES = 7
+"""Minimum number of edges of a code."""
 
 _MOST_EDGES = 400
-"""Most edges of a strip in which codes are searched; more are those of textures."""
+"""Number of edges in a strip above which they are those of a texture."""
 
-_ON_LATTICE, _BLURRED = 0.9, 0.5
-"""Coherence of edges with a lattice of long chips from which they are those of one code, and what
-is taken off it, in columns a chip: pixels and blur move the edges of short ones."""
+_LEAST_COHERENCE, _COLUMN_COHERENCE = 0.9, 0.5
+"""Minimum coherence of edges with the lattice of a code of long chips, and its decrease in columns
+per chip: pixels and blur shift the edges of short ones."""
 
 _SHORTEST, _LONGEST, _STEPS = 0.72, 1.4, 200
-"""Lengths of a chip that are tried: ratios to the distances of near edges, and their number."""
+"""Chip lengths that are tried, relative to the distances of near edges, and their number."""
 
-_OFF_LATTICE = 0.2
-"""Fraction of a chip by which a code's edge may lie off its lattice."""
+_MOST_OFF = 0.2
+"""Maximum distance of a code's edge from its lattice in chips."""
 
 _LONGEST_RUN = 5.5
-"""Chips of the longest run within a code; beyond it another lamp begins."""
+"""Longest run of a code in chips; beyond it another lamp begins."""
 
-_UNLIKE = 0.4
-"""Ratio of neighbouring steps' sizes from which they are those of two lamps."""
+_LEAST_STEP_RATIO = 0.4
+"""Minimum ratio of neighbouring steps of one lamp."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -104,7 +105,7 @@ def segments_of(
         coded = _code_within(edges, first, last) if codes else None
         if (
             coded is not None
-            and coded[1] - coded[0] >= end - begin + _RIM_EDGES
+            and coded[1] - coded[0] >= end - begin + _LEAST_MORE_EDGES
             and not _are_pulses(progressions, *coded[:2])
         ):
             begin, end, chip = coded
@@ -134,7 +135,7 @@ def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: in
     """Whether a few long progressions explain edges as well: lamps of about the same period."""
     inside = _clipped(progressions, first, last)
     long = sum(end - begin for begin, end, _ in inside if end - begin >= _LONG_EDGES)
-    return long >= _ALL * (last - first)
+    return long >= _NEARLY_ALL * (last - first)
 
 
 def _clipped(
@@ -154,7 +155,7 @@ def _progressions(place: FloatArray, tolerance: float) -> list[tuple[int, int, f
         total, end = apart[begin], begin + 1
         while end < len(apart):
             period = total / (end - begin)
-            if abs(apart[end] - period) > tolerance * (_TOLERANCE * period + _COLUMN):
+            if abs(apart[end] - period) > tolerance * (_TOLERANCE * period + _COLUMN_TOLERANCE):
                 break
             total += apart[end]
             end += 1
@@ -166,7 +167,7 @@ def _progressions(place: FloatArray, tolerance: float) -> list[tuple[int, int, f
 
 def _code_within(edges: Edges, first: int, last: int) -> tuple[int, int, float] | None:
     """Find the longest stretch of edges that lie on a lattice, with the columns of a chip."""
-    if not _CODE_EDGES <= last - first <= _MOST_EDGES:
+    if not _LEAST_CODE_EDGES <= last - first <= _MOST_EDGES:
         return None
     best: tuple[int, int, float] | None = None
     for begin, end in _stretches(edges.part(first, last)):
@@ -190,7 +191,7 @@ def _without_strangers(edges: Edges, first: int, last: int, chip: float) -> tupl
             )
         )
     gaps = np.diff(edges.place[first:last])
-    wrong = off > 2.0 * np.pi * _OFF_LATTICE
+    wrong = off > 2.0 * np.pi * _MOST_OFF
     begin, end = 0, last - first
     while end - begin > _LEAST_EDGES and (wrong[begin] or gaps[begin] > _LONGEST_RUN * chip):
         begin += 1
@@ -203,7 +204,9 @@ def _stretches(edges: Edges) -> list[tuple[int, int]]:
     """Split edges at wide gaps, and where steps become much smaller or larger."""
     gaps, swings = np.diff(edges.place), edges.high - edges.low
     ratio = np.minimum(swings[1:], swings[:-1]) / np.maximum(swings[1:], swings[:-1])
-    cuts = np.flatnonzero((gaps > _GAP_RATIO * np.median(gaps)) | (ratio < _UNLIKE)) + 1
+    cuts = (
+        np.flatnonzero((gaps > _MOST_GAP_RATIO * np.median(gaps)) | (ratio < _LEAST_STEP_RATIO)) + 1
+    )
     return list(itertools.pairwise([0, *cuts.tolist(), len(edges)]))
 
 
@@ -213,14 +216,14 @@ def chip_of(edges: Edges) -> float | None:
     Rising and falling edges have a lattice each: a camera's tone curve and saturation shift them
     oppositely. The outermost edges may be those of the lamp's rim.
     """
-    if len(edges) < _CODE_EDGES:
+    if len(edges) < _LEAST_CODE_EDGES:
         return None
     near, usual = np.quantile(np.diff(edges.place[1:-1]), [0.1, 0.25]).tolist()
     chips = np.geomspace(_SHORTEST * near, _LONGEST * usual, _STEPS)
     coherence = coherence_of(edges.part(1, len(edges) - 1), chips)
     best = int(np.argmax(coherence))
     chip = float(chips[best])
-    return chip if coherence[best] >= _ON_LATTICE - _BLURRED / chip else None
+    return chip if coherence[best] >= _LEAST_COHERENCE - _COLUMN_COHERENCE / chip else None
 
 
 def coherence_of(edges: Edges, chips: FloatArray) -> FloatArray:

@@ -10,25 +10,25 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
 _EDGE_TOLERANCE = 0.06
-"""Fraction of a chip, besides a column, by which an edge may lie off the lamp's."""
+"""Maximum distance of an edge from the lamp's in chips, besides a column."""
 
-_FAINT = 0.4
-"""Fraction of a lamp's swing below which a strip shows light scattered from it, not the lamp."""
+_LEAST_SWING = 0.4
+"""Minimum swing in a strip relative to the lamp's; less is scattered light."""
 
-_MOSTLY = 0.7
-"""Fraction of the edges between a lamp's outermost ones that must be its own."""
+_LEAST_OWN = 0.7
+"""Minimum fraction of the edges between a lamp's outermost ones that are its own."""
 
-_RIM = 0.4
-"""Fraction of the swing beside it with which a rim cuts a bright stripe."""
+_LEAST_RIM_SWING = 0.4
+"""Minimum swing of a bright stripe that the rim cuts, relative to the edge beside it."""
 
-_CUT_OFF = 0.3
-"""Fraction of a chip by which an edge may lie off its place where a rim cuts the stripe beside it."""
+_CUT_TOLERANCE = 0.3
+"""Maximum distance of an edge from its place in chips where the rim cuts the stripe beside it."""
 
-_WIDER = 1.15
-"""Ratio to a whole bright stripe up to which a stripe is one that the rim cuts."""
+_MOST_WIDTH = 1.15
+"""Maximum width of a stripe that the rim cuts, relative to a whole one."""
 
 _SMOOTH = 2
-"""Strips to either side over whose columns a rim is taken in the median."""
+"""Strips on either side over which the median of a rim is taken."""
 
 
 def spans_of(
@@ -86,18 +86,18 @@ def _rectangles(
 def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float] | None:
     """Return the first and the last column of a lamp in one strip; None if it is not seen there."""
     swing = edges.high - edges.low
-    least = _FAINT * float(np.median(timing.edges.high - timing.edges.low))
+    least = _LEAST_SWING * float(np.median(timing.edges.high - timing.edges.low))
     shared = np.flatnonzero(
         matches(edges, timing.edges, 1.0 + _EDGE_TOLERANCE * timing.chip) & (swing > least)
     )
     if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None
     begin, end = int(shared[0]), int(shared[-1])
-    if len(shared) < _MOSTLY * np.count_nonzero(swing[begin : end + 1] > least):
+    if len(shared) < _LEAST_OWN * np.count_nonzero(swing[begin : end + 1] > least):
         return None
     begin, end = _with_cut_stripes(edges, begin, end, timing)
     first, last = float(edges.place[begin]), float(edges.place[end])
-    stripe = _WIDER * timing.longest_stripe
+    stripe = _MOST_WIDTH * timing.longest_stripe
     if begin == 0 and not edges.rises[begin] and first < stripe:
         first = 0.0  # the border of the picture cuts the stripe
     elif begin > 0 and _is_rim(edges, begin - 1, begin, stripe):
@@ -114,14 +114,14 @@ def _with_cut_stripes(edges: Edges, begin: int, end: int, timing: LampTiming) ->
     swing = edges.high - edges.low
 
     def is_own(at: int, beside: int) -> bool:
-        if not 0 <= at < len(edges) or swing[at] < _RIM * swing[beside]:
+        if not 0 <= at < len(edges) or swing[at] < _LEAST_RIM_SWING * swing[beside]:
             return False
         outward = edges.rises[at] == (at > beside)  # a bright stripe lies beyond it
         start = timing.rise if edges.rises[at] else timing.fall
         turns = (float(edges.place[at]) - start) / timing.spacing
         near = abs(edges.place[at] - edges.place[beside]) < 1.5 * timing.spacing
         off = abs(turns - round(turns)) * timing.spacing
-        return bool(outward and near and off < _CUT_OFF * timing.chip)
+        return bool(outward and near and off < _CUT_TOLERANCE * timing.chip)
 
     if timing.is_code:
         return begin, end
@@ -132,7 +132,9 @@ def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:
     """Whether an edge beside a lamp's is that of a bright stripe which the lamp's rim cuts."""
     swing = edges.high - edges.low
     near = abs(edges.place[at] - edges.place[beside]) < stripe
-    return bool(near and edges.rises[at] == (at < beside) and swing[at] > _RIM * swing[beside])
+    return bool(
+        near and edges.rises[at] == (at < beside) and swing[at] > _LEAST_RIM_SWING * swing[beside]
+    )
 
 
 def around(spans: IndexArray) -> Region:

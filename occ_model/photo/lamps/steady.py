@@ -11,19 +11,19 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
 _BRIGHT = 0.6
-"""Fraction of white from which a place is bright."""
+"""Fraction of white above which a place is bright."""
 
 _ABOVE_MEDIAN = 1.6
-"""Ratio to the picture's median from which a place stands out of it."""
+"""Ratio to the picture's median above which a place is bright."""
 
-_LEAST_SHARE = 3e-4
-"""Fraction of the picture that a lamp fills at least."""
+_LEAST_AREA = 3e-4
+"""Minimum area of a lamp relative to the picture."""
 
-_OWN = 0.3
-"""Largest share of a bright place that lies within lamps with stripes."""
+_MOST_BLINKING = 0.3
+"""Maximum fraction of a bright place inside lamps with stripes."""
 
 _MOST_COLUMNS = 512
-"""Columns to which a picture is reduced: lamps of constant light have no fine stripes."""
+"""Number of columns to which a picture is reduced: there are no fine stripes to be seen."""
 
 
 def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]) -> list[Lamp]:
@@ -51,7 +51,7 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
     for label in range(1, count):
         place = labels == label
         area = int(stats[label, cv2.CC_STAT_AREA])
-        if area < _LEAST_SHARE * labels.size or np.mean(taken[place]) > _OWN:
+        if area < _LEAST_AREA * labels.size or np.mean(taken[place]) > _MOST_BLINKING:
             continue
         spans = _spans(place, bounds, columns / narrow)
         region = Region(

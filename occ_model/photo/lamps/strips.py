@@ -13,11 +13,9 @@ _MOST_STRIPS = 160
 _LEAST_ROWS = 8
 
 _FINE, _CELL = 2000, 4
-"""Columns from which a photo is averaged over cells of so many columns.
-
-Sensors of many pixels have colour filters of 2 by 2 or 4 by 4 pixels in one colour; on the steep
-edges of a lamp what is interpolated from them leaves a pattern that repeats after 4 columns.
-"""
+"""Number of columns above which columns are averaged in cells of so many: sensors with many pixels
+have colour filters of 2 by 2 or 4 by 4 pixels of one colour, and what is interpolated from them
+leaves a pattern that repeats after 4 columns on the steep edges of a lamp."""
 
 
 def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, IndexArray]:

@@ -9,32 +9,30 @@ from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import Segment, segments_of
 
 _LATTICE_TOLERANCE = 0.12
-"""Fraction of the spacing by which an edge may lie off a lattice and still count."""
+"""Maximum distance of an edge from a lattice relative to the spacing."""
 
 
 _CODE_OFF, _CODE_COLUMN = 0.045, 0.12
 _PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
-"""Fractions of a chip, and of a column besides, by which the edges of a code, and of a pulse that
-repeats, lie off their lattices at most, on average."""
+"""Maximum root mean square distance of the edges of a code, and of a pulse, from their lattices: in
+chips and, besides, in columns."""
 
 _TIGHTER = 0.5
-"""Fraction of the tolerance of a single strip's edges with which those of many rows are judged."""
+"""Factor of the tolerance for the mean edges of many rows."""
 
-_MUCH_BETTER = 0.5
-"""Fraction of the distances from a code's lattices that is left where a rim is left out."""
+_MOST_RATIO = 0.5
+"""Maximum ratio of the distances from a code's lattices after a rim is left out."""
 
-_CODE_EDGES = 6
-"""Fewest edges that are left of a code."""
+_LEAST_CODE_EDGES = 6
+"""Minimum number of edges that are left of a code."""
 
-_FINEST = 0.1
-"""Columns to which the place of an edge is known at best."""
+_LEAST_DEVIATION = 0.1
+"""Minimum standard deviation of an edge in columns."""
 
-_SAME, _SHADED = 0.003, 0.06
-"""Fractions of the spacing by which those of a lamp and of its reflection may differ.
-
-The second is divided by the number of edges: a lamp that is darker towards its rim, seen on a lit
-wall, has its outer edges a little farther inside.
-"""
+_SPACING_TOLERANCE, _SHADED_TOLERANCE = 0.003, 0.06
+"""Maximum relative difference of the spacings of a lamp and of its reflection; the second divided
+by the number of edges: the outer edges of a lamp that is darker at its rim, seen on a lit wall, lie
+farther inside."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -90,7 +88,7 @@ class LampTiming:
         Of a code, a part that alternates looks like a repeated pulse of two chips.
         """
         spacing = other.chip if self.is_code else other.spacing
-        same = _SAME + _SHADED / len(other.edges)
+        same = _SPACING_TOLERANCE + _SHADED_TOLERANCE / len(other.edges)
         if other.is_code > self.is_code or abs(self.spacing - spacing) > same * self.spacing:
             return False
         offs = []
@@ -151,10 +149,10 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     # The rim of a lamp is an edge too, which lies anywhere.
     for left, right in ((1, 0), (0, 1), (1, 1)) if is_code else ():
         begin, end = first + left, last - right
-        if end - begin < _CODE_EDGES:
+        if end - begin < _LEAST_CODE_EDGES:
             break
         inner = _fitted(edges.part(begin, end), weights[begin:end], spacing)
-        if fit is not None and inner is not None and inner.off < _MUCH_BETTER * fit.off:
+        if fit is not None and inner is not None and inner.off < _MOST_RATIO * fit.off:
             fit = inner
     if fit is None:
         return None
@@ -192,7 +190,9 @@ def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | No
     freedom = max(len(edges) - 3, 1)
     inverse = np.linalg.pinv((shapes * root[:, None]).T @ (shapes * root[:, None]))
     # Edges are found to a tenth of a column at best, whatever few of them happen to agree.
-    variance = max(float(weights @ residual**2) / freedom, float(weights.mean()) * _FINEST**2)
+    variance = max(
+        float(weights @ residual**2) / freedom, float(weights.mean()) * _LEAST_DEVIATION**2
+    )
     deviation = float(np.sqrt(variance * inverse[0, 0]))
     off = float(np.sqrt(np.average(residual**2, weights=weights)))
     spacing, rise, fall = fitted.tolist()

@@ -72,9 +72,9 @@ class MatchValues(QWidget):
         condition = condition_of(match, certain)
         facts = match_facts(match, condition, noted)
         # What they rest on is said once, above them.
-        told = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
-        others = [f"• {text}" for key, text in told if key == "alternative"]
-        texts = dict(told) | {"alternative": "\n".join(others)}
+        shown = [(fact.key, str(fact).replace(condition, "")) for fact in facts]
+        others = [f"• {text}" for key, text in shown if key == "alternative"]
+        texts = dict(shown) | {"alternative": "\n".join(others)}
         if "gamma" not in match.uncertainties:  # the scene's says nothing of the photo
             texts["gamma"] = ""
         for name, label in self.labels.items():

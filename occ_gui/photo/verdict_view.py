@@ -10,7 +10,7 @@ from occ_gui.widgets.state_look import State, colours_of
 from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
-"""A sign for each verdict, so that none is told by a colour alone."""
+"""A sign for each verdict, so that none rests on a colour alone."""
 
 _STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
 """Whose colours the plate has, as the bar at the top has."""

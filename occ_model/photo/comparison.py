@@ -45,7 +45,7 @@ def compare(
         Columns of the simulation per column of the photo.
     swing : ndarray of float64, shape (columns of the photo,), or None
         Height of the photo's stripes before they were flattened: faint ones count as much less as
-        they were stretched. None: all count alike.
+        they were stretched. None: all count equally.
 
     Returns
     -------

@@ -12,8 +12,8 @@ _LIMIT_DEVIATIONS = 2.0
 def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
     """Write an estimate with its standard deviation, to the digits that are significant.
 
-    An exposure time that is hardly known is told by what it is below: no time is negative, as the
-    value less its error would be.
+    An exposure time that is hardly known is stated as an upper limit, since the value less its
+    error would be negative.
 
     Parameters
     ----------

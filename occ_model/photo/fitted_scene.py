@@ -130,7 +130,7 @@ def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]
     limit = _MOST_UNSURE if share <= _MOST_UNKNOWN else _MOST_UNKNOWN
     shown, most = told_apart(100.0 * share, 100.0 * limit)
     what = PARAMETERS[estimate].label.lower()
-    sentence = f"The stripes tell the {what} only to {shown} %; at most {most} % are allowed."
+    sentence = f"The {what} is known only to {shown} %; at most {most} % are allowed."
     if share > _MOST_UNKNOWN:
         raise MatchError(sentence)
     return [sentence]
@@ -161,7 +161,7 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
 def _within_pulse(fit: StripeFit, shortest: int) -> StripeFit:
     """Let a step be no more uncertain than by what edges are at the right chips.
 
-    Sharp edges that lie exactly between columns leave a fit no slope that tells the step.
+    Sharp edges that lie exactly between columns leave a fit without a slope over the step.
     """
     most = _MOST_EDGE_ERROR * shortest / len(fit.profile)
     factor = np.ones(4)

@@ -172,7 +172,7 @@ class _Case:
         )
 
     def may_be_as_sent(self, match: Match) -> bool:
-        """Whether a duty that was searched is that of the scene, as far as its error tells."""
+        """Whether a duty that was searched is that of the scene, within its error."""
         error = match.uncertainties.get("duty")  # a pulse's alone has one
         given = float(sent_chips(self.scene.transmitter).mean())
         return error is not None and abs(match.duty - given) <= _SAME_DUTY * error

@@ -106,7 +106,7 @@ class ManyPhotosView(QWidget):
         self._show_title()
 
     def _lay_out(self) -> None:
-        """Lay the table beside what the photos tell together: the pane is wide and low."""
+        """Lay the table beside the results of all photos: the pane is wide and low."""
         self._together = QWidget()
         together = QVBoxLayout(self._together)
         together.setContentsMargins(0, 0, 0, 0)

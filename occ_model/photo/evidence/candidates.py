@@ -125,7 +125,7 @@ class Candidates:
     def dimmed(self, as_sent: Hypothesis | None) -> Hypothesis | None:
         """Suppose the scene's single pulse with another duty, as of a lamp dimmed by its width.
 
-        The exposure blurs both edges of a pulse alike, so that its width at half its height is
+        The exposure blurs both edges of a pulse equally, so that its width at half its height is
         that of the light: the duty is searched near it.
         """
         period, sent = self.stripes.period, canonical(sent_chips(self.scene.transmitter))
@@ -148,9 +148,8 @@ class Candidates:
     def _exchanged(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis:
         """Exchange a pulse and its exposure where that is nearer to what is known of them.
 
-        The stripes of a pulse are its light averaged over the exposure, which the two share alike:
-        which of them is which is seen from neither. Taken is the exposure nearest to the one noted,
-        or the shorter one.
+        The stripes of a pulse are its light averaged over the exposure, which is symmetric in
+        both. The exposure nearest to the noted one is taken, or the shorter one.
         """
         other = self._swapped(found, period, chips_sent)
         if other is None or self._power(other) > _MOST_EXCHANGE_RATIO * self._power(found):
@@ -207,7 +206,7 @@ class Candidates:
         """Take the nearest other chips instead of those that were read, while they explain more.
 
         Chips are read as if white pixels were as bright as the light: where they are not, the fit
-        may tell a few chips better.
+        may determine a few chips better.
 
         Returns
         -------

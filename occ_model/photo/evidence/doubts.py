@@ -102,7 +102,7 @@ def _doubts_by_extent(found: Hypothesis) -> list[str]:
             "are needed."
         )
     one_pulse = is_single_pulse(found.chips)
-    # A pulse and its exposure share the stripes alike: only what the two chips of a period hide.
+    # Stripes are symmetric in a pulse and its exposure: only half a period counts.
     shortest = chips_as_one(found.chips) if one_pulse else min(runs_of(found.chips))
     exposure = found.fit.timing.exposure / shortest
     if exposure > _LONGEST_EXPOSURE:
@@ -186,6 +186,6 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
 
 
 def told_apart(value: float, limit: float) -> tuple[str, str]:
-    """Write two numbers with one decimal, or as many as it takes to tell them apart."""
+    """Write two numbers with one decimal, or as many as show a difference."""
     texts = ((f"{value:.{digits}f}", f"{limit:.{digits}f}") for digits in range(1, 18))
     return next((pair for pair in texts if pair[0] != pair[1]), (str(value), str(limit)))

@@ -57,7 +57,7 @@ class Hypothesis:
 
     @property
     def counted_chips(self) -> float:
-        """How many chips in view count: of a pulse two a period, however finely it is told."""
+        """How many chips in view count: of a pulse two a period, however fine its chips are."""
         return self.chips_in_view / chips_as_one(self.chips)
 
     @property

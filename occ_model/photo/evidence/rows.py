@@ -16,7 +16,7 @@ def rows_alike(photo: Photo, region: Region) -> float:
     """Return the correlation of a band of rows with the other ones, in the median of the bands.
 
     Slow changes along the columns are removed: the shape of the lamp differs between the rows. A
-    rolling shutter's stripes are those of the time, hence alike in all rows but for noise; those of
+    rolling shutter's stripes are the same in all rows but for noise; those of
     a picture's objects are not where they lean, end, or are broken.
 
     Returns

@@ -29,17 +29,17 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
     The estimate is the fit of the median exposure: where an edge is either blur's or the
     exposure's, the mean of both is neither. The deviation is that of densities which are trusted
     less, since they are of noise alone. An exposure that has shrunk to nothing, a gamma at its
-    bound, or a step that is far less known than by another fit, has no slope, which tells no
+    bound, or a step that is far less known than by another fit, has no slope, and so no
     covariance: such a fit counts only where there is no other.
     """
     most = _MOST_STEP_RATIO**2 * min(one.covariance[0, 0] for one in fits)
     known = [one for one in fits if one.covariance[0, 0] <= most]
-    tell = [
+    usable = [
         one
         for one in known
         if one.exposure > _LEAST_EXPOSURE and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
     ]
-    fits = sorted(tell or known, key=lambda fit: fit.exposure)
+    fits = sorted(usable or known, key=lambda fit: fit.exposure)
     likeliest = min(fits, key=lambda fit: fit.misfit)
     likely = np.cumsum(_weights(np.array([fit.misfit for fit in fits])))
     middle = fits[int(np.searchsorted(likely, 0.5))].values

@@ -1,4 +1,4 @@
-"""Fit an exposure that may be mistaken for blur: edges tell how wide both are together."""
+"""Fit an exposure that may be mistaken for blur: edges show the width of both together."""
 
 import math
 from collections.abc import Sequence

@@ -127,7 +127,7 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
         Chips a column, where no pixel is white. The light then passes half its height within each
         edge's ramp, whatever the tone curve: bright runs are longer by less than a ramp, which
         lasts the exposure and, by blur, a column. White hides the upper part of a ramp, so that
-        this tells nothing of saturated stripes.
+        this does not hold for saturated stripes.
     """
     # Imported only when a photo is matched: it is slow.
     from scipy.optimize import minimize

@@ -33,8 +33,8 @@ def covariance_of(
     tails : ndarray of float64, shape (residuals,)
         Their change by one standard deviation of the blur's tails.
     block : ndarray of int64, shape (data,)
-        The block of each of the data. All profiles show the same stripes, compressed alike: a block
-        holds the columns of all of them.
+        The block of each of the data. All profiles show the same stripes with the same errors of
+        compression: a block holds the columns of all of them.
     """
     information = slopes.T @ slopes
     information[np.diag_indices_from(information)] += 1e-9

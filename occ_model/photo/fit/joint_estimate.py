@@ -63,7 +63,7 @@ _MOST_LOSS = 0.02
 columns, where 5.4 was right, had correlations of 0.944 and 0.988."""
 
 _CONTRADICTION = (
-    "The pixels that are lit alike tell another exposure than the mean of all pixels: its stated "
+    "The pixels that are lit equally give another exposure than the mean of all pixels: its stated "
     "error may not hold."
 )
 
@@ -152,7 +152,7 @@ def _modes(
 ) -> tuple[list[JointFit], list[JointFit]]:
     """Find the exposures that are about as likely as the most likely one, that one first.
 
-    Besides, for a square wave, those that are less likely, but too alike to be told apart surely.
+    Besides, for a square wave, those that are less likely, but not surely distinguishable.
     """
     first = models[0]
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
@@ -224,7 +224,7 @@ def _other_starts(
 
 
 def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:
-    """Take the step from the mean of all pixels: where white hides the edges, it tells more."""
+    """Take the step from the mean of all pixels: it is better known where white hides the edges."""
     best = min(explanation.fits, key=lambda fit: fit.residual)
     values, covariance = mode.values.copy(), mode.covariance.copy()
     values[0] = best.timing.step
@@ -332,7 +332,7 @@ def _exposure_doubts(seen: float, alike: Sequence[JointFit]) -> tuple[str, ...]:
     if seen < _LEAST_EDGES:
         doubts.append(
             f"White hides the stripes' edges: only {100.0 * seen:.0f} % of their columns are seen "
-            f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed to tell the "
+            f"without clipping; at least {100.0 * _LEAST_EDGES:.0f} % are needed for the "
             "exposure time. Expose less."
         )
     if alike:

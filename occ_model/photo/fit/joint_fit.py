@@ -110,7 +110,7 @@ class JointModel:
     Parameters
     ----------
     profiles
-        The profiles of pixels that are lit alike.
+        The profiles of pixels that are lit equally.
     chips : ndarray of uint8, shape (chips,)
         One period.
     step

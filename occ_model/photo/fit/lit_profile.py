@@ -1,4 +1,4 @@
-"""The model of one profile of pixels that are lit alike: its levels, and the residual they leave.
+"""The model of one profile of pixels that are lit equally: its levels, and the residual they leave.
 
 For given lit fractions and a given tone curve the levels are found by linear least squares, so that
 a search need not know them (variable projection: Golub and Pereyra, SIAM J. Numer. Anal. 10:413,

@@ -145,10 +145,10 @@ def _middles(turns: IndexArray, levels: FloatArray) -> tuple[FloatArray, FloatAr
     span = np.maximum.reduce([levels[:-1], levels[1:], highest[:-1], highest[1:]])
     span = span - np.minimum.reduce([levels[:-1], levels[1:], lowest[:-1], lowest[1:]])
     low, high = np.minimum(levels[:-1], levels[1:]), np.maximum(levels[:-1], levels[1:])
-    alike = np.abs(steps) > _LEAST_SWING_RATIO * span
+    is_regular = np.abs(steps) > _LEAST_SWING_RATIO * span
     for end in (middle[:-1], middle[1:]):
-        alike &= (end > low) & (end < high)
-    return np.where(alike, middle[:-1], own), np.where(alike, middle[1:], own)
+        is_regular &= (end > low) & (end < high)
+    return np.where(is_regular, middle[:-1], own), np.where(is_regular, middle[1:], own)
 
 
 def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> FloatArray:

@@ -59,7 +59,7 @@ def without_halo(
         here = np.flatnonzero(shape[strip - first])
         if here.size:
             near, far = left + here[0] * width, left + (here[-1] + 1) * width
-            # A cell tells its column roughly: the stripes' edges are better where they are near.
+            # Cells are coarse: the edges of stripes are better where they are near.
             begin = begin if near < begin + 2 * width else round(near)
             end = end if far > end - 2 * width else round(far)
             if end > begin:

@@ -1,4 +1,4 @@
-"""Average the rows of a photo in strips: a lamp's stripes are alike in all its rows."""
+"""Average the rows of a photo in strips: a lamp's stripes are the same in all its rows."""
 
 from collections.abc import Callable
 

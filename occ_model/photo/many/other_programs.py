@@ -8,7 +8,7 @@ OpenDroneMap has the options ``--rolling-shutter`` and ``--rolling-shutter-reado
 Gyroflow has the fields ``frame_readout_time`` and ``frame_readout_direction`` in its lens profiles
 (``src/core/lens_profile.rs``), as has the head of its text format for motion data, GCSV
 (https://docs.gyroflow.xyz/app/technical-details/gcsv-format). A profile names the direction
-``TopToBottom``, ``BottomToTop``, ``LeftToRight`` or ``RightToLeft``. Stripes tell along which axis
+``TopToBottom``, ``BottomToTop``, ``LeftToRight`` or ``RightToLeft``. Stripes show along which axis
 the sensor is read out, but not from which end; most are read from the top.
 """
 

@@ -21,8 +21,8 @@ def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:
     counted = [place for place in sure if place not in outliers]
     noted = [row.noted_exposure for row in (rows[p] for p in counted) if row.noted_exposure]
     differ = bool(noted) and max(noted) > _SAME_EXPOSURE * min(noted)
-    told = [place for place in counted if rows[place].exposure_verdict == SURE]
-    exposure = None if differ else _combined(rows, told, "exposure_time")
+    sure = [place for place in counted if rows[place].exposure_verdict == SURE]
+    exposure = None if differ else _combined(rows, sure, "exposure_time")
     table = PhotoTable(settings.scene, settings.estimate, tuple(rows), estimated, exposure)
     return replace(table, notes=tuple(_notes(table, noted if differ else [])))
 

@@ -1,7 +1,7 @@
 """Gather the pixels of a lamp that are about equally bright into profiles of their own.
 
 A mean over pixels of which some are clipped is no response of any light. Within a group of pixels
-that the lamp lights alike, each column is either clipped, or tells the light exactly. A round lamp
+that the lamp lights equally, each column is either clipped or a response to one light. A round lamp
 has such groups too, and its profile's swing then does not follow its disc.
 """
 
@@ -76,7 +76,7 @@ class EvenProfile:
     rows: float
 
     @property
-    def tells(self) -> float:
+    def information(self) -> float:
         """Its information: its columns times the fraction of noise that its rows average out."""
         return float(self.kept.sum()) * self.rows / (self.rows + _HALF_WEIGHT_ROWS)
 
@@ -118,7 +118,7 @@ class Cells:
         )
 
     def profiles(self, width: int) -> list[EvenProfile]:
-        """Return the profiles of pixels that are lit alike.
+        """Return the profiles of pixels that are lit equally.
 
         Parameters
         ----------
@@ -136,7 +136,7 @@ class Cells:
             groups = self._groups(rows)
         found = [self._profile(shows & group[:, None]) for group in groups]
         profiles = [one for one in found if one is not None]
-        profiles.sort(key=lambda one: -one.tells)
+        profiles.sort(key=lambda one: -one.information)
         return profiles[:_MOST_GROUPS]
 
     def _groups(self, rows: FloatArray) -> list[NDArray[np.bool_]]:

@@ -43,20 +43,20 @@ def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
 
 def _rough_period(flattened: FloatArray) -> float | None:
     """Find the shortest lag whose autocorrelation is about the best."""
-    alike = autocorrelation(flattened)
-    count = int(_LONGEST_FRACTION * len(alike))
-    negative = np.flatnonzero(alike[:count] < 0.0)
+    correlations = autocorrelation(flattened)
+    count = int(_LONGEST_FRACTION * len(correlations))
+    negative = np.flatnonzero(correlations[:count] < 0.0)
     start = max(_SHORTEST, int(negative[0]) if negative.size else _SHORTEST)
-    inner = alike[start : count - 1]
+    inner = correlations[start : count - 1]
     if inner.size < 1:
         return None
     peaks = start + np.flatnonzero(
-        (inner >= alike[start - 1 : count - 2]) & (inner >= alike[start + 1 : count])
+        (inner >= correlations[start - 1 : count - 2]) & (inner >= correlations[start + 1 : count])
     )
     if peaks.size == 0:
         return None
     # The peak of a short period lies up to half a column off a lag: a parabola gives its height.
-    before, here, after = alike[peaks - 1], alike[peaks], alike[peaks + 1]
+    before, here, after = correlations[peaks - 1], correlations[peaks], correlations[peaks + 1]
     bend = np.minimum(before - 2.0 * here + after, -1e-12)
     aside = np.clip(0.5 * (before - after) / bend, -0.5, 0.5)
     height = here - 0.25 * (before - after) * aside
@@ -128,7 +128,7 @@ def without_repetition(flattened: FloatArray, period: float) -> FloatArray:
 
 
 def harmonics_within(columns: int, period: float) -> int:
-    """Return the number of harmonics of a repeated wave that columns tell apart."""
+    """Return the number of harmonics of a repeated wave that columns resolve."""
     return int(np.clip(period / 2.5, 1, min(_MOST_HARMONICS, columns / 6)))
 
 
@@ -149,8 +149,8 @@ def correlated_columns(residual: FloatArray) -> float:
     """Return the number of columns of a fit's residual that count as one independent value.
 
     1 + 2 times the sum of the autocorrelations up to the first that is not positive. Neighbouring
-    columns are not independent where an effect outside the model, such as a lens's blur, is alike
-    in them.
+    columns are not independent where an effect outside the model, such as a lens's blur, is the
+    same in them.
 
     Parameters
     ----------
@@ -161,6 +161,6 @@ def correlated_columns(residual: FloatArray) -> float:
     if power <= 0.0:
         return 1.0
     spectrum = np.abs(np.fft.rfft(residual, 2 * len(residual))) ** 2
-    alike = np.fft.irfft(spectrum)[1 : len(residual)] / power
-    ends = np.flatnonzero(alike <= 0.0)
-    return 1.0 + 2.0 * float(alike[: ends[0] if ends.size else None].sum())
+    correlations = np.fft.irfft(spectrum)[1 : len(residual)] / power
+    ends = np.flatnonzero(correlations <= 0.0)
+    return 1.0 + 2.0 * float(correlations[: ends[0] if ends.size else None].sum())

@@ -83,7 +83,7 @@ def test_a_gamma_that_was_given_has_no_uncertainty() -> None:
 def test_a_readout_time_that_is_hardly_known_is_doubtful_or_refused() -> None:
     assert _doubts_by_error("readout_time", 1.0, 0.03) == []
     (why,) = _doubts_by_error("readout_time", 1.0, 0.0301)
-    assert why.startswith("The stripes tell the readout time only to 3.01 %; at most 3.00 %")
+    assert why.startswith("The readout time is known only to 3.01 %; at most 3.00 %")
     assert _doubts_by_error("switching_frequency", 1.0, 0.1)
     with pytest.raises(occ.MatchError, match=r"switching frequency only to 11.0 %; at most 10.0 %"):
         _doubts_by_error("switching_frequency", 1.0, 0.11)

@@ -1,4 +1,4 @@
-"""Pixels that are lit alike are fitted together, and explanations that are alike are averaged."""
+"""Pixels that are lit equally are fitted together, and explanations that are alike are averaged."""
 
 import math
 
@@ -91,5 +91,5 @@ def test_what_pixels_that_are_lit_alike_contradict_is_the_exposure_alone(seed: i
     found = trial(random_world(seed))
     assert found.is_sure
     assert abs(found.readout) < 2.0 * found.readout_deviation
-    assert any("lit alike tell another exposure" in why for why in found.exposure_doubts)
+    assert any("lit equally give another exposure" in why for why in found.exposure_doubts)
     assert not found.is_sure_of("exposure")

@@ -26,7 +26,7 @@ from occ_model.results.lamp import Lamp
 def lamp_at(region: Region, modulated: bool = True, periods: float = 6.0) -> Lamp:
     spans = np.array([[region.first_row, region.last_row, region.first_column, region.last_column]])
     product = 0.1 if modulated else None
-    return Lamp(region, spans, 200.0, modulated, 20.0, 0.1, product, 0.001, periods)
+    return Lamp(region, spans, 200.0, modulated, 20.0, 0.02, product, 1e-4, periods)
 
 
 LAMPS = (
@@ -83,9 +83,14 @@ def test_every_lamp_has_an_outline_and_a_row(
         ]
         for row in range(3)
     ]
-    assert texts[0] == ["1", "10 to 39", "10.00 px", "6.0"]
+    assert texts[0] == ["1", "10 to 39", "10.000 ± 0.010 px", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
+    doubtful = bench.form.table.item(2, 3)
+    assert doubtful is not None
+    assert (
+        doubtful.toolTip() == "Doubtful: only 2.1 periods are in view, which can be a coincidence."
+    )
 
 
 def test_a_click_within_a_lamp_chooses_it(

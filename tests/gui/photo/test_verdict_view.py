@@ -98,7 +98,7 @@ def test_the_figures_that_a_verdict_rests_on_are_shown(
     texts = {name: label.text() for name, label in view.result.values.items()}
     assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
     assert texts["exposed"] == "0.125"
-    assert texts["duty"] == "lit for 50 % of a period"
+    assert texts["duty"] == "lit for 50 % of a period (given)"
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
     assert texts["noted"] == "62.5 µs"
 

@@ -85,7 +85,9 @@ def test_a_readout_time_that_is_hardly_known_is_doubtful_or_refused() -> None:
     (why,) = _doubts_by_error("readout_time", 1.0, 0.0301)
     assert why.startswith("The readout time is known only to 3.01 %; at most 3.00 %")
     assert _doubts_by_error("switching_frequency", 1.0, 0.1)
-    with pytest.raises(occ.MatchError, match=r"switching frequency only to 11.0 %; at most 10.0 %"):
+    with pytest.raises(
+        occ.MatchError, match=r"switching frequency is known only to 11.0 %; at most 10.0 %"
+    ):
         _doubts_by_error("switching_frequency", 1.0, 0.11)
 
 

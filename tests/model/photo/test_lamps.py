@@ -1,5 +1,7 @@
 """Several lamps in one photo: each is found, with its frequency, and matched by itself."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from photo_world.hot_lamps import hot_lamp_scene
@@ -203,3 +205,13 @@ def test_the_shell_lists_the_lamps(tmp_path: object, capsys: pytest.CaptureFixtu
     assert "R0:R1,C0:C1" in capsys.readouterr().err
     assert main(["match", str(path), "--region", "20:120,100:400", "--led-frequency", "1kHz"]) == 0
     assert "rows 20 to 119" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("error", "doubtful"), [(0.0033, False), (0.0034, True)])
+def test_a_frequency_that_may_be_off_by_a_percent_is_doubtful(error: float, doubtful: bool) -> None:
+    (lamp,) = occ.find_lamps(photo_of(picture(((20, 100, 50, 350), 220.0, 30.0, 5.0))))
+    product = lamp.switching_frequency_times_readout
+    assert product is not None
+    unsure = replace(lamp, product_uncertainty=error * product)
+    assert unsure.is_doubtful == doubtful
+    assert any("0.34 % only" in why for why in unsure.doubts) == doubtful

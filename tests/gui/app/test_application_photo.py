@@ -16,6 +16,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.values.placement import Placement
 from occ_model.errors import MatchError
+from occ_model.photo.comparison import _RIM as RIM
 from occ_model.scene.scene import Scene
 
 SENT = {"readout_time": 11e-6, "exposure_time": 90e-6, "switching_frequency": 4e3}
@@ -115,7 +116,7 @@ def test_an_applied_match_lies_on_the_photo_pixel_by_pixel(
     found = matched.shell.pane("photo").matching.match
     assert found is not None
     columns, levels = matched.view("profile").photo.getOriginalDataset()
-    assert columns[0] == found.region.first_column
+    assert columns[0] == found.region.first_column + RIM
     simulated = matched.view("profile").simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
@@ -143,7 +144,7 @@ def test_moving_the_photo_moves_it_in_every_pane_until_reset(
     columns, _ = matched.view("profile").photo.getOriginalDataset()
     found = matched.shell.pane("photo").matching.match
     assert found is not None
-    assert columns[0] == 200 + found.region.first_column
+    assert columns[0] == 200 + found.region.first_column + RIM
     matched.view("photo").placement.reset.click()
     assert matched.shell.pane("photo").placement == before
 

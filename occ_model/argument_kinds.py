@@ -91,6 +91,8 @@ def _parts(hint: Any) -> tuple[Any, ...]:
 
 def _class_of(hint: Any) -> Any:
     origin = get_origin(hint)
+    # Newer versions of numpy have an alias for their arrays, of which the origin is that alias.
+    origin = get_origin(getattr(origin, "__value__", None)) or origin
     return origin if isinstance(origin, type) else hint
 
 

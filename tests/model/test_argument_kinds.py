@@ -4,7 +4,8 @@ import inspect
 import pickle
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
+from types import GenericAlias
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -109,6 +110,27 @@ def test_no_argument_ends_in_an_error_that_says_nothing(
                 function(**given | {argument: wrong})
             except occ.OccError as error:
                 assert str(error)[-1] in ".)", (argument, wrong)  # noqa: PT017 - any of ours
+
+
+class Alias:
+    """An alias of arrays, as numpy has one from its version 2.5 on."""
+
+    __value__ = np.ndarray[Any, Any]
+
+    def __getitem__(self, item: object) -> GenericAlias:
+        return GenericAlias(cast("type", self), item)
+
+
+def test_an_alias_of_arrays_is_known_as_one() -> None:
+    hint = Alias()[np.float64]
+
+    def columns(profile: Any) -> int:
+        return len(profile)
+
+    columns.__annotations__["profile"] = hint
+    with pytest.raises(occ.ParameterError, match="profile is None; allowed: an array of numbers"):
+        checked(columns)(None)
+    assert checked(columns)(np.arange(3.0)) == 3
 
 
 def test_a_right_argument_keeps_the_error_of_a_fault_of_ours() -> None:

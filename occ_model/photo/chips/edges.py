@@ -13,13 +13,7 @@ excursions are noise."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Edges:
-    """The edges of stripes, in order.
-
-    Parameters
-    ----------
-    rising, falling : ndarray of float64
-        Positions in columns.
-    """
+    """The edges of stripes: their places in columns, in order."""
 
     rising: FloatArray
     falling: FloatArray
@@ -54,13 +48,7 @@ class Edges:
 
 
 def edges_of(flattened: FloatArray) -> Edges:
-    """Find the edges of stripes.
-
-    Parameters
-    ----------
-    flattened : ndarray of float64, shape (columns,)
-        The profile without uneven light, from 0 (dark) to 1 (bright).
-    """
+    """Find the edges of stripes whose levels are 0 and 1."""
     sure = np.where(
         flattened > 0.5 + _HYSTERESIS, 1, np.where(flattened < 0.5 - _HYSTERESIS, -1, 0)
     )

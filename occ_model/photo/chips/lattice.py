@@ -54,13 +54,7 @@ class Lattice:
 
 
 def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:
-    """Return the coherence of edges with pairs of lattices, shape as ``frequencies``.
-
-    Parameters
-    ----------
-    frequencies : ndarray of float64
-        Chips per column.
-    """
+    """Return the coherence of edges with pairs of lattices, by their chips per column."""
     sums = [np.abs(_phase_factors(kind, frequencies)) for kind in (edges.rising, edges.falling)]
     return np.asarray((sums[0] + sums[1]) / max(edges.count, 1))
 
@@ -70,13 +64,7 @@ def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.co
 
 
 def coarsest(edges: Edges) -> Lattice | None:
-    """Find the coarsest pair of lattices on which edges lie.
-
-    Returns
-    -------
-    Lattice or None
-        None where there are too few edges, or no lattice is coherent.
-    """
+    """Find the coarsest pair of lattices on which edges lie; None if none is coherent."""
     longest = edges.shortest_pair / 2.0 / _SHORTENING
     if edges.count < 4 or not _LEAST_COLUMNS < longest < np.inf:
         return None
@@ -107,12 +95,7 @@ def lattice_at(edges: Edges, frequency: float) -> Lattice:
 
 
 def chip_numbers(edges: Edges, lattice: Lattice) -> tuple[FloatArray, FloatArray]:
-    """Return the edges' positions in chips on their lattices: numbers of chips but for their noise.
-
-    Returns
-    -------
-    rising, falling : ndarray of float64
-    """
+    """Return the rising and the falling edges' positions in chips: whole numbers but for noise."""
     return (
         edges.rising * lattice.frequency - lattice.rising,
         edges.falling * lattice.frequency - lattice.falling,
@@ -134,13 +117,7 @@ def without_rims(edges: Edges, lattice: Lattice) -> Edges:
 
 
 def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | None:
-    """Return the chips from the first edge to the last, and the number of the first of them.
-
-    Returns
-    -------
-    chips, first
-        None where the edges do not alternate on the lattice.
-    """
+    """Return the chips between the outermost edges and the first's number; None if they collide."""
     rising, falling = (np.rint(kind).astype(int) for kind in chip_numbers(edges, lattice))
     numbers = np.concatenate([rising, falling])
     kinds = np.concatenate([np.ones(len(rising), int), np.zeros(len(falling), int)])

@@ -161,13 +161,7 @@ class Candidates:
         return min(times, key=lambda one: abs(np.log(times[one] / noted)))
 
     def as_noted(self, as_sent: Hypothesis) -> Hypothesis | None:
-        """Exchange the scene's pulse and its exposure if the camera noted an exposure as long.
-
-        Returns
-        -------
-        Hypothesis or None
-            None where the note speaks for the pulse as it is given, or there is none.
-        """
+        """Exchange the scene's pulse and its exposure if the camera noted one as long."""
         period, sent = self.stripes.period, canonical(as_sent.chips)
         if period is None or self.noted is None or not is_single_pulse(sent):
             return None
@@ -206,12 +200,7 @@ class Candidates:
         """Take the nearest other chips instead of those that were read, while they explain more.
 
         Chips are read as if white pixels were as bright as the light: where they are not, the fit
-        may determine a few chips better.
-
-        Returns
-        -------
-        found, others
-            The others are those nearest to it and those that it was taken instead of.
+        may determine a few chips better. Returned are those found, and the others compared.
         """
         others: list[Hypothesis] = []
         for _ in range(_MOST_CORRECTIONS):

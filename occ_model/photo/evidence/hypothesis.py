@@ -24,8 +24,6 @@ class Hypothesis:
     ----------
     bits
         Bits that had to be chosen to state it: 0 where it was given beforehand.
-    was_read
-        Whether the chips were read from the photo.
     rate
         Its chips in the time of one of the scene's chips.
     read_again
@@ -102,15 +100,6 @@ def log_likelihood(power: float, columns: int, independent: float, freedom: floa
 
     Half of the Bayesian information criterion, negative (Schwarz, Ann. Stat. 6:461, 1978), for
     Gaussian residuals of which only some are independent.
-
-    Parameters
-    ----------
-    power
-        Sum of the squared residuals.
-    columns
-        Number of residuals.
-    independent
-        Number of those that count as independent.
     """
     variance = max(power / columns, 1e-12)
     return -0.5 * independent * math.log(variance) - 0.5 * freedom * math.log(max(independent, 2.0))

@@ -19,20 +19,13 @@ _MOST_CHIPS = 512
 def nearest_other(
     profile: FloatArray, found: Hypothesis, transmitter: Transmitter
 ) -> ByteArray | None:
-    """Find the other chips that explain stripes best at the timing of a hypothesis.
+    """Find the other chips that explain stripes best at the timing of a hypothesis, if any.
 
     Parameters
     ----------
-    profile : ndarray of float64, shape (columns,)
-        Grey levels.
     transmitter
         Its packets are compared where the chips found are as many; else sequences that differ in
         one chip, or in two neighbours that are exchanged.
-
-    Returns
-    -------
-    ndarray of uint8, shape (chips,), or None
-        None where the sequence is too long to compare others, or has none that change.
 
     Notes
     -----

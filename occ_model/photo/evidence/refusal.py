@@ -36,8 +36,6 @@ def refusals(
         Log-likelihoods of a smooth curve, of any periodic wave, and of the hypothesis.
     rows_alike
         Correlation between the stripes of different rows.
-    blinks
-        Whether it is given that a lamp blinks.
     """
     least = _LEAST_GIVEN
     if found.was_read:

@@ -34,8 +34,6 @@ class Repetition:
 
     Parameters
     ----------
-    period
-        In columns.
     amplitude
         Half the difference of its crests and troughs, as a fraction of the stripes' swing.
     above_noise
@@ -55,21 +53,8 @@ def strongest_line(
 ) -> Repetition | None:
     """Find the strongest line of a residual beside the explained pattern's own harmonics.
 
-    Parameters
-    ----------
-    residual : ndarray of float64, shape (columns,)
-        Grey levels.
-    swing : ndarray of float64, shape (columns,)
-        Height of the stripes, in grey levels.
-    pattern_period
-        Columns of a period of the explained pattern.
-    chips
-        Its number of chips.
-
-    Returns
-    -------
-    Repetition or None
-        None where there are too few columns.
+    The swing is the height of the stripes, the pattern's period is in columns. There is no line
+    where there are too few columns.
 
     Notes
     -----

@@ -16,13 +16,8 @@ def rows_alike(photo: Photo, region: Region) -> float:
     """Return the correlation of a band of rows with the other ones, in the median of the bands.
 
     Slow changes along the columns are removed: the shape of the lamp differs between the rows. A
-    rolling shutter's stripes are the same in all rows but for noise; those of
-    a picture's objects are not where they lean, end, or are broken.
-
-    Returns
-    -------
-    float
-        From -1 to 1; 1 where there is one row only.
+    rolling shutter's stripes are the same in all rows but for noise; those of a picture's objects
+    are not where they lean, end, or are broken. The result is from -1 to 1, and 1 for one row.
     """
     part = photo.samples[
         region.first_row : region.last_row, region.first_column : region.last_column

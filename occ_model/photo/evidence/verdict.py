@@ -33,8 +33,6 @@ class Verdict:
         Why it is doubtful, in sentences; none where it is sure.
     exposure_reasons
         Why its exposure alone is doubtful.
-    others
-        The other hypotheses with the difference of their log-likelihood, the likeliest first.
     """
 
     found: Hypothesis
@@ -44,15 +42,7 @@ class Verdict:
 
 
 class Judge:
-    """Compares hypotheses about the same stripes.
-
-    Parameters
-    ----------
-    rows_alike
-        Correlation of the rows' stripes with each other.
-    blinks
-        Whether it is given that a lamp blinks.
-    """
+    """Compares hypotheses about the same stripes."""
 
     def __init__(self, stripes: Stripes, rows_alike: float, *, blinks: bool) -> None:
         self._stripes, self._rows_alike, self._blinks = stripes, rows_alike, blinks

@@ -59,8 +59,6 @@ class Explanation:
 
     Parameters
     ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
     fits
         The best fit, and those that are as good with another exposure, in order of the exposure.
     starts
@@ -104,20 +102,15 @@ def explain(
 ) -> Explanation | None:
     """Find the timings with which given chips fit a photo's stripes best.
 
+    There are none where the chips never change, or where no fit has the levels of a picture.
+
     Parameters
     ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period of the sent chips.
     steps
         Chips per column to try, in groups; None stands for all that are possible. A group is tried
         where none before it surely fits.
     check
         Called every few hundredths of a second of the search; what it raises ends it.
-
-    Returns
-    -------
-    Explanation or None
-        None where the chips never change, or no fit has the levels of a picture.
     """
     if chips.min() == chips.max():
         return None
@@ -147,13 +140,7 @@ def explain_near(
     timing: Timing,
     with_gamma: bool = False,
 ) -> Explanation | None:
-    """Find the timing near a given one with which given chips fit a photo's stripes best.
-
-    Returns
-    -------
-    Explanation or None
-        None where no fit has the levels of a picture.
-    """
+    """Find the timing near a given one with which given chips fit a photo's stripes best."""
     starts = [
         replace(timing, exposure=share * timing.exposure) for share in (1.0, *_OTHER_EXPOSURES)
     ]
@@ -165,13 +152,7 @@ def explain_near(
 
 
 def polished(stripes: Stripes, explanation: Explanation) -> Explanation:
-    """Fit an explanation again from exposures near those of its fits, where they stay the answer.
-
-    Parameters
-    ----------
-    explanation
-        Its fits hold an estimate of gamma, or none of them does.
-    """
+    """Fit an explanation again from exposures near those of its fits."""
     with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
     step = explanation.fits[0].timing.step
     model = _model(stripes, explanation.chips, explanation.camera, step)

@@ -32,8 +32,6 @@ class CameraTone:
 
     Parameters
     ----------
-    averaging, enhancement
-        As the scene's parameters.
     rank_resolution
         Smallest change of the timing, in columns, that changes the response: ranks are discrete.
     """
@@ -53,8 +51,6 @@ def camera_tones(
     ----------
     scene
         The scene. Where it equalizes histograms, the response of an equalized picture is given too.
-    averagings
-        The quantities that the camera may have averaged.
     low, high
         The levels: with gamma they give the luminance of the dark panel relative to the lit one.
     """

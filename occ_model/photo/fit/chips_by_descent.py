@@ -24,15 +24,7 @@ _LEAST_GAIN = 1e-9
 def chips_by_descent(
     lines: Harmonics, count: int, check: Callable[[], object] = lambda: None
 ) -> list[ReadPattern]:
-    """Find sequences of chips whose harmonics are like those given, the most alike first.
-
-    Parameters
-    ----------
-    lines : ndarray of complex128, shape (harmonics,)
-        The harmonics given.
-    check
-        Called every few milliseconds; what it raises ends the search.
-    """
+    """Find sequences of chips whose harmonics are like those given, the most alike first."""
     exposures, phases = (part.ravel() for part in np.meshgrid(_EXPOSURES, _PHASES))
     boxes = boxes_of(len(lines), count, exposures, phases)
     order = np.arange(1, len(lines) + 1)

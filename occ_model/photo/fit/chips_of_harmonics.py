@@ -97,13 +97,6 @@ def boxes_of(
 ) -> NDArray[np.complex128]:
     """Return what multiplies the harmonics of chips: the boxes of a chip and of an exposure.
 
-    Parameters
-    ----------
-    harmonics, count
-        Numbers of harmonics, and of chips in a period.
-    exposures, phases : ndarray of float64, shape (trials,)
-        In chips.
-
     Returns
     -------
     ndarray of complex128, shape (trials, harmonics)
@@ -170,8 +163,6 @@ def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> Fl
 
     Parameters
     ----------
-    lines : ndarray of complex128, shape (harmonics,)
-        The harmonics given.
     weights : ndarray of complex128, shape (trials, harmonics)
         What multiplies the chips' own harmonics, for each exposure and phase.
 

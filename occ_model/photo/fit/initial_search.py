@@ -49,15 +49,7 @@ class Candidate:
 
 
 class Search:
-    """Correlates a profile with chips at any timing.
-
-    Parameters
-    ----------
-    flattened : ndarray of float64, shape (columns,)
-        The profile without uneven light.
-    chips : ndarray of uint8, shape (chips,)
-        One period of the sent chips.
-    """
+    """Correlates a profile with chips at any timing."""
 
     def __init__(self, flattened: FloatArray, chips: ByteArray) -> None:
         about = flattened - flattened.mean()

@@ -70,17 +70,7 @@ _CONTRADICTION = (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Refined:
-    """Refined fits, in order of the exposure, and why their uncertainties may not hold.
-
-    Parameters
-    ----------
-    fits
-        The best one, and those that are as likely with another exposure.
-    doubts
-        Sentences about all of it.
-    exposure_doubts
-        Sentences about the exposure alone.
-    """
+    """Refined fits, in order of the exposure, and why their uncertainties may not hold."""
 
     fits: tuple[StripeFit, ...]
     doubts: tuple[str, ...] = ()
@@ -98,12 +88,6 @@ def refined(
 
     Parameters
     ----------
-    stripes
-        The stripes.
-    cells
-        The pixels of their region.
-    explanation
-        The chips, and first fits.
     gamma
         The gamma that is usual; where the fits hold an estimate of it, it is estimated here too.
     check

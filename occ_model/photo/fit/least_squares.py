@@ -104,10 +104,6 @@ class StripeModel:
 
     Parameters
     ----------
-    profile : ndarray of float64, shape (columns,)
-        Grey levels.
-    chips : ndarray of uint8, shape (chips,)
-        One period.
     step
         Chips per column, roughly: the number of chips limits the degrees of freedom of the levels.
     rank_resolution

@@ -21,8 +21,6 @@ class LitColumns:
     ----------
     shapes : ndarray of float64, shape (shapes, columns)
         The shapes of which either level is a combination.
-    lit : ndarray of float64, shape (columns,)
-        The lit fractions.
     """
 
     shapes: FloatArray
@@ -47,10 +45,6 @@ class LitColumns:
 
         Parameters
         ----------
-        levels : ndarray of float64, shape (2 shapes,)
-            The levels.
-        of_levels : ndarray of float64, shape (parameters, 2 shapes)
-            Their slopes.
         by_lit : ndarray of float64, shape (first parameters, columns)
             The lit fractions' slopes over the first of the parameters, on which they depend.
         """
@@ -70,12 +64,8 @@ class LitColumns:
 
         Parameters
         ----------
-        levels : ndarray of float64, shape (2 shapes,)
-            The levels.
         weight, error : ndarray of float64, shape (columns,)
             The weight of each column's light, and what is seen of it less its model.
-        by_lit : ndarray of float64, shape (first parameters, columns)
-            The lit fractions' slopes.
         by_tone : ndarray of float64, shape (other parameters, columns)
             The slopes of weight times error over what changes the light that is seen.
 

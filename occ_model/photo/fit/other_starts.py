@@ -52,10 +52,6 @@ def scanned_starts(
     ----------
     model
         The model, its noise being that of the exposure found.
-    found : ndarray of float64, shape (9,)
-        The parameters found.
-    is_possible
-        Whether a timing needs no column darker than black.
     """
     usual = model.with_usual(found)
 
@@ -86,15 +82,6 @@ def alike_among(
     A search that begins near one exposure may end at another, where blur of a wrong shape fits
     better: 1.39 chips behind exponential tails had less than two thirds of the misfit of 0.62
     behind a normal blur, where 0.48 was right (seed 730509).
-
-    Parameters
-    ----------
-    kept
-        Those that are taken, or known to look like one of these.
-    most
-        Misfit from which another exposure is surely worse.
-    is_possible
-        Whether a fit needs no column darker than black.
     """
     found: list[JointFit] = []
     for fit in sorted(tried, key=lambda one: one.misfit):

@@ -84,8 +84,6 @@ def read_patterns(
         The profile without uneven light, from 0 (dark) to 1 (bright).
     period
         Columns after which the profile repeats.
-    check
-        Called every few hundredths of a second; what it raises ends the reading.
     by_edges_only
         Whether only the edges are read, which takes far less time than to try each number of chips.
     is_clipped
@@ -127,11 +125,6 @@ def read_otherwise(
 
     This is for stripes that what was read explains badly: an exposure of two or three chips shows
     hardly any of some harmonics, and is easily taken for one of a single chip.
-
-    Parameters
-    ----------
-    profile, period, check
-        As for :func:`read_patterns`.
     """
     lines = harmonics_of(without_trend(profile), period)
     lengths = [one.times * len(one.chips) for one in read]

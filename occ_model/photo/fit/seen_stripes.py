@@ -25,8 +25,6 @@ class SeenStripes:
 
     Parameters
     ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
     values_blurred
         Whether pixel values are blurred, or light.
     """

@@ -166,12 +166,7 @@ class ToneSlopes:
         self.of_steepness = WHITE * slope[:, -1]
 
     def at(self, values: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the slopes of grey levels' light, and of their slope over light.
-
-        Returns
-        -------
-        light, slope : ndarray of float64, shape (parameters, values)
-        """
+        """Return the slopes of grey levels' light, and of their slope over light."""
         both = self._both.at(values / WHITE)
         return both[: self.parameters], both[self.parameters :]
 

@@ -34,10 +34,6 @@ class Edges:
     ----------
     place : ndarray of float64, shape (edges,)
         The column at which each passes the middle between its two levels.
-    rises : ndarray of bool, shape as ``place``
-        Whether it is bright on the right.
-    low, high : ndarray of float64, shape as ``place``
-        The two levels in grey levels.
     """
 
     place: FloatArray
@@ -58,13 +54,7 @@ class Edges:
 
 
 def edges_of(profile: FloatArray) -> Edges:
-    """Find the edges of a profile that stand out of its noise.
-
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        Grey levels.
-    """
+    """Find the edges of a profile that stand out of its noise."""
     steps = np.diff(profile)
     noise = 1.4826 * float(np.median(np.abs(steps - np.median(steps)))) / np.sqrt(2.0)
     turns = _turning_points(profile, max(_LEAST_DEVIATIONS * noise, _LEAST_HEIGHT))

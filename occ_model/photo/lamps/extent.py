@@ -34,8 +34,6 @@ def without_halo(
     ----------
     spans : ndarray of int64, shape (strips of the lamp, 4)
         The shape, as of :func:`spans_of`.
-    timing
-        How the lamp blinks.
     means : ndarray of float64, shape (strips, columns)
         Grey levels of the photo.
     bounds : ndarray of int64, shape (strips + 1,)

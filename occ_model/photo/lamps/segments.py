@@ -64,8 +64,6 @@ class Segment:
 
     Parameters
     ----------
-    strip
-        The number of the strip.
     edges
         The edges, without those of the lamp's rim.
     period
@@ -83,19 +81,7 @@ class Segment:
 def segments_of(
     edges: Edges, strip: int, tolerance: float = 1.0, codes: bool = True
 ) -> list[Segment]:
-    """Split the edges of a strip into those of single lamps.
-
-    Parameters
-    ----------
-    edges
-        The edges.
-    strip
-        The number of the strip.
-    tolerance
-        Factor of the distance by which edges may lie off their place.
-    codes
-        Whether some may be those of a code.
-    """
+    """Split the edges of a strip into those of single lamps."""
     found: list[Segment] = []
     waiting = [(0, len(edges), _progressions(edges.place, tolerance))]
     while waiting:

@@ -37,11 +37,6 @@ def spans_of(
 ) -> IndexArray:  # fmt: skip
     """Find the columns of a lamp in each strip that shows its edges.
 
-    Parameters
-    ----------
-    bounds : ndarray of int64, shape (strips + 1,)
-        The first row of each strip, and the number of rows.
-
     Returns
     -------
     ndarray of int64, shape (strips of the lamp, 4)

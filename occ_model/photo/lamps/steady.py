@@ -27,15 +27,7 @@ _MOST_COLUMNS = 512
 
 
 def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]) -> list[Lamp]:
-    """Find the bright places without stripes.
-
-    Parameters
-    ----------
-    means : ndarray of float64, shape (strips, columns)
-        Grey levels.
-    bounds : ndarray of int64, shape (strips + 1,)
-        The first row of each strip, and the number of rows.
-    """
+    """Find the bright places without stripes in strips of a photo, as of :func:`strips_of`."""
     strips, columns = means.shape
     narrow = min(columns, _MOST_COLUMNS)
     levels = cv2.resize(means, (narrow, strips), interpolation=cv2.INTER_AREA)

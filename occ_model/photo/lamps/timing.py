@@ -47,12 +47,8 @@ class LampTiming:
         Its standard deviation in columns.
     rise, fall
         Column of a rising and of a falling edge, less whole spacings.
-    is_code
-        Whether the spacing is that of a code's chips.
     off
         Root mean square of the edges' distances from their places, as a fraction of a chip.
-    edges
-        The edges.
     """
 
     spacing: float
@@ -105,8 +101,6 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
 
     Parameters
     ----------
-    edges
-        The edges.
     weights : ndarray of float64, shape (edges,)
         How many rows show each.
     codes

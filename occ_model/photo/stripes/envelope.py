@@ -19,14 +19,8 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 
     Parameters
     ----------
-    profile : ndarray of float64, shape (columns,)
-        Grey levels.
     width
         Number of columns within which the stripes reach both levels.
-
-    Returns
-    -------
-    low, high : ndarray of float64, shape (columns,)
     """
     width = max(3, min(width, 2 * len(profile) - 1)) | 1
     # As one row: OpenCV 4 and 5 give a one-dimensional array different shapes.
@@ -52,13 +46,7 @@ def smooth_shapes(count: int, freedom: int) -> FloatArray:
 
 
 def without_trend(profile: FloatArray) -> FloatArray:
-    """Remove slow changes of a profile's mean and swing, whatever its stripes.
-
-    Returns
-    -------
-    ndarray of float64, shape as ``profile``
-        With mean 0 and a standard deviation of about 1 everywhere.
-    """
+    """Remove slow changes of a profile's mean and swing, whatever its stripes."""
     mean, deviation = trend_of(profile, MEAN_SHAPES, _SWING_SHAPES)
     return np.asarray((profile - mean) / deviation)
 

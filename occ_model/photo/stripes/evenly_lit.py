@@ -66,8 +66,6 @@ class EvenProfile:
         The columns in which none of them is clipped.
     clipped : ndarray of bool, shape as ``values``
         The columns in which all of them are: the light is at least what makes white.
-    rows
-        Number of the photo's rows over which a column's mean is taken, in the median.
     """
 
     values: FloatArray
@@ -91,8 +89,6 @@ class Cells:
         In grey levels.
     clipped : ndarray of float32, shape (bands, columns)
         Fraction of clipped pixels.
-    rows_a_band
-        Number of the photo's rows in a band, on average.
     """
 
     means: NDArray[np.float32]

@@ -27,11 +27,6 @@ _MOST_ITERATIONS = 8
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
     """Find the shortest period of stripes.
 
-    Parameters
-    ----------
-    flattened : ndarray of float64, shape (columns,)
-        The profile without uneven light.
-
     Returns
     -------
     period, uncertainty : float
@@ -67,13 +62,7 @@ def _rough_period(flattened: FloatArray) -> float | None:
 
 
 def autocorrelation(values: FloatArray) -> FloatArray:
-    """Return the autocorrelation at every lag, normalized over the columns that both parts have.
-
-    Returns
-    -------
-    ndarray of float64, shape (columns,)
-        From -1 to 1, the first being 1; 0 where either part is constant.
-    """
+    """Return the autocorrelation at every lag, normalized over the columns that both parts have."""
     count = len(values)
     about = values - values.mean()
     spectrum = np.fft.rfft(about, 2 * count)
@@ -108,15 +97,7 @@ def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
 
 
 def unrepeated_share(flattened: FloatArray, period: float) -> float:
-    """Return the fraction of a profile's variance that no repeated wave of a period explains.
-
-    Parameters
-    ----------
-    flattened : ndarray of float64, shape (columns,)
-        The profile without uneven light.
-    period
-        In columns.
-    """
+    """Return the fraction of a profile's variance that no repeated wave of a period explains."""
     residual = without_repetition(flattened, period)
     about = flattened - flattened.mean()
     return float(residual @ residual) / max(float(about @ about), 1e-300)
@@ -151,11 +132,6 @@ def correlated_columns(residual: FloatArray) -> float:
     1 + 2 times the sum of the autocorrelations up to the first that is not positive. Neighbouring
     columns are not independent where an effect outside the model, such as a lens's blur, is the
     same in them.
-
-    Parameters
-    ----------
-    residual : ndarray of float64, shape (columns,)
-        Data less model.
     """
     power = float(residual @ residual)
     if power <= 0.0:

@@ -107,14 +107,7 @@ class PhotoFacts(QWidget):
         self.scan_axis.show_key(scan_axis)
 
     def _channel_word(self, channel: str) -> str:
-        words = {
-            "grey": "grey",
-            "luma": "luma",
-            "red": "red channel",
-            "green": "green channel",
-            "blue": "blue channel",
-        }
-        return words.get(channel, channel)
+        return channel if channel in {"grey", "luma"} else f"{channel} channel"
 
     def _recorded(self, photo: Photo) -> list[str]:
         recorded = []

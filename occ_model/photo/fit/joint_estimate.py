@@ -16,7 +16,7 @@ from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
 from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
-from occ_model.photo.fit.least_squares import StripeFit, StripeModel
+from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
 from occ_model.photo.fit.other_starts import (
     alike_among,
     other_starts,
@@ -249,7 +249,7 @@ def _stripe_fit(model: StripeModel, mode: JointFit, gamma: float, *, with_gamma:
     timing = Timing(float(values[0]), float(values[1]), float(values[2]), gamma)
     unknown = math.hypot(
         math.hypot(_UNKNOWN_RAMP, _rounding(model, timing)) * timing.exposure,
-        _by_unknown_blur(timing, float(values[7])),
+        exposure_deviation(_UNKNOWN_BLUR * float(values[7] * timing.step) ** 2, timing.exposure),
     )
     covariance[1, 1] += unknown**2
     if with_gamma:
@@ -288,16 +288,6 @@ def _rounding(model: StripeModel, timing: Timing) -> float:
     low, swing, _ = model.levels(timing)
     deviations = [1.0 / (math.sqrt(12.0) * max(1.0, np.ptp(one))) for one in (low, low + swing)]
     return math.hypot(*deviations) / max(float(np.median(swing)), 1.0)
-
-
-def _by_unknown_blur(timing: Timing, blur: float) -> float:
-    """Return the chips by which an exposure changes with what is not known of a blur's variance.
-
-    An edge's variance is t^2/12 + blur^2: if the second term is larger by d, then t is smaller by
-    6 d / t, and never by more than makes t^2/12 as small as d.
-    """
-    most = _UNKNOWN_BLUR * (blur * timing.step) ** 2
-    return min(6.0 * most / timing.exposure, math.sqrt(12.0 * most))
 
 
 def _doubts(unusual: float) -> tuple[str, ...]:

@@ -187,7 +187,8 @@ class StripeModel:
         covariance = np.zeros((4, 4))
         covariance[np.ix_(free, free)] = _covariance(slopes, residual) * np.outer(scale, scale)
         timing = timing_of(found)
-        covariance[1, 1] += spread**2 / 3.0 + _blur_deviation(timing) ** 2
+        blur = exposure_deviation((_UNKNOWN_BLUR * timing.step) ** 2, timing.exposure)
+        covariance[1, 1] += spread**2 / 3.0 + blur**2
         return self.described(timing, covariance)
 
     def is_possible(self, timing: Timing) -> bool:
@@ -221,14 +222,13 @@ def level_freedom(counted: float) -> int:
     return int(np.clip(counted / _CHIPS_PER_SHAPE, 1, _MOST_SHAPES))
 
 
-def _blur_deviation(timing: Timing) -> float:
-    """Return the chips by which an unknown blur may lengthen the fitted exposure.
+def exposure_deviation(variance: float, exposure: float) -> float:
+    """Return by how much a blur of unknown variance may lengthen an exposure, in its units.
 
-    An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur; to second
-    order a blur of sigma lengthens t by 6 sigma^2 / t, and never by more than its own width.
+    An edge is as wide as the exposure's box, of variance t^2/12, convolved with the blur: a further
+    variance d lengthens t by 6 d / t, and never by more than a box of that variance alone.
     """
-    blur = _UNKNOWN_BLUR * timing.step
-    return min(6.0 * blur**2 / timing.exposure, math.sqrt(12.0) * blur)
+    return min(6.0 * variance / exposure, math.sqrt(12.0 * variance))
 
 
 def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:

@@ -10,7 +10,6 @@ import pytest
 
 from occ_model.photo.fit import joint_estimate
 from occ_model.photo.fit.joint_estimate import (
-    _by_unknown_blur,
     _doubts,
     _exposure_doubts,
     _other_starts,
@@ -22,7 +21,7 @@ from occ_model.photo.fit.joint_estimate import (
     refined,
 )
 from occ_model.photo.fit.joint_fit import JointFit
-from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.fit.least_squares import StripeFit, exposure_deviation
 from occ_model.photo.fit.timing import Timing
 
 RANDOM = np.random.default_rng(3)
@@ -90,9 +89,9 @@ def test_levels_that_are_rounded_change_an_exposure_as_their_distance() -> None:
 
 @pytest.mark.parametrize("columns", [0.1, 1.0, 4.0, 20.0])
 def test_a_blur_that_is_not_known_exactly_changes_an_exposure(columns: float) -> None:
-    """Where t^2/12 + b^2 is seen, and b^2 is off by a fiftieth, t is off by 6 d / t."""
-    off = _by_unknown_blur(Timing(0.1, 0.1 * columns, 3.0, 2.2), 1.5) / 0.1
+    """Where t^2/12 + b^2 is seen, and b^2 is off by d, t is off by 6 d / t."""
     unknown = 0.02 * 1.5**2
+    off = exposure_deviation(unknown * 0.1**2, 0.1 * columns) / 0.1
     assert off == pytest.approx(min(6.0 * unknown / columns, math.sqrt(12.0 * unknown)))
 
 

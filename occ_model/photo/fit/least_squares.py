@@ -18,7 +18,7 @@ from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.lit_columns import LitColumns
-from occ_model.photo.fit.normal_equations import NormalEquations, solved
+from occ_model.photo.fit.normal_equations import NormalEquations
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
@@ -144,7 +144,9 @@ class StripeModel:
         tone = self._tone(timing.lit_fraction(self._waveform, len(self._profile)), timing.gamma)
         kept = LitColumns(self._kept_shapes, tone[self._kept])
         matrix = self._equations.matrix(self._weight, kept.lit)
-        levels = solved(matrix, kept.sums(self._kept_profile))
+        # Where the response hardly varies the levels are undetermined: keep them small.
+        matrix.flat[:: len(matrix) + 1] += 1e-9 * len(self._weight)
+        levels = np.linalg.solve(matrix, kept.sums(self._kept_profile))
         low, swing = levels.reshape(2, -1) @ self._shapes
         return low, swing, np.minimum(low + swing * tone, WHITE)
 

@@ -1,1 +1,4 @@
-"""Photographs: reading them, finding their stripes, and fitting a scene to them."""
+"""Photos: read them, find their stripes and lamps, and match them with a scene.
+
+Where the sentence on a constant names no measurement and no derivation, its value was chosen.
+"""

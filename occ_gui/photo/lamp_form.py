@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
-from occ_model.scene.units import PIXEL
+from occ_model.scene.units import NONE
 
 _MOST_ROWS = 6
 """Rows of the table that are seen without scrolling."""
@@ -75,7 +75,7 @@ class LampForm(QWidget):
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 4)
-        self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip", "Periods"])
+        self.table.setHorizontalHeaderLabels(["Lamp", "Columns", "Chip (px)", "Periods"])
         self.table.setAccessibleName("Lamps in the photo")
         self.table.setToolTip(
             "The lamps, the brightest first: the columns that each covers, the columns of a "
@@ -111,12 +111,12 @@ class LampForm(QWidget):
 
     def _texts(self, row: int, lamp: Lamp) -> tuple[str, str, str, str]:
         region = lamp.region
-        columns = f"{region.first_column} to {region.last_column - 1}"
+        columns = f"{region.first_column}\u2013{region.last_column - 1}"
         product = lamp.switching_frequency_times_readout
         if product is None:
             return str(row + 1), columns, "no stripes", ""
         error = None if lamp.product_uncertainty is None else lamp.product_uncertainty / product**2
-        chip = PIXEL.format_estimate(1.0 / product, error)
+        chip = NONE.format_estimate(1.0 / product, error)
         doubt = ", doubtful" if lamp.is_doubtful else ""
         periods = "code" if lamp.periods is None else f"{lamp.periods:.1f}"
         return str(row + 1), columns, chip, f"{periods}{doubt}"

@@ -83,7 +83,7 @@ def test_every_lamp_has_an_outline_and_a_row(
         ]
         for row in range(3)
     ]
-    assert texts[0] == ["1", "10 to 39", "10.000 ± 0.010 px", "6.0"]
+    assert texts[0] == ["1", "10\u201339", "10.000 ± 0.010", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
     doubtful = bench.form.table.item(2, 3)

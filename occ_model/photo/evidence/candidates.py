@@ -165,16 +165,17 @@ class Candidates:
         period, sent = self.stripes.period, canonical(as_sent.chips)
         if period is None or self.noted is None or not is_single_pulse(sent):
             return None
-        pulse_time = self.exposed(as_sent.fit, 1.0) / as_sent.fit.timing.exposure * sent.sum()
-        off = abs(np.log(self.exposed(as_sent.fit, 1.0) / self.noted))
-        if abs(np.log(pulse_time / self.noted)) > min(_NOTE_TOLERANCE, off):
+        exposure = self.exposed(as_sent.fit, 1.0)
+        lit = exposure / as_sent.fit.timing.exposure * sent.sum()
+        off, swapped = (abs(np.log(time / self.noted)) for time in (exposure, lit))
+        if not swapped <= _NOTE_TOLERANCE < off:
             return None
         other = self._swapped(as_sent, period, len(sent))
         return other if other is not None and other.fit.correlation >= _EXPLAINED else None
 
     def _swapped(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis | None:
         """Suppose a pulse as long as a hypothesis' exposure."""
-        on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(found.chips))
+        on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(canonical(found.chips)))
         return self._dimmed(on, period, chips_sent)
 
     def polished(self, found: Hypothesis) -> Hypothesis:

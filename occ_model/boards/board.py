@@ -10,45 +10,24 @@ class Board:
 
     A chip lasts ``prescaler * count`` cycles of the clock, both whole numbers: every edge is then a
     whole number of cycles after the one before.
-
-    Parameters
-    ----------
-    clock
-        Frequency in Hz of the clock that its timer counts.
-    clock_error
-        How far that frequency may be off, in parts per million, by the data sheet of what makes it.
-    largest_count
-        The largest number of divided cycles that it counts for a chip.
-    least_cycles
-        Fewest cycles of the clock for a chip.
-    limit_reason
-        Why fewer are not allowed, as the end of a sentence.
-    pin, ground
-        The labels on the board of the pin that blinks and of its ground.
-    volts
-        Voltage of the pin when lit.
-    pin_current
-        Current in A that the pin may give.
-    transistor
-        A MOSFET that this voltage switches on wholly.
-    table_bytes
-        Room for the packet, in bytes.
     """
 
     name: str
     title: str
-    clock: int
+    clock: int  # Frequency in Hz of the clock that its timer counts
+    # How far that frequency may be off, in parts per million, by the data sheet of what makes it
     clock_error: float
     prescalers: tuple[int, ...]
-    largest_count: int
-    least_cycles: int
-    limit_reason: str
+    largest_count: int  # The largest number of divided cycles that it counts for a chip
+    least_cycles: int  # Fewest cycles of the clock for a chip
+    limit_reason: str  # Why fewer are not allowed, as the end of a sentence
+    # The labels on the board of the pin that blinks and of its ground
     pin: str
     ground: str
-    volts: float
-    pin_current: float
-    transistor: str
-    table_bytes: int
+    volts: float  # Voltage of the pin when lit
+    pin_current: float  # Current in A that the pin may give
+    transistor: str  # A MOSFET that this voltage switches on wholly
+    table_bytes: int  # Room for the packet, in bytes
     language: str
     ending: str
 

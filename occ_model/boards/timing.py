@@ -17,22 +17,12 @@ from occ_model.scene.parameters import quantity
 
 @dataclass(frozen=True, slots=True)
 class ChipTiming:
-    """The timer's setting for a chip.
+    """The timer's setting for a chip."""
 
-    Parameters
-    ----------
-    clock
-        Frequency of the board's clock in Hz.
-    count
-        How many divided cycles a chip lasts.
-    asked
-        The switching frequency asked for, in Hz.
-    """
-
-    clock: int
+    clock: int  # Frequency of the board's clock in Hz
     prescaler: int
-    count: int
-    asked: Fraction
+    count: int  # How many divided cycles a chip lasts
+    asked: Fraction  # The switching frequency asked for, in Hz
 
     @property
     def cycles(self) -> int:

@@ -17,17 +17,11 @@ from occ_model.transmitter.packet import packet
 
 @dataclass(frozen=True, eq=False)
 class Transmission:
-    """One period of the chips that a board sends over and over, and how long each lasts.
-
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period, first sent first; 1 is lit.
-    """
+    """One period of the chips that a board sends over and over, and how long each lasts."""
 
     scene: Scene
     board: Board
-    chips: ByteArray
+    chips: ByteArray  # Shape (chips,): one period, first sent first; 1 is lit
     timing: ChipTiming
 
     @property

@@ -23,27 +23,14 @@ LED_CURRENT = 0.010
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """The circuit's values.
+    """The circuit's values."""
 
-    Parameters
-    ----------
-    gate_resistor
-        In ohm: limits the current that charges the MOSFET's gate to what the pin may give.
-    pull_down
-        In ohm, from the gate to ground.
-    rise_time
-        Time in s that the gate's voltage takes from 10 to 90 %.
-    led_resistor
-        In ohm, for a single LED at the pin in place of MOSFET and panel.
-    led_current
-        The current in A through that LED.
-    """
-
+    # In ohm: limits the current that charges the MOSFET's gate to what the pin may give
     gate_resistor: int
-    pull_down: int
-    rise_time: float
-    led_resistor: int
-    led_current: float
+    pull_down: int  # In ohm, from the gate to ground
+    rise_time: float  # Time in s that the gate's voltage takes from 10 to 90 %
+    led_resistor: int  # In ohm, for a single LED at the pin in place of MOSFET and panel
+    led_current: float  # The current in A through that LED
 
 
 def wiring(board: Board) -> Wiring:

@@ -27,16 +27,11 @@ _MOST_EXACT_ROWS = 4096
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CoveredPart:
-    """Some columns of some rows.
-
-    Parameters
-    ----------
-    share
-        The fraction of the light in each pixel that comes from the panel: one for all pixels, or an
-        array of float32, shape (rows, columns).
-    """
+    """Some columns of some rows."""
 
     columns: slice
+    # The fraction of the light in each pixel that comes from the panel: one for all pixels, or an
+    # array of float32, shape (rows, columns)
     share: float | Pixels
 
 

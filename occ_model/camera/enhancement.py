@@ -155,18 +155,12 @@ def share_above(limit: float, levels: FloatArray, spread: FloatArray) -> FloatAr
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PassedSteps:
-    """The steps from one grey level to the next near some levels, and who passes them.
+    """The steps from one grey level to the next near some levels, and who passes them."""
 
-    Parameters
-    ----------
-    edge : ndarray of int64, shape (values, steps)
-        The grey level below each step; below the first one lies hardly any pixel.
-    passed : ndarray of float64, shape (values, steps)
-        The fraction of the pixels above it.
-    """
-
+    # Shape (values, steps): the grey level below each step; below the first one lies hardly any
+    # pixel
     edge: IndexArray
-    passed: FloatArray
+    passed: FloatArray  # Shape (values, steps): the fraction of the pixels above it
 
     @classmethod
     def of(cls, levels: FloatArray, spread: FloatArray) -> Self:

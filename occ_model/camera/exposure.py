@@ -119,17 +119,11 @@ def _phases(start: Fraction, step: Fraction, period: int, count: int) -> Phases:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Steps:
-    """How far each column starts after the first one.
+    """How far each column starts after the first one."""
 
-    Parameters
-    ----------
-    chip : ndarray of float64, shape (columns,)
-        Whole chips, of the part of the step whose products are exact.
-    fraction, remainder : ndarray of float64, shape (columns,)
-        Fraction of a chip of that part, and the rest of the step.
-    """
-
+    # Shape (columns,): whole chips, of the part of the step whose products are exact
     chip: FloatArray
+    # Shape (columns,): fraction of a chip of that part, and the rest of the step
     fraction: FloatArray
     remainder: FloatArray
 

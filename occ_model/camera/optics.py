@@ -10,15 +10,10 @@ from occ_model.camera.row_memory import MEMORY
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Gain:
-    """A factor of each pixel's light.
-
-    Parameters
-    ----------
-    at
-        Gives the factors at some rows, which may lie between pixels, and in some columns.
-    """
+    """A factor of each pixel's light."""
 
     stage: str
+    # Gives the factors at some rows, which may lie between pixels, and in some columns
     at: Callable[[FloatArray, slice], Pixels]
 
     @classmethod
@@ -44,22 +39,14 @@ STAGE = "optics"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Optics:
-    """The imaging of the panel: outline, blur and gains.
+    """The imaging of the panel: outline, blur and gains."""
 
-    Parameters
-    ----------
-    outline : ndarray of float64, shape (corners, 2)
-        The panel's outline in the picture, (column, row) of each corner.
-    blur
-        Standard deviation of the lens's blur in pixels.
-    cover_stage
-        The stage that the time to compute the panel's coverage is counted under.
-    """
-
+    # Shape (corners, 2): the panel's outline in the picture, (column, row) of each corner
     outline: FloatArray
-    blur: float = 0.0
+    blur: float = 0.0  # Standard deviation of the lens's blur in pixels
     emission: tuple[Gain, ...] = field(default=())
     transmission: tuple[Gain, ...] = field(default=())
+    # The stage that the time to compute the panel's coverage is counted under
     cover_stage: str = STAGE
 
     @property

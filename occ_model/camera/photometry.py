@@ -79,17 +79,11 @@ def level_values(scene: Scene) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ColumnLight:
-    """The light that reaches each column during its exposure.
+    """The light that reaches each column during its exposure."""
 
-    Parameters
-    ----------
-    lit : ndarray of float64, shape (columns,)
-        Mean light of the panel in the exposure, as a share of the fully lit panel's.
-    ambient : ndarray of float64, shape (columns,) or (1,)
-        The external light, as a multiple of its mean over time.
-    """
-
+    # Shape (columns,): mean light of the panel in the exposure, as a share of the fully lit panel's
     lit: FloatArray
+    # Shape (columns,) or (1,): the external light, as a multiple of its mean over time
     ambient: FloatArray
 
     @classmethod

@@ -39,40 +39,26 @@ def split_at(band: range, rows: Sequence[int]) -> list[range]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rim:
-    """Columns near a rim of the panel.
-
-    Parameters
-    ----------
-    values : ndarray of float32, shape (rows, columns)
-        Mean pixel values before saturation.
-    inside : ndarray of bool, shape (rows, columns)
-        Where the panel is.
-    """
+    """Columns near a rim of the panel."""
 
     columns: slice
-    values: Pixels
-    inside: NDArray[np.bool_]
+    values: Pixels  # Shape (rows, columns): mean pixel values before saturation
+    inside: NDArray[np.bool_]  # Shape (rows, columns): where the panel is
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rows:
-    """Some rows of a picture.
-
-    Parameters
-    ----------
-    nodes : ndarray of float32, shape (nodes, columns)
-        Mean pixel values before saturation at the nodes; one row where all rows are alike.
-    weights : ndarray of float32, shape (rows, nodes), or None
-        What makes the rows of the nodes; None where these are the rows themselves, or one.
-    inside
-        The columns in which all rows show the panel.
-    """
+    """Some rows of a picture."""
 
     place: range
+    # Shape (nodes, columns): mean pixel values before saturation at the nodes; one row where all
+    # rows are alike
     nodes: Pixels
+    # Shape (rows, nodes), or None: what makes the rows of the nodes; None where these are the rows
+    # themselves, or one
     weights: Pixels | None
     rims: tuple[Rim, ...]
-    inside: tuple[slice, ...]
+    inside: tuple[slice, ...]  # The columns in which all rows show the panel
 
     @property
     def values(self) -> Pixels:
@@ -116,16 +102,10 @@ class Rows:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LitPanel:
-    """A panel in a picture.
-
-    Parameters
-    ----------
-    values : ndarray of float64, shape (columns,)
-        Its pixel value in each column before saturation.
-    """
+    """A panel in a picture."""
 
     optics: Optics
-    values: FloatArray
+    values: FloatArray  # Shape (columns,): its pixel value in each column before saturation
 
 
 class _Panel:

@@ -35,17 +35,12 @@ _FIGURES = (*PICTURE_ENDINGS, ".pdf", ".svg")
 
 @dataclass(frozen=True, slots=True)
 class Written:
-    """The kind of file that a command writes to the path of an option.
-
-    Parameters
-    ----------
-    names
-        The files that are written, where the path is that of their folder.
-    """
+    """The kind of file that a command writes to the path of an option."""
 
     what: str
     ending: str = ""
     refused: tuple[str, ...] = ()
+    # The files that are written, where the path is that of their folder
     names: tuple[str, ...] = ()
 
 

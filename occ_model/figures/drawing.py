@@ -92,24 +92,14 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawing:
-    """A figure and the numbers in it.
+    """A figure and the numbers in it."""
 
-    Parameters
-    ----------
-    name
-        The file's name without ending.
-    draw
-        Function that draws the figure, to be called within :func:`house_style`.
-    provenance
-        Function that says at a date where the numbers come from, of a figure that is not of one
-        scene.
-    """
-
-    name: str
+    name: str  # The file's name without ending
     title: str
-    draw: Callable[[], Figure]
+    draw: Callable[[], Figure]  # Function that draws the figure, to be called within house_style
     header: Sequence[str]
     rows: Callable[[], Iterable[Sequence[object]]]
+    # Function that says at a date where the numbers come from, of a figure that is not of one scene
     provenance: Callable[[str], Provenance] | None = None
 
     def write(self, path: Path, provenance: Provenance) -> None:

@@ -11,24 +11,14 @@ from occ_model.arrays import FloatArray
 
 @dataclass(frozen=True, slots=True)
 class PhotoLayer:
-    """Where a photo lies over a simulated picture, and how much of it is seen.
+    """Where a photo lies over a simulated picture, and how much of it is seen."""
 
-    Parameters
-    ----------
-    column, row
-        The pixel of the simulated picture under the centre of the photo's first pixel.
-    scale
-        Pixels of the simulated picture per pixel of the photo.
-    opacity
-        Opacity of the photo, from 0 to 1.
-    from_row
-        The row of the simulated picture from which downwards the photo is seen; None for all of it.
-    """
-
+    # The pixel of the simulated picture under the centre of the photo's first pixel
     column: float = 0.0
     row: float = 0.0
-    scale: float = 1.0
-    opacity: float = 1.0
+    scale: float = 1.0  # Pixels of the simulated picture per pixel of the photo
+    opacity: float = 1.0  # Opacity of the photo, from 0 to 1
+    # The row of the simulated picture from which downwards the photo is seen; None for all of it
     from_row: float | None = None
 
     def first_row(self, rows: int) -> int:
@@ -54,21 +44,13 @@ class PhotoLayer:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Difference:
-    """The difference of a photo and a simulated picture where they overlap.
+    """The difference of a photo and a simulated picture where they overlap."""
 
-    Parameters
-    ----------
-    levels : ndarray of float64, shape (cell rows, cell columns)
-        The absolute difference in grey levels, averaged over cells.
-    extent
-        The left, right, lower and upper edge of the cells in pixels of the simulated picture.
-    gain
-        The factor by which it is drawn; what exceeds 255 is white.
-    """
-
+    # Shape (cell rows, cell columns): the absolute difference in grey levels, averaged over cells
     levels: FloatArray
+    # The left, right, lower and upper edge of the cells in pixels of the simulated picture
     extent: tuple[float, float, float, float]
-    gain: int
+    gain: int  # The factor by which it is drawn; what exceeds 255 is white
 
     @property
     def words(self) -> str:

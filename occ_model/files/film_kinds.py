@@ -13,22 +13,14 @@ from occ_model.errors import VideoError, one_line
 
 @dataclass(frozen=True, slots=True)
 class Container:
-    """A kind of file that holds a film.
-
-    Parameters
-    ----------
-    reader
-        What reads it: OpenCV with its FFmpeg, or Pillow.
-    time_step
-        The frames' times are whole multiples of this, in seconds; None where each file has a step
-        of its own.
-    counts
-        Whether it states how many frames it holds; else that is estimated from its length.
-    """
+    """A kind of file that holds a film."""
 
     name: str
-    reader: Literal["opencv", "pillow"]
+    reader: Literal["opencv", "pillow"]  # What reads it: OpenCV with its FFmpeg, or Pillow
+    # The frames' times are whole multiples of this, in seconds; None where each file has a step of
+    # its own
     time_step: float | None = None
+    # Whether it states how many frames it holds; else that is estimated from its length
     counts: bool = True
 
 

@@ -39,20 +39,12 @@ class WorkersLostError(OccError):
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A call that a worker makes.
+    """A call that a worker makes."""
 
-    Parameters
-    ----------
-    function
-        A function of some module. It takes a :data:`Heartbeat` after the arguments and must not
-        need Qt.
-    counter
-        The counter that the job's heartbeats are added to.
-    """
-
+    # A function of some module. It takes a Heartbeat after the arguments and must not need Qt.
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
-    counter: int = 0
+    counter: int = 0  # The counter that the job's heartbeats are added to
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,20 +61,12 @@ class JobResult:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Jobs that belong together.
+    """Jobs that belong together."""
 
-    Parameters
-    ----------
-    rank
-        The jobs of the stage with the lowest rank go first.
-    jobs
-        The jobs, in the order in which they are begun. Each is asked for only when it is needed.
-    uninterruptible
-        Whether the stage, once begun, is completed although something newer is asked for.
-    """
-
-    rank: int
+    rank: int  # The jobs of the stage with the lowest rank go first
+    # The jobs, in the order in which they are begun. Each is asked for only when it is needed.
     jobs: Iterable[Job]
+    # Whether the stage, once begun, is completed although something newer is asked for
     uninterruptible: bool = False
 
 

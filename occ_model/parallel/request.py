@@ -44,16 +44,10 @@ class StageProgress:
 
 @dataclass(eq=False, slots=True)
 class Run:
-    """Work on one request of a channel.
-
-    Parameters
-    ----------
-    number
-        The number of the run; later runs of a channel have higher ones.
-    """
+    """Work on one request of a channel."""
 
     channel: int
-    number: int
+    number: int  # The number of the run; later runs of a channel have higher ones
     stages: Stages
     begun: list[StageProgress] = field(default_factory=list)
     unreported: list[Any] = field(default_factory=list)

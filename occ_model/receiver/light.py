@@ -26,20 +26,13 @@ PER_CHIP = 16
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Light:
-    """A signal in light.
+    """A signal in light."""
 
-    Parameters
-    ----------
-    values : ndarray of float64, shape (columns,)
-        Proportional to the light of each column, up to a constant.
-    clipped : ndarray of bool, shape (columns,)
-        Columns of the largest level, whose light is that or more.
-    is_estimated
-        Whether only the order of the levels was used, as the curve from light to levels is unknown.
-    """
-
+    # Shape (columns,): proportional to the light of each column, up to a constant
     values: FloatArray
+    # Shape (columns,): columns of the largest level, whose light is that or more
     clipped: BoolArray
+    # Whether only the order of the levels was used, as the curve from light to levels is unknown
     is_estimated: bool
 
 

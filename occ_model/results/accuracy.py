@@ -23,21 +23,12 @@ LEAST_ERROR = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class AccuracyPoint:
-    """The time and the error of one way to simulate.
+    """The time and the error of one way to simulate."""
 
-    Parameters
-    ----------
-    part
-        The part of the study: a name from ``ACCURACY_PARTS``.
-    error
-        Root mean square difference from the most exact way, in levels of the stretched profile.
-    current
-        Whether the present settings simulate in this way: one point of a study.
-    """
-
-    part: str
+    part: str  # The part of the study: a name from ``ACCURACY_PARTS``
     name: str
     seconds: float
+    # Root mean square difference from the most exact way, in levels of the stretched profile
     error: float
-    current: bool = False
+    current: bool = False  # Whether the present settings simulate in this way: one point of a study
     effects: tuple[str, ...] = ()

@@ -13,40 +13,25 @@ Side: TypeAlias = Literal["lowest", "highest"]
 
 @dataclass(frozen=True, slots=True)
 class TheoryLimits:
-    """The values of one parameter at which theory places a limit, all others as they are.
+    """The values of one parameter at which theory places a limit, all others as they are."""
 
-    Parameters
-    ----------
-    band_model
-        Where the band model ends: t = t_LED.
-    null
-        Where an alternating pattern has no stripes: t = 2 t_LED.
-    two_packets
-        The frequency below which no two packets fit the panel's image; None for an exposure time,
-        or where the image shows no panel.
-    saturation
-        The exposure time from which the lit panel is white, infinite without light; None for a
-        frequency.
-    """
-
-    band_model: float
-    null: float
+    band_model: float  # Where the band model ends: t = t_LED
+    null: float  # Where an alternating pattern has no stripes: t = 2 t_LED
+    # The frequency below which no two packets fit the panel's image; None for an exposure time, or
+    # where the image shows no panel
     two_packets: float | None = None
+    # The exposure time from which the lit panel is white, infinite without light; None for a
+    # frequency
     saturation: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class EndFacts:
-    """One end of a working range.
-
-    Parameters
-    ----------
-    works, fails, inside, interval
-        As of :class:`~occ_model.results.limits.RangeEnd`.
-    """
+    """One end of a working range."""
 
     parameter: str
     side: Side
+    # As of RangeEnd
     works: Trial
     fails: Trial | None
     inside: Trial | None = None
@@ -60,15 +45,10 @@ class EndFacts:
 
 @dataclass(frozen=True, slots=True)
 class RangeFacts:
-    """What is known of the values of one parameter at which a decoder reads a scene.
-
-    Parameters
-    ----------
-    ends
-        Its lowest end and its highest; empty where the decoder reads nowhere.
-    """
+    """What is known of the values of one parameter at which a decoder reads a scene."""
 
     found: WorkingRange
+    # Its lowest end and its highest; empty where the decoder reads nowhere
     ends: tuple[EndFacts, ...]
     theory: TheoryLimits
 

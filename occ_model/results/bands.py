@@ -11,18 +11,10 @@ BARELY = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """How far something swings, relative to its mean over all starts of an exposure.
+    """How far something swings, relative to its mean over all starts of an exposure."""
 
-    Parameters
-    ----------
-    peak_to_peak
-        Largest less smallest value.
-    rms
-        Root mean square of the deviation from the mean.
-    """
-
-    peak_to_peak: float
-    rms: float
+    peak_to_peak: float  # Largest less smallest value
+    rms: float  # Root mean square of the deviation from the mean
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,21 +63,13 @@ class BandDepth:
 
 @dataclass(frozen=True, slots=True)
 class SpeedDepth:
-    """Depth of the bars at a shutter speed that is written on cameras.
+    """Depth of the bars at a shutter speed that is written on cameras."""
 
-    Parameters
-    ----------
-    name
-        As it is written on the camera, such as 1/125 s.
-    nominal, real
-        The time that is written, and that of a camera whose speeds are powers of two, in seconds.
-    at_nominal, at_real
-        Peak to peak depth of the light at each.
-    """
-
-    name: str
+    name: str  # As it is written on the camera, such as 1/125 s
+    # The time that is written, and that of a camera whose speeds are powers of two, in seconds
     nominal: float
     real: float
+    # Peak to peak depth of the light at each
     at_nominal: float
     at_real: float
 
@@ -130,34 +114,21 @@ class BandAdvice:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DepthMap:
-    """Least depth of the bars over frequency and exposure, both in even steps of logarithms.
+    """Least depth of the bars over frequency and exposure, both in even steps of logarithms."""
 
-    Parameters
-    ----------
-    frequencies, exposures : ndarray of float64, shapes (n + 1,), (m + 1,)
-        Ends of the cells, in Hz and s.
-    least : ndarray of float64, shape (n, m)
-        Least depth within the exposures of each cell, at its middle frequency.
-    period
-        Chips after which the code repeats: bars vanish at whole multiples of it.
-    """
-
+    # Shapes (n + 1,), (m + 1,): ends of the cells, in Hz and s
     frequencies: FloatArray
     exposures: FloatArray
+    # Shape (n, m): least depth within the exposures of each cell, at its middle frequency
     least: FloatArray
-    period: int
+    period: int  # Chips after which the code repeats: bars vanish at whole multiples of it
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RiskLines:
-    """The lines of IEEE 1789-2015 over the frequencies that they divide, each with its end.
+    """The lines of IEEE 1789-2015 over the frequencies that they divide, each with its end."""
 
-    Parameters
-    ----------
-    no_effect, low_risk : ndarray of float64, shape (n, 2)
-        Corners: frequency in Hz, modulation in percent.
-    """
-
+    # Shape (n, 2): corners: frequency in Hz, modulation in percent
     no_effect: FloatArray
     low_risk: FloatArray
 
@@ -196,44 +167,26 @@ class EyeFlicker:
 
 @dataclass(frozen=True, slots=True)
 class ShutterSpeed:
-    """A shutter speed.
+    """A shutter speed."""
 
-    Parameters
-    ----------
-    name
-        As it is written on the camera.
-    nominal, real
-        The time that is written, and the one that is kept where speeds are powers of two, in s.
-    """
-
-    name: str
+    name: str  # As it is written on the camera
+    # The time that is written, and the one that is kept where speeds are powers of two, in s
     nominal: float
     real: float
 
 
 @dataclass(frozen=True, slots=True)
 class Cure:
-    """What takes the bars out of a picture.
+    """What takes the bars out of a picture."""
 
-    Parameters
-    ----------
-    repeats
-        How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it.
-    duty
-        Share of the time in which the lamp is lit.
-    depth
-        Least and largest peak to peak depth of the bars that the lamp's own light, without that of
-        others, has now: within two standard deviations of the exposure.
-    speeds, kept
-        The shortest usual shutter speeds that show no bars, at most two: as they are written, and
-        also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
-    scene
-        With the shortest of them, or the shortest exposure without bars of the lamp.
-    """
-
+    # How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it
     repeats: float
-    duty: float
+    duty: float  # Share of the time in which the lamp is lit
+    # Least and largest peak to peak depth of the bars that the lamp's own light, without that of
+    # others, has now: within two standard deviations of the exposure
     depth: tuple[float, float]
+    # The shortest usual shutter speeds that show no bars, at most two: as they are written, and
+    # also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
     speeds: tuple[ShutterSpeed, ...]
     kept: tuple[ShutterSpeed, ...]
-    scene: Scene
+    scene: Scene  # With the shortest of them, or the shortest exposure without bars of the lamp

@@ -21,42 +21,27 @@ BenchPlace: TypeAlias = tuple[str, str, float, float]
 
 @dataclass(frozen=True, slots=True)
 class BenchRequest:
-    """What the bench measures.
+    """What the bench measures."""
 
-    Parameters
-    ----------
-    schemes
-        Each the name of a line code, or of a line code and a framing with a slash between.
-    exposures, decibels
-        The exposures in symbols, tried at ``at_decibels``, and the signal-to-noise ratios, tried
-        at ``at_exposure``.
-    at_exposure, at_decibels
-        The exposure of the curve over noise, and the ratio of the curve over exposure.
-    rows_a_symbol
-        Rows that are read out while a symbol lasts.
-    payload_bits
-        Bits of a payload; each picture shows another one.
-    preamble, error_correction
-        Of the schemes, as the parameters of a scene.
-    rows
-        Rows of a picture, all of which see the light.
-    readout_time
-        Time between two rows in seconds; it matters for bits a second alone.
-    """
-
+    # Each the name of a line code, or of a line code and a framing with a slash between
     schemes: tuple[str, ...] = ("manchester",)
     decoders: tuple[str, ...] = ()
+    # The exposures in symbols, tried at ``at_decibels``, and the signal-to-noise ratios, tried at
+    # ``at_exposure``
     exposures: tuple[float, ...] = EXPOSURES
     decibels: tuple[float, ...] = DECIBELS
+    # The exposure of the curve over noise, and the ratio of the curve over exposure
     at_exposure: float = 4.0
     at_decibels: float = 30.0
-    rows_a_symbol: float = 5.0
-    payload_bits: int = 256
+    rows_a_symbol: float = 5.0  # Rows that are read out while a symbol lasts
+    payload_bits: int = 256  # Bits of a payload; each picture shows another one
     bits: int = 10_240
     seed: int = 1
+    # Of the schemes, as the parameters of a scene
     preamble: str = ""
     error_correction: str = "none"
-    rows: int = _CAMERA.columns
+    rows: int = _CAMERA.columns  # Rows of a picture, all of which see the light
+    # Time between two rows in seconds; it matters for bits a second alone
     readout_time: float = _CAMERA.readout_time
 
     @property
@@ -74,20 +59,14 @@ class BenchRequest:
 
 @dataclass(frozen=True, slots=True)
 class BenchPoint:
-    """Bit errors of a decoder at one exposure and one noise.
-
-    Parameters
-    ----------
-    note
-        Why the first payload was not read that was not; empty where all were.
-    """
+    """Bit errors of a decoder at one exposure and one noise."""
 
     scheme: str
     axis: str
     exposure: float
     decibels: float
     errors: BitErrors
-    note: str = ""
+    note: str = ""  # Why the first payload was not read that was not; empty where all were
 
     @property
     def place(self) -> float:
@@ -102,18 +81,12 @@ class BenchPoint:
 
 @dataclass(frozen=True, slots=True)
 class BenchBounds:
-    """What theory says of the points of a bench.
+    """What theory says of the points of a bench."""
 
-    Parameters
-    ----------
-    nulls
-        The exposures, in symbols, at which chips that alternate leave no stripes.
-    most_bits
-        For each axis the exposures or ratios, and the bits that light of Gaussian levels can carry
-        to one picture there.
-    """
-
+    # The exposures, in symbols, at which chips that alternate leave no stripes
     nulls: tuple[float, ...]
+    # For each axis the exposures or ratios, and the bits that light of Gaussian levels can carry to
+    # one picture there
     most_bits: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]
 
 

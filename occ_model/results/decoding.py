@@ -39,51 +39,28 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """The location of the panel in an image, and how it was found.
-
-    Parameters
-    ----------
-    bright_level
-        The grey level from which a pixel counts as bright.
-    growth
-        Pixels by which they were grown until one was left.
-    """
+    """The location of the panel in an image, and how it was found."""
 
     region: Region
-    bright_level: int
+    bright_level: int  # The grey level from which a pixel counts as bright
     contours: int
-    growth: int
+    growth: int  # Pixels by which they were grown until one was left
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Runs:
-    """A signal of zeros and ones, as runs of equal values.
+    """A signal of zeros and ones, as runs of equal values."""
 
-    Parameters
-    ----------
-    values : ndarray of uint8, shape (runs,)
-        0 and 1 in turn.
-    lengths : ndarray of int64, shape (runs,)
-        Columns of each.
-    """
-
-    values: ByteArray
-    lengths: IndexArray
+    values: ByteArray  # Shape (runs,): 0 and 1 in turn
+    lengths: IndexArray  # Shape (runs,): columns of each
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RunHistogram:
-    """Histogram of the lengths of whole runs of one value.
+    """Histogram of the lengths of whole runs of one value."""
 
-    Parameters
-    ----------
-    counts : ndarray of int64, shape (longest + 1,)
-        Runs of each length in columns.
-    split
-        The longest of the short runs by Otsu's threshold, None where all lengths are equal.
-    """
-
-    counts: IndexArray
+    counts: IndexArray  # Shape (longest + 1,): runs of each length in columns
+    # The longest of the short runs by Otsu's threshold, None where all lengths are equal
     split: int | None
 
 

@@ -12,26 +12,15 @@ from occ_model.results.plan import Plan, Way
 
 @dataclass(frozen=True, slots=True)
 class TimeShares:
-    """The computing time of one picture, divided among its effects and all the rest.
+    """The computing time of one picture, divided among its effects and all the rest."""
 
-    Parameters
-    ----------
-    effects
-        Seconds of each effect that was computed by itself.
-    stages
-        Seconds of each other stage of the simulation.
-    together
-        Effects that were computed in one step with another, and which effect's time it counts to.
-    rows_differ
-        Whether rows were computed one by one: not where only effects on whole columns are included.
-    scatter
-        Seconds by which each effect took longer in other runs, where the picture was made again.
-    """
-
-    effects: Mapping[str, float]
-    stages: Mapping[str, float]
+    effects: Mapping[str, float]  # Seconds of each effect that was computed by itself
+    stages: Mapping[str, float]  # Seconds of each other stage of the simulation
+    # Effects that were computed in one step with another, and which effect's time it counts to
     together: Mapping[str, str]
+    # Whether rows were computed one by one: not where only effects on whole columns are included
     rows_differ: bool
+    # Seconds by which each effect took longer in other runs, where the picture was made again
     scatter: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
@@ -79,63 +68,46 @@ class TimeShares:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectCrop:
-    """A part of the panel that shows an effect best: the paper's model with it, and without it.
+    """A part of the panel that shows an effect best: the paper's model with it, and without it."""
 
-    Parameters
-    ----------
-    with_effect, without : ndarray of uint8, shape (rows, columns)
-        The camera's pixels, both stretched in the same way to the full range of grey.
-    difference : ndarray of uint8, shape (rows, columns)
-        The first less the second in grey levels, multiplied by ``amplification``, around 128.
-    is_averaged
-        Whether it is the whole panel, reduced by averaging areas; otherwise real pixels.
-    """
-
+    # Shape (rows, columns): the camera's pixels, both stretched in the same way to the full range
+    # of grey
     with_effect: ByteArray
     without: ByteArray
+    # Shape (rows, columns): the first less the second in grey levels, multiplied by
+    # ``amplification``, around 128
     difference: ByteArray
     amplification: int
+    # Whether it is the whole panel, reduced by averaging areas; otherwise real pixels
     is_averaged: bool
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EffectDifference:
-    """What leaving one effect out of the complete simulation changes.
-
-    Parameters
-    ----------
-    error
-        Root mean square of the change of the observable, in levels of the stretched profile.
-    change : ndarray of float64, shape (samples,)
-        The change in some places, the same for all effects of a scene, with this root mean square.
-    crop, icon
-        How the effect alone looks: at a size to look at closely, and that of a line of text.
-    """
+    """What leaving one effect out of the complete simulation changes."""
 
     effect: str
+    # Root mean square of the change of the observable, in levels of the stretched profile
     error: float
+    # Shape (samples,): the change in some places, the same for all effects of a scene, with this
+    # root mean square
     change: FloatArray
+    # How the effect alone looks: at a size to look at closely, and that of a line of text
     crop: EffectCrop
     icon: EffectCrop
 
 
 @dataclass(frozen=True, slots=True)
 class MeasuredCosts:
-    """What has been measured of a scene's effects, as far as it has been.
-
-    Parameters
-    ----------
-    others
-        Those of pictures of its scene that were made in turn, among them one with all effects and
-        one with none: the first gives the times of effects that the picture leaves out, the second
-        that of everything else where no effect makes rows differ.
-    errors
-        Errors measured as a whole, by the effects of the scene that are included.
-    """
+    """What has been measured of a scene's effects, as far as it has been."""
 
     picture: TimeShares
+    # Those of pictures of its scene that were made in turn, among them one with all effects and one
+    # with none: the first gives the times of effects that the picture leaves out, the second that
+    # of everything else where no effect makes rows differ
     others: tuple[TimeShares, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
+    # Errors measured as a whole, by the effects of the scene that are included
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)
 
     @property
@@ -172,25 +144,15 @@ class MeasuredCosts:
 
 @dataclass(frozen=True, slots=True)
 class Forecast:
-    """What a simulation with other settings would take, and how exact it would be.
-
-    Parameters
-    ----------
-    seconds
-        Its expected time, None where a time is not known yet.
-    error
-        Its expected error, root mean square in levels of the stretched profile: that of the changes
-        of all effects left out, added up as if none influenced another. None where a change is not
-        known yet.
-    ways
-        What the plan chooses among, the fastest first: see :func:`occ_model.effects.plan.ways_of`.
-    ways_seconds
-        What a picture of each is expected to take, None where a time is not known yet.
-    """
+    """What a simulation with other settings would take, and how exact it would be."""
 
     plan: Plan
-    seconds: float | None
+    seconds: float | None  # Its expected time, None where a time is not known yet
+    # Its expected error, root mean square in levels of the stretched profile: that of the changes
+    # of all effects left out, added up as if none influenced another. None where a change is not
+    # known yet.
     error: float | None
     is_measured: bool
-    ways: tuple[Way, ...] = ()
+    ways: tuple[Way, ...] = ()  # What the plan chooses among, the fastest first: see ways_of
+    # What a picture of each is expected to take, None where a time is not known yet
     ways_seconds: tuple[float | None, ...] = ()

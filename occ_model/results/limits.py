@@ -9,27 +9,17 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class Trial:
-    """The bits counted at one value of a parameter.
+    """The bits counted at one value of a parameter."""
 
-    Parameters
-    ----------
-    value
-        The parameter, in SI units.
-    low, high
-        The 95 % interval of the success rate, percent, which counts images.
-    images
-        Images that were tried: fewer than asked for where the rate could not be reached any more.
-    whole
-        Images of which every bit was read.
-    """
-
-    value: float
+    value: float  # The parameter, in SI units
     right: int
     sent: int
+    # The 95 % interval of the success rate, percent, which counts images
     low: float
     high: float
+    # Images that were tried: fewer than asked for where the rate could not be reached any more
     images: int
-    whole: int
+    whole: int  # Images of which every bit was read
 
     @property
     def rate(self) -> float:
@@ -49,26 +39,19 @@ class RangeEnd:
     """One end of an interval in which a decoder reads.
 
     Its images have not chosen it: those that did are others.
-
-    Parameters
-    ----------
-    fails
-        A value beyond, at which it surely does not: the 95 % interval of the rate lies below the
-        rate asked for. None where it reads to the end of the search.
-    inside
-        A value inside, at which it surely reads: every bit of so many images that the 95 % interval
-        lies above the rate asked for. At the end of the search ``works``, if every bit was read.
-        None where there is none, or it was not looked for.
-    is_bisected
-        Whether the end was found by bisection; otherwise it is known to a step of the search.
-    interval
-        The values between which the true end lies, with 95 %; None where that is not known.
     """
 
     works: Trial
+    # A value beyond, at which it surely does not: the 95 % interval of the rate lies below the rate
+    # asked for. None where it reads to the end of the search.
     fails: Trial | None
+    # A value inside, at which it surely reads: every bit of so many images that the 95 % interval
+    # lies above the rate asked for. At the end of the search ``works``, if every bit was read. None
+    # where there is none, or it was not looked for.
     inside: Trial | None = None
+    # Whether the end was found by bisection; otherwise it is known to a step of the search
     is_bisected: bool = False
+    # The values between which the true end lies, with 95 %; None where that is not known
     interval: tuple[float, float] | None = None
 
     @property
@@ -87,31 +70,21 @@ class ReadInterval:
 
 @dataclass(frozen=True, slots=True)
 class WorkingRange:
-    """The values of a parameter at which a decoder reads a scene, all others as they are.
-
-    Parameters
-    ----------
-    step
-        Ratio of neighbouring values of the search: a gap or an interval narrower than that can be
-        missed.
-    intervals
-        Where the decoder reads, rising; between them are gaps. Empty where it reads nowhere.
-    failure
-        None, or a sentence that says that it reads nowhere.
-    best
-        Where it reads nowhere: the value at which it reads the most; else None.
-    most_chips
-        The chips of an exposure at which the search ended, as the decoder takes too long beyond;
-        None where that has not shortened it.
-    """
+    """The values of a parameter at which a decoder reads a scene, all others as they are."""
 
     parameter: str
     searched: tuple[float, float]
+    # Ratio of neighbouring values of the search: a gap or an interval narrower than that can be
+    # missed
     step: float
     own: Trial
+    # Where the decoder reads, rising; between them are gaps. Empty where it reads nowhere.
     intervals: tuple[ReadInterval, ...]
-    failure: str | None = None
+    failure: str | None = None  # None, or a sentence that says that it reads nowhere
+    # Where it reads nowhere: the value at which it reads the most; else None
     best: Trial | None = None
+    # The chips of an exposure at which the search ended, as the decoder takes too long beyond; None
+    # where that has not shortened it
     most_chips: float | None = None
 
     @property

@@ -20,40 +20,24 @@ def known_beside(estimate: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class PhotoRow:
-    """What was found in one photo.
-
-    Parameters
-    ----------
-    verdict
-        One of :data:`VERDICTS`.
-    note
-        Why it, or its exposure time alone, is not sure, in sentences; empty where all of it is.
-    match
-        None where there is none.
-    noted_exposure
-        Seconds, as the camera noted it in the file; None where it did not.
-    lines
-        Lines that the shutter reads out in a picture: the photo's columns; 0 of an unreadable one.
-    size
-        Width and height of the upright picture in pixels; (0, 0) of an unreadable one.
-    scanned_along
-        ``"lines"`` or ``"columns"`` of the upright picture; empty of an unreadable one.
-    camera
-        The camera's maker and model, None where it is not known.
-    given
-        The value of the known parameter that was given for this photo alone, in SI units; None
-        where the scene's was taken.
-    """
+    """What was found in one photo."""
 
     path: Path
-    verdict: str
+    verdict: str  # One of VERDICTS
+    # Why it, or its exposure time alone, is not sure, in sentences; empty where all of it is
     note: str = ""
-    match: Match | None = field(default=None, compare=False, repr=False)
+    match: Match | None = field(default=None, compare=False, repr=False)  # None where there is none
+    # Seconds, as the camera noted it in the file; None where it did not
     noted_exposure: float | None = None
+    # Lines that the shutter reads out in a picture: the photo's columns; 0 of an unreadable one
     lines: int = 0
+    # Width and height of the upright picture in pixels; (0, 0) of an unreadable one
     size: tuple[int, int] = (0, 0)
+    # ``"lines"`` or ``"columns"`` of the upright picture; empty of an unreadable one
     scanned_along: str = ""
-    camera: str | None = None
+    camera: str | None = None  # The camera's maker and model, None where it is not known
+    # The value of the known parameter that was given for this photo alone, in SI units; None where
+    # the scene's was taken
     given: float | None = None
 
     @property
@@ -93,31 +77,20 @@ class PhotoRow:
 
 @dataclass(frozen=True, slots=True)
 class CombinedEstimate:
-    """One value from several estimates of it.
+    """One value from several estimates of it."""
 
-    Parameters
-    ----------
-    value
-        The mean, weighted by the inverse variances.
-    uncertainty
-        Its standard deviation: that of a mean of independent estimates, times ``scale``.
-    chi_square
-        Sum of squares of the differences from the mean, each in its standard deviations.
-    probability
-        Of a chi-square that is as large or larger, where the standard deviations are right.
-    scale
-        At least 1, as :mod:`occ_model.photo.many.weighted_mean` says: above 1 where the estimates
-        scatter by more than their standard deviations, or by less, so that they may share an error.
-    outliers
-        Places of the estimates that were left out, as too far from the others.
-    """
-
-    value: float
+    value: float  # The mean, weighted by the inverse variances
+    # Its standard deviation: that of a mean of independent estimates, times ``scale``
     uncertainty: float
     count: int
+    # Sum of squares of the differences from the mean, each in its standard deviations
     chi_square: float
+    # Of a chi-square that is as large or larger, where the standard deviations are right
     probability: float
+    # At least 1, as weighted_mean says: above 1 where the estimates scatter by more than their
+    # standard deviations, or by less, so that they may share an error
     scale: float
+    # Places of the estimates that were left out, as too far from the others
     outliers: tuple[int, ...] = ()
 
     @property

@@ -55,21 +55,11 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A set of effects, what it takes and how far it is from all.
+    """A set of effects, what it takes and how far it is from all."""
 
-    Parameters
-    ----------
-    effects
-        Those that are simulated, of those that the scene has.
-    seconds
-        What a picture takes, as measured on one computer.
-    error
-        What the others change together, as in :class:`Plan`.
-    """
-
-    effects: frozenset[str]
-    seconds: float
-    error: float
+    effects: frozenset[str]  # Those that are simulated, of those that the scene has
+    seconds: float  # What a picture takes, as measured on one computer
+    error: float  # What the others change together, as in Plan
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,24 +62,16 @@ class PacketReading:
 
 @dataclass(frozen=True, slots=True)
 class FilmPart:
-    """A part of a film in which frame follows frame, and the packets that were sent meanwhile.
+    """A part of a film in which frame follows frame, and the packets that were sent meanwhile."""
 
-    Parameters
-    ----------
-    start, duration
-        When its first frame began by the film's clock, and how long it is, in seconds.
-    begin, step
-        When the first of them began after ``start``, and the time from one to the next, in seconds.
-    first_part
-        The number of the sub-packet that the first of them is.
-    """
-
+    # When its first frame began by the film's clock, and how long it is, in seconds
     start: float
     duration: float
     count: int = 0
+    # When the first of them began after ``start``, and the time from one to the next, in seconds
     begin: float = 0.0
     step: float = 0.0
-    first_part: int = 0
+    first_part: int = 0  # The number of the sub-packet that the first of them is
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,15 +80,10 @@ class SentPackets(Sequence[PacketReading]):
 
     A packet of which no frame shows a chip is made when it is asked for: a film of hours has
     millions of them.
-
-    Parameters
-    ----------
-    in_view
-        The packets of which frames show chips, in order.
     """
 
     parts: tuple[FilmPart, ...] = ()
-    in_view: tuple[PacketReading, ...] = ()
+    in_view: tuple[PacketReading, ...] = ()  # The packets of which frames show chips, in order
     sub_packets: int = 1
 
     @classmethod

@@ -15,38 +15,24 @@ SATURATED_FROM = 0.01
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Spectrum:
-    """The amplitudes of a profile's frequencies.
+    """The amplitudes of a profile's frequencies."""
 
-    Parameters
-    ----------
-    frequencies : ndarray of float64, shape (n,)
-        In Hz, from 0 to half the rate of the columns, 1 / (2 t_r).
-    amplitudes : ndarray of float64, shape (n,)
-        Of a sine of each frequency, in grey levels.
-    response : ndarray of float64, shape (n,)
-        What the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|, with F the frequency
-        of the light. The null of an alternating pattern, f = 2 / t, is its first zero, F = 1 / t.
-    zeros
-        Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one.
-    """
-
+    # Shape (n,): in Hz, from 0 to half the rate of the columns, 1 / (2 t_r)
     frequencies: FloatArray
-    amplitudes: FloatArray
+    amplitudes: FloatArray  # Shape (n,): of a sine of each frequency, in grey levels
+    # Shape (n,): what the exposure leaves of a sine's amplitude, 0 to 1: |sinc(F t)|, with F the
+    # frequency of the light. The null of an alternating pattern, f = 2 / t, is its first zero, F =
+    # 1 / t.
     response: FloatArray
+    # Frequencies in Hz of which the exposure leaves nothing, k / t, up to the last one
     zeros: tuple[float, ...]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LevelHistogram:
-    """How often each grey level occurs.
+    """How often each grey level occurs."""
 
-    Parameters
-    ----------
-    shares : ndarray of float64, shape (256,)
-        Fraction of the pixels at each level; they add up to 1.
-    """
-
-    shares: FloatArray
+    shares: FloatArray  # Shape (256,): fraction of the pixels at each level; they add up to 1
 
     @property
     def white(self) -> float:

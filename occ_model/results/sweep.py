@@ -17,31 +17,19 @@ from occ_model.scene.parameter_kinds import ParameterValue
 
 @dataclass(frozen=True, slots=True)
 class SweepRow:
-    """One success rate.
+    """One success rate."""
 
-    Parameters
-    ----------
-    point
-        The varied parameters, in SI units.
-    rate
-        Percent; None where the model refuses the scene.
-    low, high
-        The ends of the rate's 95 % interval, percent; None where the model refuses the scene.
-    note
-        Why the model refuses the scene; empty where it does not.
-    bits_a_second
-        Net bits a second of a video whose every image shows another payload; None where the model
-        refuses the scene.
-    """
-
-    point: Mapping[str, ParameterValue]
+    point: Mapping[str, ParameterValue]  # The varied parameters, in SI units
     decoder: str
     right: int
     sent: int
-    rate: float | None
+    rate: float | None  # Percent; None where the model refuses the scene
+    # The ends of the rate's 95 % interval, percent; None where the model refuses the scene
     low: float | None
     high: float | None
-    note: str
+    note: str  # Why the model refuses the scene; empty where it does not
+    # Net bits a second of a video whose every image shows another payload; None where the model
+    # refuses the scene
     bits_a_second: float | None
 
 

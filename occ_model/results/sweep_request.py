@@ -44,13 +44,7 @@ decoder computes the forward model of all codes."""
 
 @dataclass(frozen=True, slots=True)
 class RateSettings:
-    """How a success rate is measured.
-
-    Parameters
-    ----------
-    frames_a_second
-        Images a second by which bits a second are counted; it changes no rate.
-    """
+    """How a success rate is measured."""
 
     images: int
     decoders: tuple[str, ...]
@@ -58,20 +52,16 @@ class RateSettings:
     tolerance: float = TOLERANCE.default
     force: Mapping[str, bool] = field(default_factory=dict)
     path: SignalPath = "auto"
+    # Images a second by which bits a second are counted; it changes no rate
     frames_a_second: float = FRAMES_A_SECOND
 
 
 @dataclass(frozen=True, slots=True)
 class SweepRequest:
-    """A request to measure success rates at all combinations of some parameters' values.
-
-    Parameters
-    ----------
-    axes
-        The values of each parameter that is varied, in SI units.
-    """
+    """A request to measure success rates at all combinations of some parameters' values."""
 
     scene: Scene
+    # The values of each parameter that is varied, in SI units
     axes: Mapping[str, tuple[ParameterValue, ...]]
     settings: RateSettings
 
@@ -120,24 +110,11 @@ class SweepRequest:
 
 @dataclass(frozen=True, slots=True)
 class SweepPoint:
-    """The counts of one point.
+    """The counts of one point."""
 
-    Parameters
-    ----------
-    index
-        The point's index, the last axis running fastest.
-    sent
-        Bits sent in all images, 0 where the model refuses the scene.
-    right
-        Number of these bits that each decoder read rightly.
-    note
-        Why the model refuses the scene, empty where it does not.
-    whole
-        Images of which each decoder read every bit rightly; empty where they were not counted.
-    """
-
-    index: int
-    sent: int
-    right: tuple[int, ...]
-    note: str = ""
+    index: int  # The point's index, the last axis running fastest
+    sent: int  # Bits sent in all images, 0 where the model refuses the scene
+    right: tuple[int, ...]  # Number of these bits that each decoder read rightly
+    note: str = ""  # Why the model refuses the scene, empty where it does not
+    # Images of which each decoder read every bit rightly; empty where they were not counted
     whole: tuple[int, ...] = ()

@@ -9,42 +9,23 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
 @dataclass(frozen=True, slots=True)
 class Term:
-    """A part of an equation.
+    """A part of an equation."""
 
-    Parameters
-    ----------
-    text
-        As HTML with ``sub`` and ``sup`` only.
-    """
-
-    text: str
+    text: str  # As HTML with ``sub`` and ``sup`` only
     parameters: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """An equation, in symbols and in numbers.
+    """An equation, in symbols and in numbers."""
 
-    Parameters
-    ----------
-    name
-        The name by which a lesson refers to it.
-    source
-        Its number in the paper, or where else it is from.
-    meaning
-        A short description of the result, as HTML like a term's.
-    symbols, numbers
-        Its right side in symbols and with the scene's numbers.
-    result
-        The result with its unit, or why there is none.
-    """
-
-    name: str
-    source: str
-    meaning: str
+    name: str  # The name by which a lesson refers to it
+    source: str  # Its number in the paper, or where else it is from
+    meaning: str  # A short description of the result, as HTML like a term's
+    # Its right side in symbols and with the scene's numbers
     symbols: tuple[Term, ...]
     numbers: tuple[Term, ...]
-    result: str
+    result: str  # The result with its unit, or why there is none
 
     @property
     def parameters(self) -> frozenset[str]:
@@ -57,23 +38,16 @@ class ExposureWindow:
     """One column's exposure on the waveform of the LED.
 
     Times are in seconds from the start of the first chip that is drawn.
-
-    Parameters
-    ----------
-    edges : ndarray of float64, shape (chips + 1,)
-        Start of each chip around the exposure, and end of the last one.
-    lit : ndarray of uint8, shape (chips,)
-        Whether the LED is on in each.
-    shortened
-        Whether the exposure holds more chips than are drawn; these are its first ones.
     """
 
     column: int
     start: float
     end: float
+    # Shape (chips + 1,): start of each chip around the exposure, and end of the last one
     edges: FloatArray
-    lit: ByteArray
+    lit: ByteArray  # Shape (chips,): whether the LED is on in each
     on_time: float
+    # Whether the exposure holds more chips than are drawn; these are its first ones
     shortened: bool
 
     @property
@@ -96,26 +70,16 @@ class ExposureWindow:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LightCurve:
-    """The light of the LED over the columns that begin their exposures meanwhile.
+    """The light of the LED over the columns that begin their exposures meanwhile."""
 
-    Parameters
-    ----------
-    columns, light : ndarray of float64, shape (knots,)
-        The light, 0 to 1, which is linear from each knot to the next; two knots lie at the same
-        column where it jumps.
-    edges : ndarray of float64, shape (chips + 1,)
-        The column at which each chip starts, and at which the last one ends.
-    lit : ndarray of uint8, shape (chips,)
-        Whether the LED is on in each.
-    places : ndarray of int64, shape (chips,)
-        The number of each chip within the period sent, from 0.
-    """
-
+    # Shape (knots,): the light, 0 to 1, which is linear from each knot to the next; two knots lie
+    # at the same column where it jumps
     columns: FloatArray
     light: FloatArray
+    # Shape (chips + 1,): the column at which each chip starts, and at which the last one ends
     edges: FloatArray
-    lit: ByteArray
-    places: IndexArray
+    lit: ByteArray  # Shape (chips,): whether the LED is on in each
+    places: IndexArray  # Shape (chips,): the number of each chip within the period sent, from 0
 
     def chip_at(self, column: float) -> int | None:
         """Return the index of the chip that is sent at a column, None outside the curve."""
@@ -140,30 +104,15 @@ class LightCurve:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RollingShutter:
-    """Exposures of evenly chosen columns, in time from the first column's start.
+    """Exposures of evenly chosen columns, in time from the first column's start."""
 
-    Parameters
-    ----------
-    columns : ndarray of int, shape (shown,)
-        The columns.
-    starts : ndarray of float64, shape (shown,)
-        When the exposure of each begins, in seconds.
-    exposure_time
-        How long each lasts, in seconds.
-    lit_fraction : ndarray of float64, shape (shown,)
-        Fraction of each exposure for which the LED is on.
-    edges : ndarray of float64, shape (chips + 1,)
-        When each chip begins, and when the last one ends, in seconds.
-    lit : ndarray of uint8, shape (chips,)
-        Whether the LED is on in each.
-    """
-
-    columns: IndexArray
-    starts: FloatArray
-    exposure_time: float
-    lit_fraction: FloatArray
+    columns: IndexArray  # Shape (shown,): the columns
+    starts: FloatArray  # Shape (shown,): when the exposure of each begins, in seconds
+    exposure_time: float  # How long each lasts, in seconds
+    lit_fraction: FloatArray  # Shape (shown,): fraction of each exposure for which the LED is on
+    # Shape (chips + 1,): when each chip begins, and when the last one ends, in seconds
     edges: FloatArray
-    lit: ByteArray
+    lit: ByteArray  # Shape (chips,): whether the LED is on in each
 
     @property
     def duration(self) -> float:

@@ -107,22 +107,15 @@ class Clock:
 
 @dataclass(frozen=True, slots=True)
 class RateWindow:
-    """Error rates in a part of a film.
+    """Error rates in a part of a film."""
 
-    Parameters
-    ----------
-    start, end
-        In seconds.
-    packets, packets_lost
-        Packets that were sent, and those of them that were not read right.
-    bits, bits_wrong
-        Bits that were read and could be compared, and those of them that were wrong.
-    """
-
+    # In seconds
     start: float
     end: float
+    # Packets that were sent, and those of them that were not read right
     packets: int
     packets_lost: int
+    # Bits that were read and could be compared, and those of them that were wrong
     bits: int
     bits_wrong: int
 

@@ -55,24 +55,12 @@ _BLOCK = 8
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Edge:
-    """An edge of a lamp in a picture, by two points on it.
+    """An edge of a lamp in a picture, by two points on it."""
 
-    Parameters
-    ----------
-    side
-        Which of the quadrilateral's sides, from its corner of that number to the next.
-    points : ndarray of float64, shape (2, 2)
-        (column, row) of two points, their lens's distortion undone.
-    normal : ndarray of float64, shape (2,)
-        Of the edge.
-    covariance : ndarray of float64, shape (2, 2)
-        Of both points along the normal, in square pixels.
-    """
-
-    side: int
-    points: FloatArray
-    normal: FloatArray
-    covariance: FloatArray
+    side: int  # Which of the quadrilateral's sides, from its corner of that number to the next
+    points: FloatArray  # Shape (2, 2): (column, row) of two points, their lens's distortion undone
+    normal: FloatArray  # Shape (2,): of the edge
+    covariance: FloatArray  # Shape (2, 2): of both points along the normal, in square pixels
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -97,15 +85,9 @@ def quadrilateral(hull: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _OwnLight:
-    """A lamp's light in every column, at its middle row, and its fall from row to row.
+    """A lamp's light in every column, at its middle row, and its fall from row to row."""
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (columns,)
-        Above the dark; 0 where it is not known.
-    """
-
-    light: FloatArray
+    light: FloatArray  # Shape (columns,): above the dark; 0 where it is not known
     fall: float
     middle: float
 
@@ -300,22 +282,15 @@ def _places(start: float, end: float, size: int) -> "np.ndarray[tuple[int], np.d
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Line:
-    """A straight line through the points of an edge.
-
-    Parameters
-    ----------
-    level
-        Whether ``x`` counts columns; rows else.
-    x, y : ndarray of float64, shape (points,)
-        The points along the edge's axis and across it.
-    known : ndarray of float64, shape (2, 2)
-        Covariance at both of the line's points of what the points' scatter does not show.
-    """
+    """A straight line through the points of an edge."""
 
     side: int
-    level: bool
+    level: bool  # Whether ``x`` counts columns; rows else
+    # Shape (points,): the points along the edge's axis and across it
     x: FloatArray
     y: FloatArray
+    # Shape (2, 2): covariance at both of the line's points of what the points' scatter does not
+    # show
     known: FloatArray
 
     @property

@@ -21,22 +21,14 @@ _SAME_SHAPE = 0.01
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoomPhoto:
-    """What a photo says of its room.
+    """What a photo says of its room."""
 
-    Parameters
-    ----------
-    room
-        The room as it was read: its camera has the photo's size and settings.
-    image : ndarray of uint8, shape (rows, columns)
-        The photo as it was read: the columns are in the order of their exposure.
-    assumed
-        What is taken as given of camera and lens, and from where; sentences.
-    """
-
-    room: Room
+    room: Room  # The room as it was read: its camera has the photo's size and settings
+    # Shape (rows, columns): the photo as it was read: the columns are in the order of their
+    # exposure
     image: ByteArray
     reading: RoomReading
-    assumed: tuple[str, ...]
+    assumed: tuple[str, ...]  # What is taken as given of camera and lens, and from where; sentences
 
 
 def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None) -> RoomPhoto:

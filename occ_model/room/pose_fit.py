@@ -63,27 +63,16 @@ class LampEdges:
 
     A place is six numbers, those of :class:`occ_model.Place`. Where the focal length is not known
     exactly, a seventh is its share above the one assumed.
-
-    Parameters
-    ----------
-    outlines : ndarray of float64, shape (lamps, 4, 3)
-        The lamps' corners in the room.
-    lamp : ndarray of int64, shape (edges,)
-        Which of them each edge is of.
-    points : ndarray of float64, shape (edges, 2, 2)
-        Two points of each edge.
-    whitening : ndarray of float64, shape (edges, 2, 2)
-        What makes deviations of both two independent ones, in their standard errors.
-    focal_share
-        Standard error of the focal length, as a share of it.
     """
 
-    outlines: FloatArray
-    lamp: IndexArray
-    points: FloatArray
+    outlines: FloatArray  # Shape (lamps, 4, 3): the lamps' corners in the room
+    lamp: IndexArray  # Shape (edges,): which of them each edge is of
+    points: FloatArray  # Shape (edges, 2, 2): two points of each edge
+    # Shape (edges, 2, 2): what makes deviations of both two independent ones, in their standard
+    # errors
     whitening: FloatArray
     camera: Camera
-    focal_share: float
+    focal_share: float  # Standard error of the focal length, as a share of it
 
     @classmethod
     def of(

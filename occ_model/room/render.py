@@ -36,28 +36,15 @@ from occ_model.simulation.stage_timer import StageTimer
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownLamp:
-    """A lamp in a picture.
-
-    Parameters
-    ----------
-    outline : ndarray of float64, shape (corners, 2)
-        Its outline in the picture, (column, row) of each corner.
-    region
-        The rectangle round it in the picture.
-    is_cut
-        Whether a part of it is outside the picture.
-    profile : ndarray of float64, shape (columns,)
-        Its pixel value in each column, were it alone.
-    blur
-        Standard deviation of the lens's blur, in pixels.
-    """
+    """A lamp in a picture."""
 
     lamp: RoomLamp
+    # Shape (corners, 2): its outline in the picture, (column, row) of each corner
     outline: FloatArray
-    region: Region
-    is_cut: bool
-    profile: FloatArray
-    blur: float
+    region: Region  # The rectangle round it in the picture
+    is_cut: bool  # Whether a part of it is outside the picture
+    profile: FloatArray  # Shape (columns,): its pixel value in each column, were it alone
+    blur: float  # Standard deviation of the lens's blur, in pixels
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,19 +27,11 @@ _DISTORTED = 0.15
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampView:
-    """A lamp as the camera sees it.
-
-    Parameters
-    ----------
-    scene
-        The scene whose panel is the lamp.
-    view
-        The paper's view of that scene, with the lamp's outline as its corners.
-    """
+    """A lamp as the camera sees it."""
 
     lamp: RoomLamp
-    scene: Scene
-    view: PaperView
+    scene: Scene  # The scene whose panel is the lamp
+    view: PaperView  # The paper's view of that scene, with the lamp's outline as its corners
 
 
 def rotation(place: Place | RoomLamp) -> FloatArray:

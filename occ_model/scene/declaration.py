@@ -8,21 +8,11 @@ from occ_model.scene.units import LONGEST_TEXT
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """The declaration of a parameter, of whatever kind.
+    """The declaration of a parameter, of whatever kind."""
 
-    Parameters
-    ----------
-    name
-        The identifier, as in a scene file.
-    label
-        The field's term for it, as on screen.
-    symbol
-        The symbol in the paper's equations, empty where it has none.
-    """
-
-    name: str
-    label: str
-    symbol: str
+    name: str  # The identifier, as in a scene file
+    label: str  # The field's term for it, as on screen
+    symbol: str  # The symbol in the paper's equations, empty where it has none
     meaning: str
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:

@@ -128,19 +128,13 @@ def form_of(payload: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """A letter of a text or a byte in hex, as sent and as received.
+    """A letter of a text or a byte in hex, as sent and as received."""
 
-    Parameters
-    ----------
-    sent, received
-        How it is written; ``received`` is empty where its bits were not received.
-    first, last
-        Its first bit among those sent, and the one after its last.
-    """
-
+    # How it is written; ``received`` is empty where its bits were not received
     sent: str
     received: str
     is_right: bool
+    # Its first bit among those sent, and the one after its last
     first: int
     last: int
 

@@ -21,21 +21,13 @@ _MAX_BASES = 8
 
 @dataclass(frozen=True, slots=True)
 class Preset:
-    """A scene with a name, a title and notes on its values.
-
-    Parameters
-    ----------
-    sources
-        Where a parameter's value comes from, by the parameter's name.
-    assumed
-        The reason for a parameter's value where no source gives one.
-    """
+    """A scene with a name, a title and notes on its values."""
 
     name: str
     title: str
     scene: Scene
-    sources: Mapping[str, str]
-    assumed: Mapping[str, str]
+    sources: Mapping[str, str]  # Where a parameter's value comes from, by the parameter's name
+    assumed: Mapping[str, str]  # The reason for a parameter's value where no source gives one
 
 
 def preset_from(name: str, text: str) -> Preset:

@@ -38,19 +38,13 @@ _ESCAPED = {b"n": b"\n", b"r": b"\r", b"t": b"\t", b"b": b"\b", b"f": b"\f"}
 
 @dataclass(frozen=True)
 class Provenance:
-    """The scenes, the version and the seed behind a figure or a table.
-
-    Parameters
-    ----------
-    date
-        When they were made; empty for a file that must not depend on it.
-    """
+    """The scenes, the version and the seed behind a figure or a table."""
 
     title: str
     scenes: Mapping[str, Scene]
     seed: int | None = None
     notes: tuple[str, ...] = field(default=())
-    date: str = ""
+    date: str = ""  # When they were made; empty for a file that must not depend on it
 
     def __post_init__(self) -> None:
         # Whatever they are made of, none of them can look like a further line, or a scene.

@@ -38,24 +38,15 @@ LONGEST_TEXT = 200
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """A unit of measure and the way its values are shown.
+    """A unit of measure and the way its values are shown."""
 
-    Parameters
-    ----------
-    symbol
-        The SI unit, empty for a pure number.
-    smallest_plain
-        From this magnitude (in the unit itself) up to the next prefix no prefix is used.
-    spellings
-        Other spellings that are read, each with its value in the SI unit.
-    shown
-        Symbol, and value in the SI unit, of a unit that is shown in place of the SI unit.
-    """
-
-    symbol: str
+    symbol: str  # The SI unit, empty for a pure number
     prefixes: tuple[str, ...] = ("",)
+    # From this magnitude (in the unit itself) up to the next prefix no prefix is used
     smallest_plain: float = 1.0
+    # Other spellings that are read, each with its value in the SI unit
     spellings: tuple[tuple[str, float], ...] = ()
+    # Symbol, and value in the SI unit, of a unit that is shown in place of the SI unit
     shown: tuple[str, float] | None = None
 
     def factor(self, text: str) -> float | None:

@@ -18,18 +18,13 @@ from occ_model.simulation.stage_timer import StageTimer
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Columns:
-    """The pixel values of each column.
+    """The pixel values of each column."""
 
-    Parameters
-    ----------
-    panel, surroundings : ndarray of float64, shape (columns,)
-        Pixel values of the panel and beside it before saturation, which a lens may still darken.
-    profile, around : ndarray of float64, shape (columns,)
-        The same after saturation: the column values PV_sim, and those beside them.
-    """
-
+    # Shape (columns,): pixel values of the panel and beside it before saturation, which a lens may
+    # still darken
     panel: FloatArray
     surroundings: FloatArray
+    # Shape (columns,): the same after saturation: the column values PV_sim, and those beside them
     profile: FloatArray
     around: FloatArray
 

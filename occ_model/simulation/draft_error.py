@@ -30,55 +30,33 @@ _DEVIATIONS_ADDED = 5.0
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DraftedPanel:
-    """Where a draft shows the panel.
+    """Where a draft shows the panel."""
 
-    Parameters
-    ----------
-    rows
-        The rows of the picture that the draft shows.
-    columns
-        The columns of the panel's bounding rectangle, over which the error is averaged.
-    outline : ndarray of float64, shape (corners, 2)
-        The panel's outline in the picture, (column, row) of each corner.
-    size
-        Rows and columns of the picture.
-    blur
-        Standard deviation of the lens's blur in pixels.
-    rounding, largest_rounding
-        Standard deviation of a column's mean over one block of the picture's file by the file's
-        rounding, and the most that it can be in a block, in grey levels; 0 for no file.
-    """
-
-    rows: range
+    rows: range  # The rows of the picture that the draft shows
+    # The columns of the panel's bounding rectangle, over which the error is averaged
     columns: slice
+    # Shape (corners, 2): the panel's outline in the picture, (column, row) of each corner
     outline: FloatArray
-    size: tuple[int, int]
-    blur: float
+    size: tuple[int, int]  # Rows and columns of the picture
+    blur: float  # Standard deviation of the lens's blur in pixels
+    # Standard deviation of a column's mean over one block of the picture's file by the file's
+    # rounding, and the most that it can be in a block, in grey levels; 0 for no file
     rounding: float
     largest_rounding: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DraftedMeans:
-    """Column means of a draft.
+    """Column means of a draft."""
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows of the draft, columns)
-        The draft: the camera's for the profile, the receiver's for the signal.
-    means : ndarray of float64, shape (columns,)
-        Its column means over the panel.
-    levels : ndarray
-        The values that pixels of the scene can have without noise, the least and the greatest among
-        them.
-    stretch
-        How many levels of the image one level of the camera's is, in the mean.
-    """
-
+    # Shape (rows of the draft, columns): the draft: the camera's for the profile, the receiver's
+    # for the signal
     image: ByteArray
-    means: FloatArray
+    means: FloatArray  # Shape (columns,): its column means over the panel
+    # The values that pixels of the scene can have without noise, the least and the greatest among
+    # them
     levels: FloatArray | ByteArray
-    stretch: float
+    stretch: float  # How many levels of the image one level of the camera's is, in the mean
 
 
 def draft_errors(panel: DraftedPanel, means: Mapping[str, DraftedMeans]) -> dict[str, float]:

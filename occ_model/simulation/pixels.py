@@ -33,38 +33,22 @@ _BLOCK = 8
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposedRows:
-    """Some rows of pixels, before they are rounded.
+    """Some rows of pixels, before they are rounded."""
 
-    Parameters
-    ----------
-    place
-        The rows of the picture that is made: those exposed, one below the other.
-    values : ndarray of float32, shape (rows, columns)
-        Pixel values from 0 to 255.
-    mean
-        The same without noise, and where the panel is.
-    """
-
-    place: slice
-    values: Pixels
-    mean: Rows
+    place: slice  # The rows of the picture that is made: those exposed, one below the other
+    values: Pixels  # Shape (rows, columns): pixel values from 0 to 255
+    mean: Rows  # The same without noise, and where the panel is
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pictures:
-    """The camera's picture and the receiver's, with their column means.
+    """The camera's picture and the receiver's, with their column means."""
 
-    Parameters
-    ----------
-    camera_image, image : ndarray of uint8, shape (rows, columns)
-        As the camera gives it, and enhanced within the panel.
-    profile, signal : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column, before enhancement and after it; the column's
-        value where the picture does not show the panel.
-    """
-
+    # Shape (rows, columns): as the camera gives it, and enhanced within the panel
     camera_image: ByteArray
     image: ByteArray
+    # Shape (columns,): mean of the panel's pixels in each column, before enhancement and after it;
+    # the column's value where the picture does not show the panel
     profile: FloatArray
     signal: FloatArray
 

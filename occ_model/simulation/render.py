@@ -85,19 +85,11 @@ def render(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlannedScene:
-    """A scene whose effects are chosen: what its draft and its whole picture begin with alike.
+    """A scene whose effects are chosen: what its draft and its whole picture begin with alike."""
 
-    Parameters
-    ----------
-    view
-        The paper's view of the scene.
-    timings
-        Seconds of each stage so far.
-    """
-
-    view: PaperView
+    view: PaperView  # The paper's view of the scene
     plan: Plan
-    timings: Mapping[str, float]
+    timings: Mapping[str, float]  # Seconds of each stage so far
 
 
 def plan_scene(scene: Scene, settings: SimulationSettings) -> PlannedScene:

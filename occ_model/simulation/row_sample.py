@@ -45,19 +45,12 @@ _ENTRIES = 4096
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SampledPicture:
-    """The receiver's picture of some rows.
+    """The receiver's picture of some rows."""
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The rows one below the other, those beside the panel repeated until each part has as many as
-        its fraction of the whole picture.
-    rows_each
-        Rows of the whole picture that each row across the panel stands for.
-    """
-
+    # Shape (rows, columns): the rows one below the other, those beside the panel repeated until
+    # each part has as many as its fraction of the whole picture
     image: ByteArray
-    rows_each: float
+    rows_each: float  # Rows of the whole picture that each row across the panel stands for
 
 
 @dataclass(frozen=True, slots=True)

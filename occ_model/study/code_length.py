@@ -31,29 +31,17 @@ _LONGER = (0, 2, 4)
 
 @dataclass(frozen=True, slots=True)
 class CodeLength:
-    """What codes of one length give.
+    """What codes of one length give."""
 
-    Parameters
-    ----------
-    bits, chips
-        Of a code, and of its packet.
-    columns
-        Columns of a picture that one packet takes.
-    packets
-        Packets that a whole lamp shows in the median.
-    distance
-        Chips in which two lamps' packets differ at the least, at any shift of one against the
-        other.
-    whole, named, misread
-        Lamps whole in the pictures, those of them named rightly, and those whose code was read
-        wrongly.
-    """
-
+    # Of a code, and of its packet
     bits: int
     chips: int
-    columns: float
-    packets: float
+    columns: float  # Columns of a picture that one packet takes
+    packets: float  # Packets that a whole lamp shows in the median
+    # Chips in which two lamps' packets differ at the least, at any shift of one against the other
     distance: int
+    # Lamps whole in the pictures, those of them named rightly, and those whose code was read
+    # wrongly
     whole: int
     named: int
     misread: int

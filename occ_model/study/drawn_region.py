@@ -22,17 +22,12 @@ _MOST_PROBABILITY = 1.0 - 1e-12
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BrightShares:
-    """The probability that a pixel counts as bright.
-
-    Parameters
-    ----------
-    panel, around : ndarray of float64, shape (columns,)
-        For a pixel of each column on the panel and beside it; of ``panel`` the columns of the
-        rectangle count.
-    """
+    """The probability that a pixel counts as bright."""
 
     rows: int
     span: Region
+    # Shape (columns,): for a pixel of each column on the panel and beside it; of ``panel`` the
+    # columns of the rectangle count
     panel: FloatArray
     around: FloatArray
 

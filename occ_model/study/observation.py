@@ -56,18 +56,11 @@ _RARE = 0.01
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Observation:
-    """The signal that a decoder reads.
+    """The signal that a decoder reads."""
 
-    Parameters
-    ----------
-    signal : ndarray of float64 or uint8, shape (columns of the region,)
-        Mean grey level of each column.
-    region
-        The rectangle of the image that the signal is the mean of; None where the image shows no
-        panel, and the signal is a whole row.
-    """
-
-    signal: FloatArray | ByteArray
+    signal: FloatArray | ByteArray  # Shape (columns of the region,): mean grey level of each column
+    # The rectangle of the image that the signal is the mean of; None where the image shows no
+    # panel, and the signal is a whole row
     region: Region | None
 
     def read(self, scene: Scene, decoder: str) -> DecodeResult:

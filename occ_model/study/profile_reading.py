@@ -33,21 +33,12 @@ from occ_model.study.observation import (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ProfileReading:
-    """What decoders read of a scene, without its picture.
+    """What decoders read of a scene, without its picture."""
 
-    Parameters
-    ----------
-    plan
-        The effects that are simulated: those that a decoder's signal calls for.
-    corners : ndarray of float64, shape (4, 2)
-        The panel's corners in the image, each as (column, row).
-    profile, signal : ndarray of float64, shape (columns,)
-        Means of the panel's pixels in each column, before the receiver's enhancement and after it,
-        in grey levels; also in columns that do not show the panel.
-    """
-
-    plan: Plan
-    corners: FloatArray
+    plan: Plan  # The effects that are simulated: those that a decoder's signal calls for
+    corners: FloatArray  # Shape (4, 2): the panel's corners in the image, each as (column, row)
+    # Shape (columns,): means of the panel's pixels in each column, before the receiver's
+    # enhancement and after it, in grey levels; also in columns that do not show the panel
     profile: FloatArray
     signal: FloatArray
     results: tuple[DecodeResult, ...]

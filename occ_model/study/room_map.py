@@ -43,31 +43,19 @@ _BESIDE = 20.0
 class RoomMapRequest:
     """What a map over a floor measures: at each place the camera is as the room says otherwise.
 
-    Parameters
-    ----------
-    room
-        The room.
-    across, along
-        Places in x and y, in metres.
-    images
-        Pictures at each place, each with another start time and noise.
-    seed
-        Of start times and noise.
-    tolerance
-        As for :func:`occ_model.render_room`.
-
     Raises
     ------
     ParameterError
         There are too many places, or a value is out of range.
     """
 
-    room: Room
+    room: Room  # The room
+    # Places in x and y, in metres
     across: tuple[float, ...]
     along: tuple[float, ...]
-    images: int = 1
-    seed: int = 1
-    tolerance: float = TOLERANCE.default
+    images: int = 1  # Pictures at each place, each with another start time and noise
+    seed: int = 1  # Of start times and noise
+    tolerance: float = TOLERANCE.default  # As for render_room
 
     def __post_init__(self) -> None:
         check_room(self.room)
@@ -89,37 +77,22 @@ class RoomMapRequest:
 
 @dataclass(frozen=True, slots=True)
 class RoomPoint:
-    """What pictures at one place told.
+    """What pictures at one place told."""
 
-    Parameters
-    ----------
-    index
-        The place's number.
-    shown, named
-        Lamps whole in the pictures, and those of them that were named rightly, in all pictures
-        together.
-    misread
-        Lamps, also of those that are cut, whose code was read, and is not the one that they send.
-    wrong
-        Those of them that were so named as another lamp of the room.
-    sure
-        Pictures whose place was sure.
-    error, stated
-        Root mean square of the distances from the true place, and of the stated errors, of sure
-        places, in metres; not a number without one.
-    note
-        Why there is no picture, or no sure place; the first reason.
-    """
-
-    index: int
+    index: int  # The place's number
+    # Lamps whole in the pictures, and those of them that were named rightly, in all pictures
+    # together
     shown: int
     named: int
+    # Lamps, also of those that are cut, whose code was read, and is not the one that they send
     misread: int
-    wrong: int
-    sure: int
+    wrong: int  # Those of them that were so named as another lamp of the room
+    sure: int  # Pictures whose place was sure
+    # Root mean square of the distances from the true place, and of the stated errors, of sure
+    # places, in metres; not a number without one
     error: float
     stated: float
-    note: str
+    note: str  # Why there is no picture, or no sure place; the first reason
 
 
 @dataclass(frozen=True, slots=True)

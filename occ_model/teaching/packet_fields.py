@@ -18,19 +18,12 @@ _MOST_EXCEPTIONS = 0.05
 
 @dataclass(frozen=True, slots=True)
 class PacketField:
-    """A part of a packet.
+    """A part of a packet."""
 
-    Parameters
-    ----------
-    first, last
-        Its first chip, and the one after its last.
-    bit
-        The number of its bit, the first sent is 0; None for the header.
-    """
-
+    # Its first chip, and the one after its last
     first: int
     last: int
-    bit: int | None
+    bit: int | None  # The number of its bit, the first sent is 0; None for the header
 
 
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:

@@ -28,24 +28,16 @@ _CHIP = Unit("chips", spellings=(("chip", 1.0),))
 
 @dataclass(frozen=True, slots=True)
 class LessonQuantity:
-    """Something that can be read off the window and computed by the model.
-
-    Parameters
-    ----------
-    asked_in
-        The unit of an answer that is a number alone.
-    compute
-        Function of the scene, and of the name of the step's photo or a match of another one, that
-        gives its value in SI units.
-    called
-        What a number is called that is a name, as a code is: no other one is near it. Empty for a
-        quantity.
-    """
+    """Something that can be read off the window and computed by the model."""
 
     meaning: str
     unit: Unit
-    asked_in: str
+    asked_in: str  # The unit of an answer that is a number alone
+    # Function of the scene, and of the name of the step's photo or a match of another one, that
+    # gives its value in SI units
     compute: Callable[[Scene, str | Match], float]
+    # What a number is called that is a name, as a code is: no other one is near it. Empty for a
+    # quantity.
     called: str = ""
 
 

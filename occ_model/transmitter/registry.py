@@ -14,29 +14,16 @@ _Kind = TypeVar("_Kind")
 
 @dataclass(frozen=True, eq=False)
 class Registry(Generic[_Kind]):
-    """The objects that a parameter chooses among, each imported when it is first asked for.
+    """The objects that a parameter chooses among, each imported when it is first asked for."""
 
-    Attributes
-    ----------
-    parameter
-        The parameter, which declares the names of the built-in ones.
-    constant
-        What a module calls the object that it offers.
-    package, files
-        Where the built-in ones stand: a folder, and the file of each name in it.
-    group
-        The entry point of the plug-ins.
-    guarded
-        Turns the faults of a plug-in's object into sentences.
-    """
-
-    parameter: str
+    parameter: str  # The parameter, which declares the names of the built-in ones
     kind: type[_Kind]
-    constant: str
+    constant: str  # What a module calls the object that it offers
+    # Where the built-in ones stand: a folder, and the file of each name in it
     package: str
     files: Mapping[str, str]
-    group: str
-    guarded: Callable[[_Kind], _Kind]
+    group: str  # The entry point of the plug-ins
+    guarded: Callable[[_Kind], _Kind]  # Turns the faults of a plug-in's object into sentences
 
     def names(self) -> tuple[str, ...]:
         """Return all names, those of plug-ins last."""

@@ -50,20 +50,15 @@ class Windows:
     """Windows in time of one length, by the chips that they start and end in.
 
     Chip numbers continue into the period after that of the start; whole periods are left out.
-
-    Parameters
-    ----------
-    before, end : ndarray of float64
-        Part of the first chip after the start, and of the last one before the end. Where a short
-        window crosses a chip's edge, their error shrinks with the window.
-    crosses : ndarray of bool
-        Whether the fractions of the start and of the length add up to more than a chip.
     """
 
     first: IndexArray
     last: IndexArray
+    # Part of the first chip after the start, and of the last one before the end. Where a short
+    # window crosses a chip's edge, their error shrinks with the window.
     before: FloatArray
     end: FloatArray
+    # Whether the fractions of the start and of the length add up to more than a chip
     crosses: NDArray[np.bool_]
 
     @classmethod

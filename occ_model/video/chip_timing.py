@@ -51,27 +51,14 @@ _SINGULAR = 1e-9
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipLattice:
-    """Where chips lie in a signal, and their values.
+    """Where chips lie in a signal, and their values."""
 
-    Parameters
-    ----------
-    step
-        Chips from one column to the next.
-    phase
-        Where the exposure of column 0 starts, in chips; chip ``first`` + k starts at ``first`` + k.
-    exposure
-        Chips that an exposure lasts.
-    first
-        The number of the first chip.
-    values : ndarray of uint8, shape (chips,)
-        The chips.
-    """
-
-    step: float
+    step: float  # Chips from one column to the next
+    # Where the exposure of column 0 starts, in chips; chip ``first`` + k starts at ``first`` + k
     phase: float
-    exposure: float
-    first: int
-    values: ByteArray
+    exposure: float  # Chips that an exposure lasts
+    first: int  # The number of the first chip
+    values: ByteArray  # Shape (chips,): the chips
 
     def lit(self, columns: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the lit share of each column's exposure, and the chips at its start and its end.
@@ -94,28 +81,16 @@ class ChipLattice:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipTiming:
-    """The chips of one picture on their fitted lattice.
+    """The chips of one picture on their fitted lattice."""
 
-    Parameters
-    ----------
-    lattice
-        The lattice; its columns count from the signal's first one.
-    middle
-        Place in chips of the middle of the exposure of the signal's middle column.
-    middle_error, step_error
-        Standard deviations of ``middle`` and of the lattice's step, in chips.
-    ratios : ndarray of float64, shape (chips,)
-        Log-likelihood ratio of each chip, positive where it is likelier lit.
-    unexplained
-        Share of the signal's variance that the chips do not explain.
-    """
-
-    lattice: ChipLattice
-    middle: float
+    lattice: ChipLattice  # The lattice; its columns count from the signal's first one
+    middle: float  # Place in chips of the middle of the exposure of the signal's middle column
+    # Standard deviations of ``middle`` and of the lattice's step, in chips
     middle_error: float
     step_error: float
+    # Shape (chips,): log-likelihood ratio of each chip, positive where it is likelier lit
     ratios: FloatArray
-    unexplained: float
+    unexplained: float  # Share of the signal's variance that the chips do not explain
 
 
 def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:

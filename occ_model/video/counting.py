@@ -20,21 +20,13 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class ShutterTiming:
-    """What counting needs, as exact numbers.
+    """What counting needs, as exact numbers."""
 
-    Parameters
-    ----------
-    frequency
-        Chips a second.
-    exposure_time, readout_time
-        In seconds.
-    first, last
-        The first and the last column that show the panel.
-    """
-
-    frequency: Fraction
+    frequency: Fraction  # Chips a second
+    # In seconds
     exposure_time: Fraction
     readout_time: Fraction
+    # The first and the last column that show the panel
     first: int
     last: int
 

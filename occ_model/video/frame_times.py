@@ -30,39 +30,24 @@ _MIN_INTERVAL = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Frames that follow each other.
+    """Frames that follow each other."""
 
-    Parameters
-    ----------
-    first, end
-        The number of its first frame, and of the one after its last.
-    start, duration
-        When its first frame begins, and the time to the end of its last one's period, in seconds.
-    """
-
+    # The number of its first frame, and of the one after its last
     first: int
     end: int
+    # When its first frame begins, and the time to the end of its last one's period, in seconds
     start: float
     duration: float
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameTimes:
-    """The times of frames.
+    """The times of frames."""
 
-    Parameters
-    ----------
-    period
-        The frame period in seconds; its error is that of the times' scatter.
-    numbers : ndarray of int64, shape (frames,)
-        How many periods each frame lies after the first one of its part.
-    parts
-        The parts of the film, between which the times jump.
-    """
-
-    period: Measured
+    period: Measured  # The frame period in seconds; its error is that of the times' scatter
+    # Shape (frames,): how many periods each frame lies after the first one of its part
     numbers: IndexArray
-    parts: tuple[Part, ...]
+    parts: tuple[Part, ...]  # The parts of the film, between which the times jump
     problems: tuple[str, ...]
 
     def is_jump(self, interval: float) -> bool:

@@ -15,36 +15,21 @@ from occ_model.video.period import SentPeriod
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlacedFrame:
-    """A frame on the count of all chips that were sent.
-
-    Parameters
-    ----------
-    first
-        The number of its first chip among all that were sent.
-    """
+    """A frame on the count of all chips that were sent."""
 
     reading: FrameReading
-    first: int
+    first: int  # The number of its first chip among all that were sent
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CountedPart:
-    """A part of a film with its chips counted.
+    """A part of a film with its chips counted."""
 
-    Parameters
-    ----------
-    frames
-        Its frames that are placed, in the order of time.
-    start, duration
-        When it begins by the film's clock, and how long it is, in seconds.
-    span
-        The numbers of the chips that begin with it and end with it.
-    """
-
-    frames: list[PlacedFrame]
+    frames: list[PlacedFrame]  # Its frames that are placed, in the order of time
+    # When it begins by the film's clock, and how long it is, in seconds
     start: float
     duration: float
-    span: tuple[float, float]
+    span: tuple[float, float]  # The numbers of the chips that begin with it and end with it
 
 
 def packets_of(

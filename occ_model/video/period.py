@@ -30,14 +30,9 @@ _SAMPLES = 8
 
 @dataclass(frozen=True)
 class SentPeriod:
-    """One period of what is sent, as far as the receiver knows it before reading.
+    """One period of what is sent, as far as the receiver knows it before reading."""
 
-    Parameters
-    ----------
-    transmitter
-        Its scheme and number of bits are known, not what it sends; of a raw pattern all is.
-    """
-
+    # Its scheme and number of bits are known, not what it sends; of a raw pattern all is
     transmitter: Transmitter
 
     @cached_property

@@ -10,29 +10,18 @@ from occ_model.arrays import BoolArray, FloatArray
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Phases:
-    """What frames say of the clock, in the order of time.
+    """What frames say of the clock, in the order of time."""
 
-    Parameters
-    ----------
-    times : ndarray of float64, shape (frames,)
-        The frames' times in seconds.
-    columns : ndarray of float64, shape (frames,)
-        The column that each phase is that of.
-    places, errors : ndarray of float64, shape (frames,)
-        The phase of the chips there, in chips from 0 to below ``period``, and its deviation.
-    steps, step_errors : ndarray of float64, shape (frames,)
-        Chips from one column to the next, and its deviation.
-    period
-        Chips after which what is sent repeats.
-    """
-
-    times: FloatArray
-    columns: FloatArray
+    times: FloatArray  # Shape (frames,): the frames' times in seconds
+    columns: FloatArray  # Shape (frames,): the column that each phase is that of
+    # Shape (frames,): the phase of the chips there, in chips from 0 to below ``period``, and its
+    # deviation
     places: FloatArray
     errors: FloatArray
+    # Shape (frames,): chips from one column to the next, and its deviation
     steps: FloatArray
     step_errors: FloatArray
-    period: float
+    period: float  # Chips after which what is sent repeats
 
     def first(self, count: int) -> "Phases":
         """Return the first frames."""
@@ -50,60 +39,35 @@ class Phases:
 
 @dataclass(frozen=True, slots=True)
 class PhaseJump:
-    """A jump of the phase between two frames.
+    """A jump of the phase between two frames."""
 
-    Parameters
-    ----------
-    frame, time
-        The first frame after it, and its time in seconds.
-    chips
-        The jump, up to whole periods.
-    """
-
+    # The first frame after it, and its time in seconds
     frame: int
     time: float
-    chips: float
+    chips: float  # The jump, up to whole periods
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ClockFit:
-    """The phases of frames as a parabola of their times.
+    """The phases of frames as a parabola of their times."""
 
-    Parameters
-    ----------
-    frequency, frequency_error
-        Chips a second in the middle of the film's times, and its standard deviation.
-    drift, drift_error
-        Its change in Hz a second; 0 where too few frames show it.
-    step, step_error
-        Chips from one column to the next.
-    middle
-        The time that the frequency is that of, in seconds.
-    start
-        The phase at that time in column 0, in chips, counted on over periods.
-    residuals : ndarray of float64, shape (frames,)
-        Phases less those of the fit, in chips; of frames that are ``kept``.
-    kept : ndarray of bool, shape (frames,)
-        Frames whose phase agrees with the others'.
-    chi_squared
-        Sum of the squared residuals over the variances of the phases alone.
-    noise
-        Standard deviation of a phase about the fit, in chips.
-    """
-
+    # Chips a second in the middle of the film's times, and its standard deviation
     frequency: float
     frequency_error: float
+    # Its change in Hz a second; 0 where too few frames show it
     drift: float
     drift_error: float
+    # Chips from one column to the next
     step: float
     step_error: float
-    middle: float
-    start: float
+    middle: float  # The time that the frequency is that of, in seconds
+    start: float  # The phase at that time in column 0, in chips, counted on over periods
+    # Shape (frames,): phases less those of the fit, in chips; of frames that are ``kept``
     residuals: FloatArray
-    kept: BoolArray
+    kept: BoolArray  # Shape (frames,): frames whose phase agrees with the others'
     jumps: tuple[PhaseJump, ...]
-    chi_squared: float
-    noise: float
+    chi_squared: float  # Sum of the squared residuals over the variances of the phases alone
+    noise: float  # Standard deviation of a phase about the fit, in chips
 
     def at_start(self, times: FloatArray) -> FloatArray:
         """Return the phase in column 0 of frames at some times, in chips counted on over periods.

@@ -36,26 +36,17 @@ _EDGE = 1e-6
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TimedFrame:
-    """A frame's reading and the timing of its chips.
-
-    Parameters
-    ----------
-    middle, middle_error
-        Where the exposure of ``column`` has its middle, in chips from the first chip's start.
-    column
-        A column of the picture, the middle one of the region.
-    step, step_error
-        Chips from one column to the next.
-    problem
-        Why the frame by itself gives no payload, as of a single picture; None where it does.
-    """
+    """A frame's reading and the timing of its chips."""
 
     reading: FrameReading
+    # Where the exposure of ``column`` has its middle, in chips from the first chip's start
     middle: float = 0.0
     middle_error: float = 0.0
-    column: float = 0.0
+    column: float = 0.0  # A column of the picture, the middle one of the region
+    # Chips from one column to the next
     step: float = 0.0
     step_error: float = 0.0
+    # Why the frame by itself gives no payload, as of a single picture; None where it does
     problem: str | None = None
 
     @property

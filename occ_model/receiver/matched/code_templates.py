@@ -28,23 +28,15 @@ class CodeTemplates:
     A profile is a sum of the chips' responses: that of code c at bin b is the sum over its lit
     chips j of ``response[b - j * BINS_PER_CHIP]``. So a correlation with every code is one
     correlation with the response, and its sums over the lit chips (:func:`sums_of_halves`).
-
-    Parameters
-    ----------
-    bits : int
-        Bits of a code.
-    response : ndarray of float64, shape (bins,)
-        Lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
-    energy : ndarray of float64, shape (codes,)
-        Sum of the squares of each code's profile about its mean; infinite where that is rounding
-        error, so that such a profile correlates with no signal.
-    levels : ndarray of float64, shape (bins,)
-        Lit fractions in the codes' profiles: evenly spaced quantiles of all of them.
     """
 
-    bits: int
+    bits: int  # Int: bits of a code
+    # Shape (bins,): lit fraction of an exposure that starts in each bin, when chip 0 alone is lit
     response: FloatArray
+    # Shape (codes,): sum of the squares of each code's profile about its mean; infinite where that
+    # is rounding error, so that such a profile correlates with no signal
     energy: FloatArray
+    # Shape (bins,): lit fractions in the codes' profiles: evenly spaced quantiles of all of them
     levels: FloatArray
 
     def profiles(self, codes: IndexArray) -> FloatArray:

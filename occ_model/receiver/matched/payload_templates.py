@@ -27,26 +27,16 @@ _ROUNDING = 1e-6
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PayloadTemplates:
-    """The profile of a period of what is sent, for each payload at an exposure time.
+    """The profile of a period of what is sent, for each payload at an exposure time."""
 
-    Parameters
-    ----------
-    period : int
-        Chips of a period.
-    spectra : ndarray of complex64, shape (payloads, bins // 2 + 1)
-        Of each payload's profile about its mean.
-    means : ndarray of float64, shape (payloads,)
-        Of each profile, in lit fractions.
-    energy : ndarray of float64, shape (payloads,)
-        Sum of the squares of each profile about its mean; infinite where that is rounding error.
-    levels : ndarray of float32, shape (payloads, bins)
-        The lit fractions of each profile about its mean, in order.
-    """
-
-    period: int
+    period: int  # Int: chips of a period
+    # Shape (payloads, bins // 2 + 1): of each payload's profile about its mean
     spectra: NDArray[np.complex64]
-    means: FloatArray
+    means: FloatArray  # Shape (payloads,): of each profile, in lit fractions
+    # Shape (payloads,): sum of the squares of each profile about its mean; infinite where that is
+    # rounding error
     energy: FloatArray
+    # Shape (payloads, bins): the lit fractions of each profile about its mean, in order
     levels: Pixels
 
     def profiles(self, codes: IndexArray) -> FloatArray:

@@ -35,15 +35,10 @@ _SAMPLES = 8
 
 @dataclass(frozen=True, slots=True)
 class CodeWords:
-    """What a scheme can send.
-
-    Parameters
-    ----------
-    header
-        The chips at the start of every frame; empty where they are not known.
-    """
+    """What a scheme can send."""
 
     words: tuple[Word, ...]
+    # The chips at the start of every frame; empty where they are not known
     header: tuple[int, ...] = ()
 
 

@@ -18,21 +18,11 @@ _KINDS = 4
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """The timing of rows against chips.
+    """The timing of rows against chips."""
 
-    Parameters
-    ----------
-    exposure
-        Length of an exposure in chips, T.
-    step
-        Chips from the start of one row's exposure to that of the next, s.
-    phase
-        Where the first row's exposure starts, in chips, p; chip 0 starts at 0.
-    """
-
-    exposure: float
-    step: float
-    phase: float = 0.0
+    exposure: float  # Length of an exposure in chips, T
+    step: float  # Chips from the start of one row's exposure to that of the next, s
+    phase: float = 0.0  # Where the first row's exposure starts, in chips, p; chip 0 starts at 0
 
     @property
     def memory(self) -> int:
@@ -74,20 +64,12 @@ class ChipStatistics:
 
     The squared distance of the rows that end in a chip from the light of chips c is
     c' G c - 2 v' c, and a number that does not depend on the chips.
-
-    Parameters
-    ----------
-    first
-        The first chip that a row ends in.
-    features : ndarray of float64, shape (chips, features)
-        v, the diagonal of G, and twice the entries of its upper triangle.
-    energy : ndarray of float64, shape (chips,)
-        The number that does not depend on the chips.
     """
 
-    first: int
+    first: int  # The first chip that a row ends in
+    # Shape (chips, features): v, the diagonal of G, and twice the entries of its upper triangle
     features: FloatArray
-    energy: FloatArray
+    energy: FloatArray  # Shape (chips,): the number that does not depend on the chips
 
 
 def features_of(words: FloatArray) -> FloatArray:

@@ -50,20 +50,13 @@ class Brightness:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Fit:
-    """Chips, with the timing and the brightness that they were detected with.
-
-    Parameters
-    ----------
-    model : ndarray of float64, shape (rows,)
-        The lit share of each row that the chips have.
-    residual : ndarray of float64, shape (rows,)
-        The share of full light of each row less that of the model.
-    """
+    """Chips, with the timing and the brightness that they were detected with."""
 
     chips: Chips
     timing: Timing
     brightness: Brightness
-    model: FloatArray
+    model: FloatArray  # Shape (rows,): the lit share of each row that the chips have
+    # Shape (rows,): the share of full light of each row less that of the model
     residual: FloatArray
 
     @property
@@ -98,17 +91,11 @@ class Fit:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rows:
-    """Rows as the detector sees them.
+    """Rows as the detector sees them."""
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (rows,)
-        Proportional to the light of each, up to a constant.
-    expected : ndarray of float64, shape (exposures,)
-        The lit shares of exposures of random data in the order of time, for a first guess.
-    """
-
-    light: FloatArray
+    light: FloatArray  # Shape (rows,): proportional to the light of each, up to a constant
+    # Shape (exposures,): the lit shares of exposures of random data in the order of time, for a
+    # first guess
     expected: FloatArray
 
 

@@ -28,19 +28,12 @@ _LONGEST_PART = 128
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chips:
-    """Chips that were detected.
-
-    Parameters
-    ----------
-    values : ndarray of uint8, shape (chips,)
-        The chips.
-    margins : ndarray of float64, shape (chips,)
-        By how much the squared distance of the rows would grow if this chip were the opposite, the
-        others then being the best for it.
-    """
+    """Chips that were detected."""
 
     first: int
-    values: ByteArray
+    values: ByteArray  # Shape (chips,): the chips
+    # Shape (chips,): by how much the squared distance of the rows would grow if this chip were the
+    # opposite, the others then being the best for it
     margins: FloatArray
 
 

@@ -35,31 +35,15 @@ class Trellis:
 
     A step adds a chip. The steps into one state are numbered; those that are missing are
     ``NO_STATE``.
-
-    Parameters
-    ----------
-    memory
-        Chips that a state holds.
-    places : ndarray of int64, shape (states,)
-        The place within the words, see :func:`places_of`.
-    chips : ndarray of uint8, shape (states, memory)
-        The last chips, the latest first.
-    before : ndarray of int64, shape (steps, states)
-        The state that each step comes from.
-    words : ndarray of float64, shape (words, memory + 1)
-        The chips that a step can have, the latest first.
-    word_of : ndarray of int64, shape (steps, states)
-        The word of each step.
-    after : ndarray of int64, shape (ways, states)
-        The steps out of each state, as places in the flat ``before``.
     """
 
-    memory: int
-    places: IndexArray
-    chips: ByteArray
-    before: IndexArray
-    words: FloatArray
-    word_of: IndexArray
+    memory: int  # Chips that a state holds
+    places: IndexArray  # Shape (states,): the place within the words, see places_of
+    chips: ByteArray  # Shape (states, memory): the last chips, the latest first
+    before: IndexArray  # Shape (steps, states): the state that each step comes from
+    words: FloatArray  # Shape (words, memory + 1): the chips that a step can have, the latest first
+    word_of: IndexArray  # Shape (steps, states): the word of each step
+    # Shape (ways, states): the steps out of each state, as places in the flat ``before``
     after: IndexArray
 
     @property

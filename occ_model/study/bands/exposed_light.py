@@ -20,17 +20,11 @@ _EXACT = 3
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposedLight:
-    """Light of an exposure less its mean over all starts, in lit chips, piece by piece.
+    """Light of an exposure less its mean over all starts, in lit chips, piece by piece."""
 
-    Parameters
-    ----------
-    lengths : ndarray of float64, shape (pieces,)
-        In chips; they add up to one period.
-    values : ndarray of float64, shape (pieces, 3)
-        At the start, the middle and the end of each piece, which is at most quadratic.
-    """
-
-    lengths: FloatArray
+    lengths: FloatArray  # Shape (pieces,): in chips; they add up to one period
+    # Shape (pieces, 3): at the start, the middle and the end of each piece, which is at most
+    # quadratic
     values: FloatArray
 
     @property

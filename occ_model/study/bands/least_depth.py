@@ -30,21 +30,14 @@ class DepthOver:
     Of an exposure of a chips the light varies by a number of lit chips that repeats with the code,
     and is linear in a between whole chips. An LED's edges only average it further: with them bars
     are at most as deep.
-
-    Parameters
-    ----------
-    swing : ndarray of float64, shape (chips + 1,)
-        Largest less smallest number of lit chips in exposures of 0, 1, ... chips.
-    of_lamp, of_flicker
-        Light of the lit lamp, and largest swing of the surroundings', relative to the mean.
-    flicker_frequency
-        Hz.
     """
 
+    # Shape (chips + 1,): largest less smallest number of lit chips in exposures of 0, 1, ... chips.
     swing: FloatArray
+    # Light of the lit lamp, and largest swing of the surroundings', relative to the mean
     of_lamp: float
     of_flicker: float
-    flicker_frequency: float
+    flicker_frequency: float  # Hz
 
     @classmethod
     def of(cls, scene: Scene) -> Self:

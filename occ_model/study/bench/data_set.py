@@ -26,15 +26,10 @@ COLUMNS = ("relative_path", "tclk", "sampling_ticks", "exposure_ticks", "txsymbo
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """A picture of a data set.
-
-    Parameters
-    ----------
-    sampling, exposure, symbol
-        The time between rows, the exposure time and the length of a symbol, in seconds.
-    """
+    """A picture of a data set."""
 
     path: Path
+    # The time between rows, the exposure time and the length of a symbol, in seconds
     sampling: float
     exposure: float
     symbol: float
@@ -42,24 +37,16 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class SampleReading:
-    """What a decoder finds in a picture of a data set.
-
-    Parameters
-    ----------
-    correlation
-        Of the chips' light with the signal; None where the decoder has no model of it.
-    wrong_chips
-        Share of the chips that are wrong by their own likelihoods; None without any.
-    failure
-        None, or a sentence that says why there are no chips.
-    """
+    """What a decoder finds in a picture of a data set."""
 
     sample: Sample
     decoder: str
     chips: int
+    # Of the chips' light with the signal; None where the decoder has no model of it
     correlation: float | None
+    # Share of the chips that are wrong by their own likelihoods; None without any
     wrong_chips: float | None
-    failure: str | None
+    failure: str | None  # None, or a sentence that says why there are no chips
 
 
 def load_samples(table: Path) -> tuple[Sample, ...]:

@@ -30,27 +30,14 @@ _LARGEST_GAP = 0.9
 
 @dataclass(frozen=True, slots=True)
 class FilmRequest:
-    """What a study of films measures.
+    """What a study of films measures."""
 
-    Parameters
-    ----------
-    scene
-        The scene; its readout time follows from the gap, and its payload from the number of bits.
-    frequencies
-        Switching frequencies in Hz.
-    gaps
-        Gaps as shares of the frame period, from 0.
-    bits
-        Numbers of bits of a payload.
-    frame_rate
-        In Hz.
-    """
-
+    # The scene; its readout time follows from the gap, and its payload from the number of bits
     scene: Scene
-    frequencies: tuple[float, ...]
-    gaps: tuple[float, ...]
-    bits: tuple[int, ...]
-    frame_rate: float = 30.0
+    frequencies: tuple[float, ...]  # Switching frequencies in Hz
+    gaps: tuple[float, ...]  # Gaps as shares of the frame period, from 0
+    bits: tuple[int, ...]  # Numbers of bits of a payload
+    frame_rate: float = 30.0  # In Hz
     frames: int = 120
     decoder: str = PAPER_DECODER
     seed: int = 1
@@ -90,39 +77,25 @@ class FilmRequest:
 
 @dataclass(frozen=True, slots=True)
 class FilmPoint:
-    """What a film carried.
+    """What a film carried."""
 
-    Parameters
-    ----------
-    frequency, gap, bits
-        Switching frequency in Hz, gap as a share of the frame period, bits of the payload.
-    packets, read, counted
-        Packets sent while the film ran, those read right, and those that exact counting finds whole
-        in a frame.
-    on_average
-        Share of packets that frames show whole, on average over the time of the start.
-    bits_per_second
-        Bits of the payload in the packets read, a second, repeats included.
-    complete_at
-        Seconds after which the whole payload was joined; None where it was not.
-    is_right
-        Whether the joined payload is the one that was sent.
-    failure
-        Why the scene could not be filmed or read; None otherwise.
-    """
-
+    # Switching frequency in Hz, gap as a share of the frame period, bits of the payload
     frequency: float
     gap: float
     bits: int
     packet_chips: int
+    # Packets sent while the film ran, those read right, and those that exact counting finds whole
+    # in a frame
     packets: int
     read: int
     counted: int
+    # Share of packets that frames show whole, on average over the time of the start
     on_average: float
-    bits_per_second: float
+    bits_per_second: float  # Bits of the payload in the packets read, a second, repeats included
+    # Seconds after which the whole payload was joined; None where it was not
     complete_at: float | None
-    is_right: bool
-    failure: str | None
+    is_right: bool  # Whether the joined payload is the one that was sent
+    failure: str | None  # Why the scene could not be filmed or read; None otherwise
 
     @property
     def reception(self) -> float:

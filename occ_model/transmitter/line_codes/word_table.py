@@ -10,21 +10,11 @@ from occ_model.transmitter.line_codes.line_code import Decoded, no_whole_blocks,
 
 @dataclass(frozen=True, eq=False, slots=True)
 class WordTable:
-    """Words of a code.
+    """Words of a code."""
 
-    Parameters
-    ----------
-    words : ndarray of uint8, shape (2 ** bits, chips)
-        The word of each number.
-    noun
-        What a word is called in a sentence, such as "4B6B word".
-    corrected
-        Wrong chips of a word that the nearest word corrects for certain.
-    """
-
-    words: ByteArray
-    noun: str
-    corrected: int = 0
+    words: ByteArray  # Shape (2 ** bits, chips): the word of each number
+    noun: str  # What a word is called in a sentence, such as "4B6B word"
+    corrected: int = 0  # Wrong chips of a word that the nearest word corrects for certain
 
     def encode(self, bits: ByteArray, _level: int) -> ByteArray:
         """Turn bits into words; the last block is filled up with zeros."""

@@ -18,32 +18,17 @@ MAX_PIXELS = 36_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StoredFrame:
-    """A frame as its file has it.
+    """A frame as its file has it."""
 
-    Parameters
-    ----------
-    time
-        In seconds, as the container states it.
-    pixels : ndarray of uint8, shape (lines, columns)
-        One channel, upright.
-    """
-
-    time: float
-    pixels: ByteArray
+    time: float  # In seconds, as the container states it
+    pixels: ByteArray  # Shape (lines, columns): one channel, upright
 
 
 class FrameSource(ABC):
-    """A film's file, opened: gives its frames in order, each once.
+    """A film's file, opened: gives its frames in order, each once."""
 
-    Attributes
-    ----------
-    frame_rate, frame_count
-        As the container states them; None where it does not.
-    pixels
-        Pixels of a frame.
-    """
-
-    pixels: int = 0
+    pixels: int = 0  # Pixels of a frame
+    # As the container states them; None where it does not
     frame_rate: float | None = None
     frame_count: int | None = None
 

@@ -10,7 +10,7 @@ from occ_model.boards.board import Board
 from occ_model.boards.chip_table import head, python_table
 from occ_model.boards.transmission import Transmission, repeats_to_words
 
-_MOST_CYCLES = 32
+_MAX_CYCLES = 32
 """An instruction takes one cycle and up to 31 more."""
 
 PICO = Board(
@@ -19,7 +19,7 @@ PICO = Board(
     clock=125_000_000,
     # The Pico's crystal: 30 ppm.
     clock_error=30.0,
-    prescalers=tuple(range(1, _MOST_CYCLES + 1)),
+    prescalers=tuple(range(1, _MAX_CYCLES + 1)),
     # The divider has 16 bits.
     largest_count=65_535,
     least_cycles=125,

@@ -25,7 +25,7 @@ LOWEST_SAMPLE_RATE = 8_000
 
 _USUAL_RATES = (44_100, 48_000, 96_000, 192_000)
 
-_MOST_RATES = 2_000
+_MAX_RATES = 2_000
 """Sample rates that are compared, from the highest."""
 
 _LARGEST_WAV = 64_000_000
@@ -112,7 +112,7 @@ def wav_timing(sent: Transmission) -> WavTiming:
             f"thus up to {HERTZ.format(HIGHEST_SAMPLE_RATE / 2)}: the switching frequency is "
             f"{HERTZ.format(float(frequency))}."
         )
-    tried = range(max(fewest, most - _MOST_RATES), most + 1)
+    tried = range(max(fewest, most - _MAX_RATES), most + 1)
     found = (_wav_timing(frequency, samples) for samples in tried)
     return min(
         found,

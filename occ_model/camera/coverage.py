@@ -21,7 +21,7 @@ _FINE_CELLS_A_BLUR = 4.0
 _SAMPLED_ROWS = 16
 """Rows of a cell that are sampled where the outline is high: they are as good as all."""
 
-_MOST_EXACT_ROWS = 4096
+_MAX_EXACT_ROWS = 4096
 """Rows of an outline that are all used: a blur may be wider than the panel is high."""
 
 
@@ -32,14 +32,14 @@ class CoveredPart:
     columns: slice
     # The fraction of the light in each pixel that comes from the panel: one for all pixels, or an
     # array of float32, shape (rows, columns)
-    share: float | Pixels
+    fraction: float | Pixels
 
 
-def _divided(columns: slice, share: Pixels) -> list[CoveredPart]:
+def _divided(columns: slice, fraction: Pixels) -> list[CoveredPart]:
     """Divide a rim whose rows are all alike into columns that are covered wholly or not at all."""
-    first = share[0]
-    if not ((first == 0.0) | (first == 1.0)).all() or (share != first).any():
-        return [CoveredPart(columns, share)]
+    first = fraction[0]
+    if not ((first == 0.0) | (first == 1.0)).all() or (fraction != first).any():
+        return [CoveredPart(columns, fraction)]
     ends = [0, *(np.flatnonzero(np.diff(first)) + 1).tolist(), len(first)]
     return [
         CoveredPart(slice(columns.start + start, columns.start + stop), float(first[start]))
@@ -52,16 +52,16 @@ def _joined(parts: list[CoveredPart]) -> list[CoveredPart]:
     joined: list[CoveredPart] = []
     for part in parts:
         before = joined[-1] if joined else part
-        alike = isinstance(part.share, float) and isinstance(before.share, float)
-        if joined and alike and part.share == before.share:
-            joined[-1] = CoveredPart(slice(before.columns.start, part.columns.stop), part.share)
+        alike = isinstance(part.fraction, float) and isinstance(before.fraction, float)
+        if joined and alike and part.fraction == before.fraction:
+            joined[-1] = CoveredPart(slice(before.columns.start, part.columns.stop), part.fraction)
         else:
             joined.append(part)
     return joined
 
 
 def _shares(parts: list[CoveredPart]) -> list[Pixels]:
-    return [part.share for part in parts if isinstance(part.share, np.ndarray)]
+    return [part.fraction for part in parts if isinstance(part.fraction, np.ndarray)]
 
 
 class Coverage:
@@ -87,9 +87,7 @@ class Coverage:
         self._seen = seen = range(-self._margin, rows + self._margin)
         cell = max(1, int(blur / _FINE_CELLS_A_BLUR))
         # The widest blur needs no more rows than a narrow one.
-        self._stride = max(
-            1, min(cell // _SAMPLED_ROWS, _height(outline, seen) // _MOST_EXACT_ROWS)
-        )
+        self._stride = max(1, min(cell // _SAMPLED_ROWS, _height(outline, seen) // _MAX_EXACT_ROWS))
         self._cell = cell - cell % self._stride
         self._coarse = self._whole(rows) if self._cell > 1 else None
 
@@ -101,7 +99,7 @@ class Coverage:
         """Return some rows, shape (number of rows, columns), 0 to 1."""
         covered = np.empty((len(rows), self._columns), dtype=np.float32)
         for part in self.parts(rows):
-            covered[:, part.columns] = part.share
+            covered[:, part.columns] = part.fraction
         return covered
 
     def reaches(self, rows: range) -> bool:
@@ -186,10 +184,10 @@ class Coverage:
         start = np.ceil(np.clip(x, columns.start, columns.stop)) - columns.start
         column, part = np.divmod(start, cell)
         place = (line, column.astype(np.int64))
-        share = part / cell
+        fraction = part / cell
         weight = sign * (self._stride / cell)
-        np.add.at(steps, place, weight * (1.0 - share))
-        np.add.at(steps, (place[0], place[1] + 1), weight * share)
+        np.add.at(steps, place, weight * (1.0 - fraction))
+        np.add.at(steps, (place[0], place[1] + 1), weight * fraction)
         np.cumsum(steps, axis=1, out=steps)
         # Their sign depends on the direction of the outline.
         return np.abs(steps[:, :-2])

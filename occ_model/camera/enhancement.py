@@ -141,10 +141,10 @@ def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> 
     steps = PassedSteps.of(levels, spread)
     edge, passed = steps.edge, steps.passed
     ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
-    share = np.hstack([ones, passed]) - np.hstack([passed, none])
+    fraction = np.hstack([ones, passed]) - np.hstack([passed, none])
     place = np.hstack([edge, edge[:, -1:] + 1])
     flat = np.minimum(place, 255).ravel()
-    counts = np.bincount(flat, weights=(share * weights[:, None]).ravel(), minlength=256)
+    counts = np.bincount(flat, weights=(fraction * weights[:, None]).ravel(), minlength=256)
     return np.asarray(counts, dtype=np.float64)
 
 

@@ -81,7 +81,7 @@ def level_values(scene: Scene) -> FloatArray:
 class ColumnLight:
     """The light that reaches each column during its exposure."""
 
-    # Shape (columns,): mean light of the panel in the exposure, as a share of the fully lit panel's
+    # Shape (columns,): mean light of the panel in the exposure, relative to the fully lit panel's
     lit: FloatArray
     # Shape (columns,) or (1,): the external light, as a multiple of its mean over time
     ambient: FloatArray

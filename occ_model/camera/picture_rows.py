@@ -131,20 +131,22 @@ class _Panel:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Lit:
-    """Columns of some rows that a panel lights: a share of each pixel, or all of them."""
+    """Columns of some rows that a panel lights: a fraction of each pixel, or all of them."""
 
     panel: _Panel
     columns: slice
-    share: Pixels | None
+    fraction: Pixels | None
 
     def within(self, columns: slice) -> "_Lit":
         """Return the part in some columns."""
         part = slice(max(self.columns.start, columns.start), min(self.columns.stop, columns.stop))
         first = self.columns.start
-        share = (
-            None if self.share is None else self.share[:, part.start - first : part.stop - first]
+        fraction = (
+            None
+            if self.fraction is None
+            else self.fraction[:, part.start - first : part.stop - first]
         )
-        return _Lit(self.panel, part, share)
+        return _Lit(self.panel, part, fraction)
 
 
 class PictureRows:
@@ -184,20 +186,20 @@ class PictureRows:
             Called with the name of each stage that has just ended.
         """
         lit = [
-            _Lit(panel, part.columns, None if isinstance(part.share, float) else part.share)
+            _Lit(panel, part.columns, None if isinstance(part.fraction, float) else part.fraction)
             for panel in self._panels
             if panel.coverage.reaches(place)
             for part in panel.coverage.parts(place)
-            if isinstance(part.share, np.ndarray) or part.share
+            if isinstance(part.fraction, np.ndarray) or part.fraction
         ]
         stage_ended(self._cover_stage)
         shared = self._shared(lit)
         alone = [piece for one in lit for piece in _without(one, shared)] if shared else lit
-        inside = [(one.panel, one.columns) for one in alone if one.share is None]
+        inside = [(one.panel, one.columns) for one in alone if one.fraction is None]
         rims = [
             self._rim(place, one.columns, [one], stage_ended)
             for one in alone
-            if one.share is not None
+            if one.fraction is not None
         ]
         rims += [
             self._rim(place, columns, [one.within(columns) for one in lit], stage_ended)
@@ -226,8 +228,8 @@ class PictureRows:
         lit: Sequence[_Lit],
         stage_ended: Callable[[str], object],
     ) -> Rim:
-        if self._is_plain and len(lit) == 1 and lit[0].share is not None:
-            shown = lit[0].share >= np.float32(0.5)
+        if self._is_plain and len(lit) == 1 and lit[0].fraction is not None:
+            shown = lit[0].fraction >= np.float32(0.5)
             panel, around = lit[0].panel.values[:, columns], self._surroundings[:, columns]
             return Rim(columns, np.where(shown, panel, around), shown)
         line = np.asarray(place, dtype=np.float64)
@@ -236,10 +238,10 @@ class PictureRows:
         for one in lit:
             if one.columns.stop <= one.columns.start:
                 continue
-            share = np.ones(1, dtype=np.float32) if one.share is None else one.share
+            fraction = np.ones(1, dtype=np.float32) if one.fraction is None else one.fraction
             own = np.s_[:, one.columns.start - columns.start : one.columns.stop - columns.start]
-            light[own] += share * one.panel.emitted(line, one.columns, stage_ended)
-            shown[own] |= share >= np.float32(0.5)
+            light[own] += fraction * one.panel.emitted(line, one.columns, stage_ended)
+            shown[own] |= fraction >= np.float32(0.5)
         light += self._around[columns]
         return Rim(columns, self._encoded(light, line, columns, stage_ended), shown)
 

@@ -3,7 +3,7 @@
 import argparse
 
 from occ_model.commands.options import Commands, add_scene_options, number, scene_of
-from occ_model.results.bands import BARELY, BandAdvice, BandDepth, EyeFlicker
+from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, EyeFlicker
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
@@ -23,7 +23,7 @@ def add_to(commands: Commands) -> None:
     )
     add_scene_options(parser)
     parser.add_argument(
-        "--limit", type=number, default=100.0 * BARELY, metavar="PERCENT",
+        "--limit", type=number, default=100.0 * NO_BARS_DEPTH, metavar="PERCENT",
         help="depth below which there are no bars; default: %(default)g",
     )  # fmt: skip
     parser.set_defaults(command=_run)
@@ -98,8 +98,8 @@ def _eye(found: EyeFlicker) -> list[str]:
     ]
 
 
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.3g} %" if share > 1e-9 else "0 %"
+def _percent(fraction: float) -> str:
+    return f"{100.0 * fraction:.3g} %" if fraction > 1e-9 else "0 %"
 
 
 def _range(unit: Unit, ends: tuple[float, float]) -> str:

@@ -19,7 +19,7 @@ class ClusterError(OccError):
 
 @contextmanager
 def cluster_executor(address: str) -> Iterator[Executor]:
-    """Give an executor whose workers are those of a dask cluster.
+    """Return an executor whose workers are those of a dask cluster.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ from occ_model.video.load import load_video
 _WINDOWS = 5
 """Parts of the film in which error rates are reported."""
 
-_FEWEST_PACKETS = 50
+_MIN_PACKETS = 50
 """Packets from which the rates of parts are reported."""
 
 
@@ -94,7 +94,7 @@ def _report(reading: VideoReading, video: Video) -> list[str]:
     facts = [*packet_facts(reading), *(() if reading.clock is None else clock_facts(reading.clock))]
     for fact in facts:
         lines.append(f"{fact.label.lower():18}{fact}")
-        if fact.key == "packet_error_rate" and len(reading.packets) >= _FEWEST_PACKETS:
+        if fact.key == "packet_error_rate" and len(reading.packets) >= _MIN_PACKETS:
             lines += _by_parts(reading)
     return lines
 

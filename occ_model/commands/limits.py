@@ -80,10 +80,10 @@ def _run(options: argparse.Namespace) -> int:
             while heading:  # not before the search has begun: a refused one shows none
                 bar.write(heading.pop(0))
 
-        def show(share: float, what: str) -> None:
+        def show(fraction: float, what: str) -> None:
             show_heading()
             bar.set_description_str(what, refresh=False)
-            bar.update(round(100.0 * share) - bar.n)
+            bar.update(round(100.0 * fraction) - bar.n)
 
         def show_row(found: Limits) -> None:
             show_heading()

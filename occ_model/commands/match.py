@@ -98,7 +98,7 @@ def _run(options: argparse.Namespace) -> int:
             sent=options.sent,
             fit_gamma=options.fit_gamma,
             region=region,
-            progress=lambda share: bar.update(share - bar.n),
+            progress=lambda fraction: bar.update(fraction - bar.n),
         )
     for line in _report(match, _how_known(match, options), photo.exposure_time):
         print(line)
@@ -130,7 +130,7 @@ def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
             estimate=options.estimate,
             sent=options.sent,
             fit_gamma=options.fit_gamma,
-            progress=lambda share: bar.update(share - bar.n),
+            progress=lambda fraction: bar.update(fraction - bar.n),
         )
     if not matched:
         raise MatchError("No lamp: nothing in the photo is bright or has stripes.")

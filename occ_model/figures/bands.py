@@ -23,7 +23,7 @@ _VALLEYS = 8
 _DEPTHS = (0.1, 100.0)
 """Percent at the ends of the colours."""
 
-_LEAST_MODULATION = 0.01
+_MIN_MODULATION = 0.01
 """Percent at the lower end of the chart."""
 
 
@@ -109,7 +109,7 @@ def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
         (lines.no_effect, "below: no observable effect", "--"),
     ):  # fmt: skip
         ax.plot(line[:, 0], line[:, 1], look, color=colours.BAND, label=name)
-    seen = eye.modulations > _LEAST_MODULATION
+    seen = eye.modulations > _MIN_MODULATION
     ax.plot(
         eye.frequencies[seen], eye.modulations[seen], ".", color=colours.SIMULATION, linestyle="",
         label="its sines",
@@ -121,7 +121,7 @@ def _draw_chart(scene: Scene, eye: EyeFlicker) -> Figure:
     ax.set_xscale("log")
     ax.set_yscale("log")
     ax.set_xlim(1.0, max(1e4, 2.0 * eye.frequency))
-    ax.set_ylim(_LEAST_MODULATION, 200.0)
+    ax.set_ylim(_MIN_MODULATION, 200.0)
     ax.set_xlabel("frequency of the flicker (Hz)")
     ax.set_ylabel("modulation (%)")
     ax.legend(loc="lower right", fontsize=7)

@@ -21,9 +21,9 @@ _PAGE = (8.27, 11.69)
 """Inches of a page of A4."""
 
 _LEFT, _RIGHT = 0.08, 0.92
-"""Where lines begin and end, as shares of the page's width."""
+"""Where lines begin and end, as fractions of the page's width."""
 
-_MOST_ROOM = 5
+_MAX_ROOM = 5
 """Steps of a page that can still be read."""
 
 _ROOM_OF_MATCH = 2
@@ -40,7 +40,7 @@ def steps_of_pages(
     """Yield the number of the first step of each page, from 1, and the page's steps."""
     page: list[AnsweredStep] = []
     for place, each in enumerate(steps):
-        if page and sum(map(_room, page)) + _room(each) > _MOST_ROOM:
+        if page and sum(map(_room, page)) + _room(each) > _MAX_ROOM:
             yield place - len(page) + 1, tuple(page)
             page = []
         page.append(each)

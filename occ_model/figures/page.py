@@ -21,8 +21,8 @@ _MARGIN = 0.05
 _HINTED_WIDTH_FACTOR = 1.08
 """By how much a line of small letters, placed on whole pixels, is wider than its outlines."""
 
-_MOST_LINES = 12
-_MOST_ROUNDS = 3
+_MAX_LINES = 12
+_MAX_ROUNDS = 3
 """Of making a page higher, after which its axes are placed anew."""
 
 _UNKNOWN_LETTER = "□"
@@ -62,7 +62,7 @@ def fit_texts(figure: Figure) -> None:
         figure.set_figheight(figure.get_figheight() + room.fit())
     for legend in _all(figure, Legend):
         _narrow(legend, figure)
-    for _ in range(_MOST_ROUNDS):
+    for _ in range(_MAX_ROUNDS):
         above, below = _over_the_edge(figure)
         if not above + below:
             break
@@ -92,7 +92,7 @@ class _Room:
         before = self.text.get_text().split("\n")
         font = self.text.get_fontproperties()
         lines = [
-            line for each in before for line in lines_within(each, self.inches, font, _MOST_LINES)
+            line for each in before for line in lines_within(each, self.inches, font, _MAX_LINES)
         ]
         self.text.set_text("\n".join(lines))
         spacing = 1.2 * float(self.text.get_fontsize()) / _POINTS

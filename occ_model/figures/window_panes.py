@@ -29,7 +29,7 @@ _PHOTO = "photo, fitted levels"
 _CAPTION_SIZE = 7
 """Points of a caption's letters."""
 
-_LEAST_HEIGHT = 1.3
+_MIN_HEIGHT = 1.3
 """Inches of a figure of a flat picture, with the texts above and below it."""
 
 _AXIS_OF_RESIDUAL = 2.0
@@ -101,7 +101,7 @@ def picture_drawing(
     def draw() -> Figure:
         pictures = [image] if photo is None or layer is not None else [image, photo]
         rows, columns = image.shape if difference is None else difference.levels.shape
-        height = max(0.9 + 3.1 * min(rows / columns, 1.6), _LEAST_HEIGHT)
+        height = max(0.9 + 3.1 * min(rows / columns, 1.6), _MIN_HEIGHT)
         figure = Figure(figsize=(3.6 * len(pictures), height))
         axes = figure.subplots(1, len(pictures), squeeze=False)[0]
         for ax, picture in zip(axes, pictures, strict=True):

@@ -55,12 +55,12 @@ def notes(sent: Transmission) -> list[str]:
     """Write what the circuit's values rest on, and what to beware of."""
     board, values = sent.board, wiring(sent.board)
     edge = SECOND.format(values.rise_time, 2)
-    share = 100 * values.rise_time / float(sent.timing.period)
+    fraction = 100 * values.rise_time / float(sent.timing.period)
     return [
         f"A: {values.gate_resistor} Ω limit the current of the pin ({board.volts:g} V) into the "
         f"gate to {1e3 * board.volts / values.gate_resistor:.2g} mA; it may give "
         f"{1e3 * board.pin_current:g} mA. With the {1e9 * GATE_CAPACITANCE:g} nF that are assumed "
-        f"of the gate its voltage rises within {edge}, {share:.2g} % of a chip. "
+        f"of the gate its voltage rises within {edge}, {fraction:.2g} % of a chip. "
         f"{values.pull_down // 1000} kΩ keep the panel dark while the board starts.",
         f"MOSFET: n-channel, fully on at {board.volts:g} V. Panel: LEDs with resistors for a "
         "constant voltage. One with a driver or a capacitor inside does not follow the chips.",

@@ -106,7 +106,7 @@ def _replace(path: Path, content: bytes, permissions: int | None) -> None:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Give a temporary file to write to, which replaces another when the context ends well.
+    """Return a temporary file to write to, which replaces another when the context ends well.
 
     It is in the same folder and has the same ending. Where the context is left by an exception it
     is removed, and an older file is unchanged.

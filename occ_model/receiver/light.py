@@ -2,9 +2,8 @@
 
 A detector that adds up light needs a signal that is proportional to it, up to a constant. Histogram
 equalization depends on the picture: which light has which level cannot be undone from the picture
-alone. What remains is the order of the levels. The share of exposures that are lit so much or less
-is known for random data; so a level's rank gives its light about as well as the data in the picture
-are like random ones.
+alone. What remains is the order of the levels. The distribution of the exposures' light is known
+for random data, so a level's rank gives its light as far as the data in the picture are random.
 """
 
 from dataclasses import dataclass
@@ -69,7 +68,8 @@ def in_light(signal: FloatArray, scene: Scene) -> Light:
 
 
 def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
-    """Give each value of a signal the light that as large a share of the columns has or exceeds.
+    """Return each value of a signal the light that as large a fraction of the columns has or
+    exceeds.
 
     Parameters
     ----------
@@ -79,14 +79,14 @@ def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
         The light of many exposures.
     """
     _, place, counts = np.unique(signal, return_inverse=True, return_counts=True)
-    share = (np.cumsum(counts) - 0.5 * counts) / len(signal)
+    fraction = (np.cumsum(counts) - 0.5 * counts) / len(signal)
     ordered = np.sort(levels, axis=None)
     at = (np.arange(ordered.size) + 0.5) / ordered.size
-    return np.asarray(np.interp(share, at, ordered)[place])
+    return np.asarray(np.interp(fraction, at, ordered)[place])
 
 
 def expected_light(scene: Scene) -> FloatArray:
-    """Return the lit shares of exposures of random data in the order of time, 16 a chip."""
+    """Return the lit fractions of exposures of random data in the order of time, 16 a chip."""
     transmitter = scene.transmitter
     exposure = scene.camera.exposure_time * transmitter.switching_frequency
     if transmitter.pattern:

@@ -13,7 +13,7 @@ _GRID = 512
 """Most cells a side of the grid that contours are grown on; they need not be as fine as pixels."""
 
 _SPECK = 0.04
-"""Least share of bright pixels in a cell of a contour; below it they are noise."""
+"""Least fraction of bright pixels in a cell of a contour; below it they are noise."""
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:
@@ -42,11 +42,13 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     bright = _above(image, level - 1)
     rows, columns = image.shape
     grid_size = grid_of(rows, columns)[::-1]
-    share = np.asarray(cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    cells = _above(share, 255 * _SPECK)
+    fraction = np.asarray(
+        cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA), dtype=np.uint8
+    )
+    cells = _above(fraction, 255 * _SPECK)
     if not cv2.hasNonZero(cells):
-        cells = _above(share, 0)
-    if not cv2.hasNonZero(cells):  # too few for any cell to have a share of 1/255
+        cells = _above(fraction, 0)
+    if not cv2.hasNonZero(cells):  # too few for any cell to have a fraction of 1/255
         return Location(_bounds(bright, Region(0, rows, 0, columns)), level, 1, 0)
     x, y, width, height = cv2.boundingRect(cells)
     scale_y, scale_x = rows / grid_size[1], columns / grid_size[0]
@@ -74,7 +76,7 @@ def grid_of(rows: int, columns: int) -> tuple[int, int]:
 
 
 def least_bright_share() -> float:
-    """Return the share of bright pixels that a cell of a contour exceeds, as a byte holds it."""
+    """Return the fraction of bright pixels that a cell of a contour exceeds, as a byte holds it."""
     return (math.floor(255 * _SPECK) + 0.5) / 255.0
 
 

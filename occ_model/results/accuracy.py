@@ -1,4 +1,4 @@
-"""Results of an accuracy study: time and error of each way to simulate."""
+"""Results of an accuracy study: time and error of each simulation method."""
 
 from dataclasses import dataclass
 
@@ -9,21 +9,21 @@ ACCURACY_PARTS = {
     "draft": "drafts: every k-th row of the picture",
     "noise": "noise drawn, noise used again",
 }
-"""The parts of an accuracy study, with their titles."""
+"""Titles of the parts of an accuracy study, by name."""
 
 CHAINED_PARTS = ("integration", "effects")
-"""The parts whose points, but for that of the present settings, form a curve."""
+"""Parts whose points, apart from that of the present settings, form a curve."""
 
 CLOSED_FORM = "closed form"
 """Name of the exposure that is integrated exactly."""
 
 LEAST_ERROR = 1e-3
-"""Least error in levels that is drawn; smaller ones are drawn as this one."""
+"""Smallest error drawn, in levels of the stretched profile; smaller ones are drawn there."""
 
 
 @dataclass(frozen=True, slots=True)
 class AccuracyPoint:
-    """The time and the error of one way to simulate."""
+    """Time and error of one simulation method."""
 
     part: str  # The part of the study: a name from ``ACCURACY_PARTS``
     name: str

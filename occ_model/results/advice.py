@@ -1,7 +1,4 @@
-"""The facts that advice on a scene states: the limits found by trial and those of theory.
-
-The window and the command line put the same facts into sentences.
-"""
+"""Facts of an advice on a scene: limits found by trial and limits of theory."""
 
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
@@ -13,15 +10,14 @@ Side: TypeAlias = Literal["lowest", "highest"]
 
 @dataclass(frozen=True, slots=True)
 class TheoryLimits:
-    """The values of one parameter at which theory places a limit, all others as they are."""
+    """Values of one parameter at which theory places a limit, the others unchanged."""
 
     band_model: float  # Where the band model ends: t = t_LED
     null: float  # Where an alternating pattern has no stripes: t = 2 t_LED
-    # The frequency below which no two packets fit the panel's image; None for an exposure time, or
-    # where the image shows no panel
+    # Frequency below which two packets do not fit the panel's image; None for an exposure time or
+    # without a panel in view
     two_packets: float | None = None
-    # The exposure time from which the lit panel is white, infinite without light; None for a
-    # frequency
+    # Exposure time from which the lit panel is white, infinite without light; None for a frequency
     saturation: float | None = None
 
 
@@ -45,10 +41,10 @@ class EndFacts:
 
 @dataclass(frozen=True, slots=True)
 class RangeFacts:
-    """What is known of the values of one parameter at which a decoder reads a scene."""
+    """Values of one parameter at which a decoder reads a scene."""
 
     found: WorkingRange
-    # Its lowest end and its highest; empty where the decoder reads nowhere
+    # Lowest and highest end; empty where the decoder reads nowhere
     ends: tuple[EndFacts, ...]
     theory: TheoryLimits
 

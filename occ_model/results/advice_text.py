@@ -1,4 +1,4 @@
-"""The facts of an advice in words: ends of ranges, gaps, and the limits of theory."""
+"""Sentences of an advice: ends of ranges, gaps and limits of theory."""
 
 import math
 
@@ -12,12 +12,12 @@ _DIGITS = 4
 
 
 def written(parameter: str, value: float) -> str:
-    """Write a frequency or an exposure time with the digits of the advice."""
+    """Format a frequency or an exposure time with the digits of an advice."""
     return quantity(parameter).format(value, _DIGITS)
 
 
 def end_text(parameter: str, end: RangeEnd | EndFacts) -> str:
-    """Say by which images an end was confirmed, and between which values it surely lies."""
+    """Return the sentence on how an end was confirmed and on its 95 % interval."""
     works = end.works.value
     place = "there" if end.value == works else f"at {written(parameter, works)}"
     text = f"{place} it read {_counted(end.works)}"
@@ -35,7 +35,7 @@ def end_text(parameter: str, end: RangeEnd | EndFacts) -> str:
 
 
 def gaps(found: WorkingRange) -> list[str]:
-    """Write the gaps in which a decoder does not read."""
+    """Format the gaps in which a decoder does not read."""
     return [
         f"{written(found.parameter, end.value)} to {written(found.parameter, after.value)}"
         for end, after in found.gaps
@@ -43,22 +43,22 @@ def gaps(found: WorkingRange) -> list[str]:
 
 
 def gaps_text(found: WorkingRange) -> str:
-    """Say in a sentence where the gaps lie; empty where there is none."""
+    """Return the sentence on the gaps; empty without any."""
     if not found.gaps:
         return ""
     return f"It does not read everywhere between: gaps lie from {'; '.join(gaps(found))}."
 
 
 def searched_to(found: WorkingRange) -> str:
-    """Say where the search ended, as the decoder takes too long beyond."""
+    """Return the sentence on where the search ended because the decoder takes too long."""
     return (
-        f"Searched to {written(found.parameter, found.searched[1])} alone, where an exposure "
-        f"covers {found.most_chips:.3g} chips: more take this decoder much longer."
+        f"Searched only up to {written(found.parameter, found.searched[1])}, where an exposure "
+        f"covers {found.most_chips:.3g} chips: beyond that this decoder takes much longer."
     )
 
 
 def how_tried(found: Limits) -> list[str]:
-    """Say what the confidence of the ends rests on, if any was found, and what can be missed."""
+    """Return sentences on the confidence of the ends found and on what the search can miss."""
     step = 100.0 * (found.frequency.step - 1.0)
     missed = (
         f"Values were tried in steps of {step:.0f} %: a narrower gap or interval can be missed."
@@ -66,14 +66,14 @@ def how_tried(found: Limits) -> list[str]:
     if not found.frequency.intervals and not found.exposure.intervals:
         return [missed]
     return [
-        f"Each end was tried with {found.images} images or more that had not chosen it; the 95 % "
-        "intervals count images.",
+        f"Each end was confirmed with at least {found.images} images that were not used to find "
+        "it; the 95 % intervals count images.",
         missed,
     ]
 
 
 def theory_text(parameter: str, theory: TheoryLimits) -> str:
-    """Say where theory places limits of the switching frequency or of the exposure time."""
+    """Return the sentence on the limits that theory places on a frequency or an exposure time."""
     text = (
         f"By theory the band model ends at {written(parameter, theory.band_model)} and an "
         f"alternating pattern at {written(parameter, theory.null)}"
@@ -81,15 +81,15 @@ def theory_text(parameter: str, theory: TheoryLimits) -> str:
     if theory.saturation is None:
         return f"{text}."
     if math.isinf(theory.saturation):
-        return f"{text}; there is no light that could saturate."
+        return f"{text}; without light nothing saturates."
     white = SECOND.format(theory.saturation, _DIGITS)
-    return f"{text}; from {white} what is lit throughout is white."
+    return f"{text}; from {white} on, columns lit throughout are white."
 
 
 def two_packets_text(frequency: float) -> str:
-    """Say below which frequency a decoder that needs two packets fails."""
+    """Return the sentence on the frequency below which a decoder that needs two packets fails."""
     limit = HERTZ.format(frequency, _DIGITS)
-    return f"Below {limit} no two packets fit the picture, which it needs."
+    return f"Below {limit} the picture does not hold the two packets that it needs."
 
 
 def _counted(trial: Trial) -> str:

@@ -1,4 +1,4 @@
-"""What measured times rest on: the frequency, or the readout time, that is taken as known."""
+"""The frequency or readout time that is assumed known when the other is estimated."""
 
 from occ_model.scene.parameters import quantity
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
@@ -8,12 +8,12 @@ _FREQUENCY = "switching_frequency"
 
 
 def assumption(name: str, value: float, chips: int) -> str:
-    """Name a value that estimates of time rest on, as ``"if f = 10 kHz: "``.
+    """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``.
 
     Parameters
     ----------
     chips
-        Chips of a period: a lamp that only blinks is known by its cycles.
+        Chips of a period: a plainly blinking lamp is described by its cycles.
     """
     known = quantity(name)
     if name == _FREQUENCY and chips == CHIPS_OF_A_CYCLE:

@@ -1,19 +1,19 @@
-"""Results of how deep the bars of a picture are, and of what shows none."""
+"""Results on the depth of a picture's bars, and on settings without bars."""
 
 from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 
-BARELY = 0.01
-"""Depth, peak to peak over the mean, below which a picture counts as without bars."""
+NO_BARS_DEPTH = 0.01
+"""Peak-to-peak depth relative to the mean, below which a picture counts as free of bars."""
 
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """How far something swings, relative to its mean over all starts of an exposure."""
+    """Modulation depth, relative to the mean over all starts of an exposure."""
 
-    peak_to_peak: float  # Largest less smallest value
+    peak_to_peak: float  # Largest minus smallest value
     rms: float  # Root mean square of the deviation from the mean
 
 
@@ -47,7 +47,7 @@ class BandDepth:
 
     @property
     def peak_to_peak(self) -> float:
-        """Largest less smallest light of an exposure, relative to its mean."""
+        """Largest minus smallest light of an exposure, relative to its mean."""
         return self.light.peak_to_peak
 
     @property
@@ -57,16 +57,16 @@ class BandDepth:
 
     @property
     def is_visible(self) -> bool:
-        """Whether the bars are seen, by the threshold."""
+        """Whether the contrast exceeds the threshold of vision."""
         return self.contrast > self.threshold
 
 
 @dataclass(frozen=True, slots=True)
 class SpeedDepth:
-    """Depth of the bars at a shutter speed that is written on cameras."""
+    """Depth of the bars at a marked shutter speed."""
 
-    name: str  # As it is written on the camera, such as 1/125 s
-    # The time that is written, and that of a camera whose speeds are powers of two, in seconds
+    name: str  # As marked on the camera, such as 1/125 s
+    # The marked time and that of a camera whose speeds are powers of two, in seconds
     nominal: float
     real: float
     # Peak to peak depth of the light at each
@@ -75,32 +75,32 @@ class SpeedDepth:
 
     @property
     def is_free(self) -> bool:
-        """Whether there are no bars, whichever of both times the camera keeps."""
-        return max(self.at_nominal, self.at_real) < BARELY
+        """Whether both times show no bars."""
+        return max(self.at_nominal, self.at_real) < NO_BARS_DEPTH
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether it depends on the time that the camera keeps."""
-        return not self.is_free and min(self.at_nominal, self.at_real) < BARELY
+        """Whether only one of the two times shows no bars."""
+        return not self.is_free and min(self.at_nominal, self.at_real) < NO_BARS_DEPTH
 
 
 @dataclass(frozen=True, slots=True)
 class BandAdvice:
-    """What shows no bars: exposures at the scene's frequency, frequencies at its exposure.
+    """Exposures without bars at the scene's frequency, and frequencies at its exposure.
 
     Parameters
     ----------
     limit
         Depth, peak to peak, below which there are no bars.
     valley
-        Exposure in seconds whose whole multiples show no bars of the code at all.
+        Exposure in seconds whose integer multiples show no bars of the code.
     exposures, frequencies
-        Ranges from first to last in s and Hz in which the depth is below the limit, in order; those
-        below ``all_exposures`` and ``all_frequencies``, and the scene's own frequency or exposure.
+        Ranges in s and Hz with a depth below the limit, rising: those below ``all_exposures`` and
+        ``all_frequencies``.
     all_exposures, all_frequencies
-        From where on every one is below the limit; None for nowhere.
+        Values from which on every depth is below the limit; None for none.
     speeds
-        The usual shutter speeds, longest first.
+        Usual shutter speeds, longest first.
     """
 
     limit: float
@@ -121,12 +121,12 @@ class DepthMap:
     exposures: FloatArray
     # Shape (n, m): least depth within the exposures of each cell, at its middle frequency
     least: FloatArray
-    period: int  # Chips after which the code repeats: bars vanish at whole multiples of it
+    period: int  # Chips after which the code repeats; bars vanish at its integer multiples
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RiskLines:
-    """The lines of IEEE 1789-2015 over the frequencies that they divide, each with its end."""
+    """The limit lines of IEEE 1789-2015 over frequency."""
 
     # Shape (n, 2): corners: frequency in Hz, modulation in percent
     no_effect: FloatArray
@@ -135,7 +135,7 @@ class RiskLines:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EyeFlicker:
-    """Measures of how a lamp's light flickers for the eye.
+    """Measures of a lamp's flicker for the eye.
 
     Parameters
     ----------
@@ -144,15 +144,15 @@ class EyeFlicker:
     flicker_index
         Area of a period above the mean, relative to the whole area.
     visibility
-        Stroboscopic visibility measure SVM; at 1 half of the observers see the effect.
+        Stroboscopic visibility measure SVM; at 1, half of the observers see the effect.
     frequency
-        How often the light repeats, in Hz.
+        Repetition frequency of the light, in Hz.
     frequencies, modulations : ndarray of float64, shape (n,)
-        Of the sines that it consists of, up to where IEEE 1789-2015 has no line any more: in Hz,
-        and amplitude over mean in percent.
+        Its Fourier components as far as IEEE 1789-2015 has limits: Hz, and amplitude over mean in
+        percent.
     risk, parts_risk
-        "no effect", "low risk" or "above low risk" by the lines of IEEE 1789-2015: of the percent
-        flicker at the frequency of repetition, and of each of the sines.
+        "no effect", "low risk" or "above low risk" by IEEE 1789-2015: of the percent flicker at the
+        repetition frequency, and of the Fourier components.
     """
 
     percent_flicker: float
@@ -169,24 +169,25 @@ class EyeFlicker:
 class ShutterSpeed:
     """A shutter speed."""
 
-    name: str  # As it is written on the camera
-    # The time that is written, and the one that is kept where speeds are powers of two, in s
+    name: str  # As marked on the camera
+    # The marked time and the one kept where speeds are powers of two, in seconds
     nominal: float
     real: float
 
 
 @dataclass(frozen=True, slots=True)
 class Cure:
-    """What takes the bars out of a picture."""
+    """Settings that remove the bars from a picture."""
 
-    # How often the lamp's light repeats, in Hz: bars vanish at whole multiples of one over it
+    # Repetition frequency of the lamp's light in Hz: bars vanish at integer multiples of its
+    # inverse
     repeats: float
-    duty: float  # Share of the time in which the lamp is lit
-    # Least and largest peak to peak depth of the bars that the lamp's own light, without that of
-    # others, has now: within two standard deviations of the exposure
+    duty: float  # Fraction of the time in which the lamp is lit
+    # Smallest and largest present depth of the bars of the lamp's own light, within two standard
+    # deviations of the exposure
     depth: tuple[float, float]
-    # The shortest usual shutter speeds that show no bars, at most two: as they are written, and
-    # also at the power of two that many cameras keep. Counted for sharp edges, and so for all.
+    # The shortest usual shutter speeds without bars, at most two: as marked, and also at the power
+    # of two that many cameras keep. Computed for sharp edges, the worst case.
     speeds: tuple[ShutterSpeed, ...]
     kept: tuple[ShutterSpeed, ...]
-    scene: Scene  # With the shortest of them, or the shortest exposure without bars of the lamp
+    scene: Scene  # With the shortest of them, or the lamp's shortest exposure without bars

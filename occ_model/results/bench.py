@@ -1,4 +1,4 @@
-"""Request and results of the bench: bit errors over the exposure, and over the noise."""
+"""Request and results of the bench: bit errors over exposure and over noise."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -10,43 +10,43 @@ from occ_model.scene.scene import Scene
 _CAMERA = Scene().camera
 
 EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)
-"""Exposures in symbols."""
+"""Default exposures, in symbols."""
 
 DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)
-"""Signal-to-noise ratios: the chips' variance over that of a row's noise."""
+"""Default signal-to-noise ratios in dB: variance of the chips over that of a row's noise."""
 
 BenchPlace: TypeAlias = tuple[str, str, float, float]
-"""The scheme, what is varied (``"exposure"`` or ``"noise"``), the exposure and the ratio."""
+"""Scheme, varied axis (``"exposure"`` or ``"noise"``), exposure and signal-to-noise ratio."""
 
 
 @dataclass(frozen=True, slots=True)
 class BenchRequest:
     """What the bench measures."""
 
-    # Each the name of a line code, or of a line code and a framing with a slash between
+    # Each a line code, or a line code and a framing separated by a slash
     schemes: tuple[str, ...] = ("manchester",)
     decoders: tuple[str, ...] = ()
-    # The exposures in symbols, tried at ``at_decibels``, and the signal-to-noise ratios, tried at
+    # Exposures in symbols, tried at ``at_decibels``, and signal-to-noise ratios, tried at
     # ``at_exposure``
     exposures: tuple[float, ...] = EXPOSURES
     decibels: tuple[float, ...] = DECIBELS
-    # The exposure of the curve over noise, and the ratio of the curve over exposure
+    # Exposure of the curve over noise, and ratio of the curve over exposure
     at_exposure: float = 4.0
     at_decibels: float = 30.0
-    rows_a_symbol: float = 5.0  # Rows that are read out while a symbol lasts
-    payload_bits: int = 256  # Bits of a payload; each picture shows another one
+    rows_a_symbol: float = 5.0  # Rows read out during a symbol
+    payload_bits: int = 256  # Each picture shows another payload
     bits: int = 10_240
     seed: int = 1
-    # Of the schemes, as the parameters of a scene
+    # As in a scene's parameters
     preamble: str = ""
     error_correction: str = "none"
-    rows: int = _CAMERA.columns  # Rows of a picture, all of which see the light
-    # Time between two rows in seconds; it matters for bits a second alone
+    rows: int = _CAMERA.columns  # Of a picture; all see the light
+    # In seconds; affects bits a second only
     readout_time: float = _CAMERA.readout_time
 
     @property
     def points(self) -> tuple[BenchPlace, ...]:
-        """Where it is measured."""
+        """All places to measure at."""
         return tuple(
             (scheme, axis, exposure, ratio)
             for scheme in self.schemes
@@ -66,27 +66,27 @@ class BenchPoint:
     exposure: float
     decibels: float
     errors: BitErrors
-    note: str = ""  # Why the first payload was not read that was not; empty where all were
+    note: str = ""  # Why the first unread payload failed
 
     @property
     def place(self) -> float:
-        """Where the point lies on its axis."""
+        """The point's coordinate on its axis."""
         return self.exposure if self.axis == "exposure" else self.decibels
 
     @property
     def explanation(self) -> str:
-        """The note, and why the bit error rate is above 0.5 where it is."""
+        """The note and, where the bit error rate exceeds 0.5, the reason."""
         return f"{self.note} {self.errors.why_above_half}".strip()
 
 
 @dataclass(frozen=True, slots=True)
 class BenchBounds:
-    """What theory says of the points of a bench."""
+    """Theoretical bounds of a bench."""
 
-    # The exposures, in symbols, at which chips that alternate leave no stripes
+    # Exposures in symbols at which alternating chips leave no stripes
     nulls: tuple[float, ...]
-    # For each axis the exposures or ratios, and the bits that light of Gaussian levels can carry to
-    # one picture there
+    # By axis: the exposures or ratios, and the bits a picture that light of Gaussian levels can
+    # carry there
     most_bits: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]
 
 

@@ -1,41 +1,37 @@
-"""Result of a bit error rate: the bits that were wrong, and what that leaves a second."""
+"""Bit errors of a decoder, and the net bits a second that result."""
 
 from dataclasses import dataclass
 
 from occ_model.scene.recording import FRAME_RATE
 
 FRAMES_A_SECOND = FRAME_RATE.default
-"""Pictures that a camera takes a second where nothing else is said."""
+"""Default frame rate of a camera, in frames a second."""
 
 
-_ABOVE_HALF = "Above 0.5: a payload that is not read counts with all its bits wrong."
+_WHY_ABOVE_HALF = "Above 0.5: a payload that is not read counts with all its bits wrong."
 
 
 @dataclass(frozen=True, slots=True)
 class BitErrors:
-    """Bits that a decoder read wrongly or not at all, of random payloads in a picture each.
+    """Bit errors of a decoder over pictures that each show a random payload.
 
     Parameters
     ----------
-    decoder
-        Its name.
     bits
-        Bits sent.
+        Number of bits sent.
     errors
-        Bits of them that were wrong, those of a payload that was not read included.
+        Number of wrong bits, including all bits of an unread payload.
     low, high
-        The 95 % interval of the rate. The bits of one payload fail together; so it rests on how
-        much the pictures differ, and on the pictures alone where all or none of the bits are wrong.
+        The 95 % interval of the rate. The bits of a payload fail together, so it rests on the
+        scatter between pictures; where all or no bits are wrong, on the number of pictures.
     pictures
-        Pictures, one payload each.
+        Number of pictures, with one payload each.
     pictures_right
-        Pictures of which all bits were right, and accepted by the decoder.
+        Number of pictures whose bits were all right and accepted by the decoder.
     right_low, right_high
-        The 95 % interval of the fraction of pictures of which all bits are right.
-    picture_time
-        Time in seconds in which the columns of the panel are read out.
-    readout_time
-        Time in seconds in which all columns of the picture are read out.
+        The 95 % interval of the fraction of such pictures.
+    picture_time, readout_time
+        Time in seconds in which the panel's columns, and all columns, are read out.
     """
 
     decoder: str
@@ -57,23 +53,23 @@ class BitErrors:
 
     @property
     def why_above_half(self) -> str:
-        """Why more bits are wrong than a guess gets wrong; empty where they are not."""
-        return _ABOVE_HALF if self.rate > 0.5 else ""
+        """Why the rate exceeds that of a guess; empty where it does not."""
+        return _WHY_ABOVE_HALF if self.rate > 0.5 else ""
 
     @property
     def bits_a_picture(self) -> float:
-        """Bits of a payload, times the fraction of the payloads that are right."""
+        """Net bits of a picture: those of a payload times the fraction of right payloads."""
         return self.bits / self.pictures * (self.pictures_right / self.pictures)
 
     @property
     def bits_a_second_of_picture(self) -> float:
-        """Net bits a second while the panel is read out; 0 where no picture shows it."""
+        """Net bits a second while the panel is read out; 0 without a panel in view."""
         return self.bits_a_picture / self.picture_time if self.picture_time else 0.0
 
     def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
-        """Return the net bits a second of a video, whose every picture shows another payload.
+        """Return the net bits a second of a video in which each picture shows a new payload.
 
-        What is sent in the gap between two pictures is lost: see :meth:`gap`.
+        What is sent between two pictures is lost: see :meth:`gap`.
         """
         return self.bits_a_picture * frames_a_second
 
@@ -87,20 +83,17 @@ class BitErrors:
     def gap(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the time between the last column of a picture and the first of the next, in s.
 
-        It is below 0 where the camera cannot take so many pictures.
+        It is negative where the camera cannot take so many pictures.
         """
         return 1.0 / frames_a_second - self.readout_time
 
 
-def bits_a_second(share: float, bits: int, frames_a_second: float, readout_time: float) -> float:
-    """Return the net bits a second of a video whose every picture shows another payload.
+def bits_a_second(
+    right_fraction: float, bits: int, frames_a_second: float, readout_time: float
+) -> float:
+    """Return the net bits a second of a video in which each picture shows a new payload.
 
-    Parameters
-    ----------
-    share
-        Of the pictures of which every bit is right.
-    readout_time
-        Time in seconds in which a picture is read out: no picture begins before the end of the one
-        before, however many are asked for.
+    ``right_fraction`` is that of the pictures without a wrong bit. The readout time of a picture
+    in seconds limits the frame rate: a picture begins after the end of the one before.
     """
-    return share * bits * min(frames_a_second, 1.0 / readout_time)
+    return right_fraction * bits * min(frames_a_second, 1.0 / readout_time)

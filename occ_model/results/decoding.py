@@ -1,4 +1,4 @@
-"""Results of decoding: region, runs, chips, bits and code, step by step."""
+"""Results of decoding, step by step."""
 
 from dataclasses import dataclass, field
 from typing import Any
@@ -39,12 +39,12 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """The location of the panel in an image, and how it was found."""
+    """Location of the panel in an image."""
 
     region: Region
-    bright_level: int  # The grey level from which a pixel counts as bright
+    bright_level: int  # Grey level from which a pixel counts as bright
     contours: int
-    growth: int  # Pixels by which they were grown until one was left
+    growth: int  # Pixels by which the contours grew until one was left
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -57,7 +57,7 @@ class Runs:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RunHistogram:
-    """Histogram of the lengths of whole runs of one value."""
+    """Histogram of the lengths of complete runs of one value."""
 
     counts: IndexArray  # Shape (longest + 1,): runs of each length in columns
     # The longest of the short runs by Otsu's threshold, None where all lengths are equal
@@ -70,53 +70,50 @@ class DecodeResult:
 
     Parameters
     ----------
-    decoder
-        Its name.
     failure
-        None, or a sentence that says why no code was read.
+        None, or a sentence on why no code was read.
     code
         The code, None where ``failure`` says why.
     bits : ndarray of uint8
-        The bits read, the first sent first; empty where none were read. They can be present with a
-        failure, when the chips break the line code.
+        The bits read, in the order sent; present with a failure where the chips violate the line
+        code.
     payload
-        The bits read as the scene writes its payload, as text, hex digits or bits; empty where the
-        scene sends a code.
+        The bits in the notation of the scene's payload: text, hex digits or bits; empty for a code.
     region
         The rectangle of the image that was read.
     location
-        How the region was found, None where a profile was read.
+        How the region was found; None for a profile.
     signal : ndarray of float64, shape (columns of the region,)
         Mean of each column in grey levels.
     threshold
-        The grey level that separates ones from zeros.
+        Grey level that separates ones from zeros.
     runs
-        The signal after the threshold, as runs.
+        Runs of the signal after thresholding.
     histograms
-        The run lengths of zeros, and of ones.
+        Run lengths of zeros and of ones.
     chip_length
         Length of one chip in columns.
     chips : ndarray of uint8
-        The chips read, first sent first.
+        The chips read, in the order sent.
     chip_starts : ndarray of float64, shape as ``chips``
-        The column of the region at which each chip starts.
+        Start of each chip, in columns of the region.
     headers
-        Where headers start among ``chips``.
+        Indices of ``chips`` at which headers start.
     correlation
-        Of the best code's forward model with the signal.
+        Correlation of the best code's forward model with the signal.
     confidence
-        How sure the code is, from 0 to 1: the lead of the best code over the second best, or the
-        probability that all its bits are right.
+        From 0 to 1: the lead of the best code over the second best, or the probability that all
+        bits are right.
     folded : ndarray of float64, shape (bins,)
         The signal folded over one packet.
     model : ndarray of float64, shape (bins,)
-        The best code's forward model, beside ``folded``.
+        The best code's forward model of ``folded``.
     equalized : ndarray of float64, shape as ``signal``
-        The light with the exposure undone, 255 being white: what ``threshold`` refers to.
+        The light after deconvolution of the exposure, 255 being white: ``threshold`` refers to it.
     light : ndarray of float64, shape as ``signal``
-        The light of each column in shares of full light, the camera's tone curve undone.
+        Light of each column as a fraction of full light, with the tone curve inverted.
     light_model : ndarray of float64, shape as ``signal``
-        The light that the chips read would give, beside ``light``.
+        Light predicted from the chips read.
     chip_likelihoods : ndarray of float64, shape as ``chips``
         The probability that each chip is right.
     bit_likelihoods : ndarray of float64, shape as ``bits``

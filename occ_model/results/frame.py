@@ -10,44 +10,40 @@ from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
 PICTURES = ("camera", "receiver")
-"""Whose picture a frame's pictures are."""
+"""The pictures of a frame: that which the camera took, and that which the receiver enhanced."""
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """One simulated picture, with its scene, plan and profile.
+    """A simulated picture with its scene, plan and profile.
 
     The camera's picture and the receiver's are two: the receiver enhances the contrast within the
     panel and decodes the result.
 
     Parameters
     ----------
-    scene
-        The scene.
     plan
-        The effects simulated, and why.
+        The effects simulated, with reasons.
     image : ndarray of uint8, shape (number of ``rows``, columns)
-        The receiver's picture, enhanced as the scene says: the one that is decoded.
+        The receiver's picture with the scene's enhancement: the one that is decoded.
     rows
-        The rows of the picture that ``image`` shows: all of them, or in a draft every k-th,
-        ceil(rows / k) of them. A view draws each of them k rows high.
+        The rows of the picture that ``image`` shows: all, or in a draft every k-th. A view draws
+        each of them k rows high.
     profile : ndarray of float64, shape (columns,)
         Mean of the panel's pixels in each column, in grey levels, before enhancement and rounding;
-        of a picture that is kept in a file, as it is read back. With column effects only it is the
-        column's value itself, PV_sim; also in columns that do not show the panel.
+        with a simulated file format, after decoding the file. With column effects only it is the
+        column's value PV_sim, also outside the panel.
     signal : ndarray of float64, shape (columns,)
-        Mean of the panel's pixels in each column of the receiver's picture, in grey levels: what a
-        decoder reads, over all rows of the panel. With column effects only it is the column's
-        enhanced value; also in columns that do not show the panel.
+        Mean of the panel's pixels in each column of the receiver's picture, in grey levels: the
+        decoder's input. With column effects only it is the enhanced value, also outside the panel.
     corners : ndarray of float64, shape (4, 2)
-        The panel's corners in the image, each as (column, row), in order round the panel.
+        The panel's corners in order, each as (column, row).
     timings
-        Seconds of each stage, an effect under its name, in the order of computation.
+        Seconds of each stage in order of computation; an effect under its name.
     make_camera_image
         Returns the camera's picture.
     estimate_errors
-        Returns how far the profile and the signal may lie from those of the whole picture, by name;
-        None where they are those.
+        Returns the errors of a draft's profile and signal, by name; None where there are none.
     """
 
     scene: Scene
@@ -63,7 +59,7 @@ class Frame:
 
     @property
     def rows_step(self) -> int:
-        """How many rows of the picture each row of ``image`` stands for: 1, more in a draft."""
+        """Rows of the picture for each row of ``image``: 1, or more in a draft."""
         return self.rows.step
 
     @cached_property
@@ -73,11 +69,10 @@ class Frame:
 
     @cached_property
     def draft_error(self) -> Mapping[str, float]:
-        """How far a draft's ``profile`` and ``signal`` may lie from the whole picture's, by name.
+        """Error of a draft's ``profile`` and ``signal`` against the whole picture's, by name.
 
-        Root mean square over the columns of the panel's bounding rectangle, in grey levels: the
-        draft's own sampling error and that of the whole picture, whose noise is another. 0 where
-        the picture is no draft, or all its rows are alike.
+        RMS over the columns of the panel's bounding rectangle, in grey levels, from the sampling
+        errors of both pictures. 0 where the picture is not a draft, or all its rows are alike.
         """
         return self.estimate_errors() if self.estimate_errors else {"profile": 0.0, "signal": 0.0}
 
@@ -93,7 +88,7 @@ class Frame:
         return self.camera_image if whose == "camera" else self.image
 
     def picture_title(self, whose: str) -> str:
-        """Return the title of a picture, which says how the receiver's is enhanced."""
+        """Return the title of a picture, with the receiver's enhancement."""
         if whose == "camera":
             return "Camera's picture"
         enhancement = self.scene.model.enhancement

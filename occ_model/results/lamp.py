@@ -23,31 +23,31 @@ class Lamp:
     region
         The smallest rectangle around it.
     spans : ndarray of int64, shape (strips, 4)
-        Its shape, as rectangles one below another: first row, row after the last, first column and
-        column after the last of each.
+        Its shape as rectangles one below another: first row, end row, first column and end column
+        of each.
     level
         Grey level where it is lit.
     modulated
-        Whether it has stripes: its light changes while the picture is read out.
+        Whether it has stripes, as its light changes during the readout.
     period
-        Columns after which its stripes repeat; None without stripes, and for a code that does not
-        repeat within the lamp.
+        Period of its stripes in columns; None without stripes, and where they do not repeat.
     period_uncertainty
         Its standard deviation in columns.
     switching_frequency_times_readout
         Product of switching frequency and readout time, in chips per column; None without stripes.
-        A pulse that repeats counts as two chips a cycle, however short it is.
+        A repeated pulse counts as two chips a cycle, however short it is.
     product_uncertainty
         Its standard deviation in chips per column.
     periods
-        Number of periods in view; None where none is known.
+        Number of periods in view; None without a period.
     is_faint
-        Whether it is so faint beside the brightest lamp with stripes that it may be a reflection.
+        Whether it may be a reflection, as it is faint compared with the brightest lamp with
+        stripes.
     is_blurred
-        Whether its stripes are faint beside its light, as an exposure longer than a chip makes
-        them: some edges may not be seen, and its frequency be another.
+        Whether its stripes have little contrast, as with an exposure longer than a chip: edges may
+        be missing and the frequency wrong.
     reflections
-        Fainter places that blink in time with the lamp.
+        Fainter regions that blink in phase with the lamp.
     """
 
     region: Region

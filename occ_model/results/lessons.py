@@ -1,4 +1,4 @@
-"""Lessons: steps with a goal, a scene, a question and its answer, and what a student found."""
+"""Lessons: steps with a goal, a scene and a question, and a student's answers."""
 
 import re
 from collections.abc import Mapping
@@ -16,14 +16,14 @@ _NUMBER = re.compile(r"[-+−]?[\d.,]+(?:[eE][-+]?\d+)?")  # noqa: RUF001
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """How a student's number is checked against the model."""
+    """Rule by which a student's number is checked against the model."""
 
-    quantity: str  # Name of what is asked for, one of ``occ_model.teaching.quantities.QUANTITIES``
-    asked_in: str  # The unit of an answer that is a number alone; empty for a pure number
-    tolerance: float  # Largest difference that is right, as a fraction of the model's value
-    # The scene that the question is about, which may differ from the one that the step sets
+    quantity: str  # A name of ``occ_model.teaching.quantities.QUANTITIES``
+    asked_in: str  # Unit of an answer without one; empty for a pure number
+    tolerance: float  # Accepted difference, as a fraction of the model's value
+    # The scene of the question, which may differ from the step's own
     scene: Scene
-    # The parameters whose values the question names: an answer is checked only at these
+    # Parameters whose values the question names: an answer is checked only at these
     named: tuple[str, ...] = ()
 
 
@@ -36,35 +36,33 @@ class Step:
     question: str
     answer: str
     scene: Scene
-    pane: str = ""  # The pane to show it in, empty for the current one
-    photo: str = ""  # Name of the sample photo to open, empty for none
-    control: str = ""  # The one parameter to change, empty where several or none are meant
-    # How the student's number is checked; None where the answer is in words
+    pane: str = ""  # The pane to show; empty for the current one
+    photo: str = ""  # Name of the sample photo to open
+    control: str = ""  # The parameter to change; empty for several or none
+    # None where the answer is in words
     check: Check | None = None
-    equation: str = ""  # Name of the equation that explains the answer, empty for none
-    # Whether the step shows how a rolling shutter exposes one column after the other
+    equation: str = ""  # Name of the equation that explains the answer
+    # Whether the step shows the animation of the rolling shutter
     animation: bool = False
-    # What the step has a button for, one of ``occ_model.teaching.lessons.ACTIONS``; empty for none
+    # Action of the step's button, one of ``occ_model.teaching.lessons.ACTIONS``
     action: str = ""
-    # Whether the step is about a photo of the student's; ``photo`` stands in for it while none is
-    # open
+    # Whether the step is about the student's photo; ``photo`` stands in while none is open
     own_photo: bool = False
 
     @property
     def asked(self) -> Scene:
-        """The scene that the question and the explanation are about."""
+        """The scene of the question and the explanation."""
         return self.scene if self.check is None else self.check.scene
 
     def judged_at(self, shown: Scene) -> Scene:
-        """Return the scene that an answer is checked at, given while another one was shown.
+        """Return the scene at which an answer is checked, by the scene shown when it was given.
 
-        While the step's own is shown nothing has been set yet: the answer is a prediction for the
-        scene that the question is about.
+        At the step's own scene nothing has been set yet: the answer predicts the question's scene.
         """
         return self.asked if shown == self.scene else shown
 
     def with_unit(self, given: str) -> str:
-        """Return a given answer with the unit that it was asked in, where it is a number alone."""
+        """Return an answer with the question's unit appended where it has none."""
         unit = "" if self.check is None else self.check.asked_in
         given = given.strip()
         return f"{given} {unit}" if unit and _NUMBER.fullmatch(given) else given
@@ -76,9 +74,10 @@ class Lesson:
 
     name: str
     title: str
-    summary: str  # What one can do after it, in one sentence
+    summary: str  # Learning objective, in one sentence
     steps: tuple[Step, ...]
-    is_sheet: bool = False  # Whether it is a lab sheet, which ends with a measurement of one's own
+    # Whether it is a lab sheet, which ends with the student's own measurement
+    is_sheet: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +85,7 @@ class CheckedAnswer:
     """A student's answer to a step, checked."""
 
     text: str
-    # Whether it is right, near, wrong, or no number; None where the answer is in words
+    # None where the answer is in words
     outcome: Outcome | None
     sentence: str
 
@@ -95,9 +94,9 @@ class CheckedAnswer:
 class LessonList:
     """The lessons that were found."""
 
-    # Those that come with the program, then those of the user's own folder
+    # Built-in lessons, then those of the user's folder
     lessons: tuple[Lesson, ...]
-    # Why files of the user's own folder are no lessons: sentences by the file's name
+    # Why files of the user's folder are not lessons, by file name
     problems: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
 
 
@@ -107,9 +106,9 @@ class AnsweredStep:
 
     step: Step
     answer: CheckedAnswer | None
-    # The scene at which it was given and checked, which the report draws; that of the question
-    # where there is no answer
+    # The scene at which the answer was checked and which the report draws; the question's without
+    # an answer
     scene: Scene
-    # The match of the photo that was open, where the step is about one; the report draws it
+    # Match of the photo that the step is about; the report draws it
     match: Match | None = None
     photo: str = ""

@@ -11,15 +11,15 @@ from occ_model.scene.scene import Scene
 class Trial:
     """The bits counted at one value of a parameter."""
 
-    value: float  # The parameter, in SI units
+    value: float  # Of the parameter, in SI units
     right: int
     sent: int
-    # The 95 % interval of the success rate, percent, which counts images
+    # The 95 % interval of the success rate in percent, counted by images
     low: float
     high: float
-    # Images that were tried: fewer than asked for where the rate could not be reached any more
+    # Images tried: fewer than requested where the rate was out of reach
     images: int
-    whole: int  # Images of which every bit was read
+    whole: int  # Images without a wrong bit
 
     @property
     def rate(self) -> float:
@@ -28,7 +28,7 @@ class Trial:
 
 
 def stated_end(works: Trial, interval: tuple[float, float] | None) -> float:
-    """Return the value at which an end's images read, or the nearest that more images allow."""
+    """Return the value confirmed by an end's images, limited to the interval."""
     if interval is None:
         return works.value
     return min(max(works.value, interval[0]), interval[1])
@@ -38,31 +38,29 @@ def stated_end(works: Trial, interval: tuple[float, float] | None) -> float:
 class RangeEnd:
     """One end of an interval in which a decoder reads.
 
-    Its images have not chosen it: those that did are others.
+    Other images confirmed it than found it.
     """
 
     works: Trial
-    # A value beyond, at which it surely does not: the 95 % interval of the rate lies below the rate
-    # asked for. None where it reads to the end of the search.
+    # A value beyond, with a 95 % interval below the required rate; None at the end of the search.
     fails: Trial | None
-    # A value inside, at which it surely reads: every bit of so many images that the 95 % interval
-    # lies above the rate asked for. At the end of the search ``works``, if every bit was read. None
-    # where there is none, or it was not looked for.
+    # A value inside without a wrong bit and with a 95 % interval above the required rate; at the
+    # end of the search `works`, if no bit was wrong. None where not found, or not searched for.
     inside: Trial | None = None
-    # Whether the end was found by bisection; otherwise it is known to a step of the search
+    # Whether the end was bisected; otherwise it is known to a step of the search
     is_bisected: bool = False
-    # The values between which the true end lies, with 95 %; None where that is not known
+    # The 95 % interval of the true end; None where unknown
     interval: tuple[float, float] | None = None
 
     @property
     def value(self) -> float:
-        """The last value at which the decoder reads, as :func:`stated_end` gives it."""
+        """The last value at which the decoder reads: see :func:`stated_end`."""
         return stated_end(self.works, self.interval)
 
 
 @dataclass(frozen=True, slots=True)
 class ReadInterval:
-    """Values of a parameter, from a lowest to a highest, at which a decoder reads."""
+    """Interval of a parameter's values in which a decoder reads."""
 
     lowest: RangeEnd
     highest: RangeEnd
@@ -70,31 +68,29 @@ class ReadInterval:
 
 @dataclass(frozen=True, slots=True)
 class WorkingRange:
-    """The values of a parameter at which a decoder reads a scene, all others as they are."""
+    """Values of a parameter at which a decoder reads a scene, the others unchanged."""
 
     parameter: str
     searched: tuple[float, float]
-    # Ratio of neighbouring values of the search: a gap or an interval narrower than that can be
-    # missed
+    # Ratio of neighbouring values of the search: narrower gaps and intervals can be missed
     step: float
     own: Trial
-    # Where the decoder reads, rising; between them are gaps. Empty where it reads nowhere.
+    # Where the decoder reads, rising, with gaps between them
     intervals: tuple[ReadInterval, ...]
-    failure: str | None = None  # None, or a sentence that says that it reads nowhere
-    # Where it reads nowhere: the value at which it reads the most; else None
+    failure: str | None = None  # A sentence where it reads nowhere
+    # The value with most bits read, where it reads nowhere; otherwise None
     best: Trial | None = None
-    # The chips of an exposure at which the search ended, as the decoder takes too long beyond; None
-    # where that has not shortened it
+    # Chips of an exposure at which the search ended because the decoder takes too long beyond
     most_chips: float | None = None
 
     @property
     def lowest(self) -> RangeEnd | None:
-        """The lowest end of all; None where it reads nowhere."""
+        """The lowest end; None where it reads nowhere."""
         return self.intervals[0].lowest if self.intervals else None
 
     @property
     def highest(self) -> RangeEnd | None:
-        """The highest end of all, beyond any gaps; None where it reads nowhere."""
+        """The highest end, beyond any gaps; None where it reads nowhere."""
         return self.intervals[-1].highest if self.intervals else None
 
     @property
@@ -109,12 +105,10 @@ class Limits:
 
     Parameters
     ----------
-    scene, decoder
-        The scene, and the decoder's name.
     rate
-        Least success rate in percent that counts as reading.
+        Success rate in percent from which the scene counts as read.
     images, seed
-        Images at each value tried, and the seed of each.
+        Images at each value tried, and their seed.
     frequency, exposure
         The switching frequencies and the exposure times at which it reads.
     """
@@ -130,8 +124,7 @@ class Limits:
     def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the net bits a second at the scene's own frequency and exposure.
 
-        Each picture shows another payload, and counts where all its bits are read: repeats of a
-        payload within a picture count once.
+        Each picture shows a new payload, which counts once, and only without a wrong bit.
         """
         own, camera = self.frequency.own, self.scene.camera
         bits, readout_time = own.sent // own.images, camera.columns * camera.readout_time

@@ -11,9 +11,9 @@ from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
 PLAIN_STRIPES = (
-    "These look like plain stripes of one lamp: if it is one, say that it sends a square wave."
+    "These look like plain stripes of one lamp: if so, state that it sends a square wave."
 )
-"""What to do about a refused pulse that repeats."""
+"""Advice for a refused pulse that repeats."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -27,9 +27,9 @@ class Stripes:
     profile : ndarray of float64, shape (columns of the region,)
         Mean of each column of the region, in grey levels.
     low, high : ndarray of float64, shape as ``profile``
-        The slowly varying dark and bright level of the stripes.
+        Slowly varying dark and bright levels of the stripes.
     period
-        Columns after which the stripes repeat; None where they do not repeat in the region.
+        Period of the stripes in columns; None where they do not repeat in the region.
     period_uncertainty
         Its standard deviation in columns.
     saturated
@@ -52,21 +52,21 @@ class Stripes:
 
 @dataclass(frozen=True, slots=True)
 class Alternative:
-    """Another explanation of a photo's stripes than the one that a match gives.
+    """An explanation of a photo's stripes other than that of the match.
 
     Parameters
     ----------
     sent
-        What it says is sent, in words.
+        What is sent, in words.
     pattern
-        The chips sent, from the start of a period; empty where it says that there is no code.
+        The chips sent, from the start of a period; empty for no code.
     correlation
-        Correlation of its profile with the photo's, both without the uneven light.
+        Correlation of its profile with the photo's, both corrected for uneven light.
     evidence
-        Natural logarithm of its likelihood less that of the match, both with a penalty for what
-        was chosen freely; below 0 where it is the less likely one.
+        Natural logarithm of its likelihood ratio to the match, with a penalty on free parameters:
+        negative where it is less likely.
     readout_time, switching_frequency, exposure_time
-        In SI units; None where it has none.
+        In SI units, or None.
     """
 
     sent: str
@@ -80,16 +80,16 @@ class Alternative:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ChipReading:
-    """The chips in a photo's stripes, read without knowing what is sent or whether it repeats.
+    """Chips read from a photo's stripes without knowledge of the code or its repetition.
 
     Parameters
     ----------
     chips : ndarray of uint8, shape (chips,)
-        The chips in view, from the first edge between two stripes to the last one.
+        The chips between the first and the last edge in view.
     columns_per_chip
         Length of a chip in columns.
     confidence
-        Probability, from 0 to 1, that all of the chips are right; calibrated on simulated messages.
+        Probability, from 0 to 1, that all chips are right, calibrated on simulated messages.
     start
         Column of the photo at which the first of them starts.
     region
@@ -108,14 +108,14 @@ class ChipReading:
         return "".join(map(str, self.chips.tolist()))
 
 
-_BY_EXPOSURE = ("exposure_time", "start_time", "gamma")
-"""Estimates that another exposure changes: a column's start is half of it before its middle."""
+_EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")
+"""Estimates that depend on the exposure: a column starts half an exposure before its middle."""
 
-_SHOWN_TOLERANCE = 5e-7
-"""Relative difference of two values that are the same in the six digits that are shown."""
+_DISPLAY_TOLERANCE = 5e-7
+"""Relative difference of two values that agree in the six digits displayed."""
 
 _ERROR_TOLERANCE = 1e-3
-"""Fraction of an estimate's deviation by which two values may differ and yet be the same."""
+"""Difference of two equal values, as a fraction of the standard deviation."""
 
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
 
@@ -127,30 +127,30 @@ class Match:
     Parameters
     ----------
     scene
-        The scene given, with the parameters found in the photo.
+        The given scene with the parameters estimated from the photo.
     stripes
-        The stripes that were matched, with the levels of the fit.
+        The matched stripes, with the levels of the fit.
     readout_time, switching_frequency, exposure_time, start_time, gamma
         The scene's, in SI units; ``start_time`` is that of the photo's first column.
     uncertainties
-        Standard deviations of those that were estimated, in SI units, by name.
+        Standard deviations of the estimated ones, in SI units, by name.
     pattern
         The chips sent, from the start of a period.
     pattern_was_read
         Whether it was read from the photo.
     profile : ndarray of float64, shape (columns of the region,)
-        The aligned profile: that of the fitted scene in the photo's light, in grey levels.
+        Aligned profile of the fitted scene under the photo's light, in grey levels.
     correlation
-        Correlation of that profile with the photo's, both without the uneven light.
+        Correlation of that profile with the photo's, both corrected for uneven light.
     other_exposures
         Other exposure times in seconds that explain the stripes equally well, the shortest first.
     reasons
-        Why the match is doubtful, each a sentence; none where it is sure.
+        Sentences on why the match is doubtful; empty where it is sure.
     alternatives
         Other explanations of the stripes, the most likely first.
     exposure_reasons
-        Why the exposure time, and what follows from it, is doubtful, each a sentence: the chips and
-        the readout time, or the frequency, do not rest on it.
+        Sentences on why the exposure time is doubtful; the chips and the readout time or frequency
+        do not depend on it.
     """
 
     scene: Scene
@@ -187,21 +187,21 @@ class Match:
 
     @property
     def doubtful_alone(self) -> tuple[str, ...]:
-        """Names of the estimates that are doubtful while the match is sure: those by exposure."""
-        return _BY_EXPOSURE if self.only_exposure_is_doubtful else ()
+        """Names of the estimates that are doubtful although the match is sure."""
+        return _EXPOSURE_DEPENDENT if self.only_exposure_is_doubtful else ()
 
     @property
     def all_reasons(self) -> tuple[str, ...]:
-        """The reasons to doubt the match, and those to doubt its exposure time, said so."""
+        """The reasons to doubt the match and its exposure time."""
         if not self.only_exposure_is_doubtful:
             return (*self.reasons, *self.exposure_reasons)
         first, *more = self.exposure_reasons
         return (f"{_ONLY_EXPOSURE} {first}", *more)
 
     def is_applied_to(self, scene: Scene) -> bool:
-        """Whether a scene is the matched one, as far as the match tells.
+        """Whether a scene has the estimates of the match.
 
-        A match that starts from the matched scene ends there again, but for rounding.
+        Repeating a match from its own scene ends there again, except for rounding.
         """
         if scene == self.scene:
             return True
@@ -215,7 +215,7 @@ class Match:
         if not isinstance(there, float) or not isinstance(here, float):
             return there == here
         step = _ERROR_TOLERANCE * self.uncertainties.get(name, 0.0)
-        return math.isclose(there, here, rel_tol=_SHOWN_TOLERANCE, abs_tol=step)
+        return math.isclose(there, here, rel_tol=_DISPLAY_TOLERANCE, abs_tol=step)
 
     @property
     def columns_per_chip(self) -> float:
@@ -224,7 +224,7 @@ class Match:
 
     @property
     def periods_in_view(self) -> float:
-        """How often the pattern is sent while the region's columns are read out."""
+        """Periods of the pattern sent during the readout of the region."""
         return len(self.profile) / (self.columns_per_chip * len(self.pattern))
 
     @property
@@ -244,7 +244,7 @@ class Match:
 
     @property
     def residual(self) -> FloatArray:
-        """The photo's profile less the aligned one, in grey levels, shape (columns,)."""
+        """The photo's profile minus the aligned one, in grey levels, shape (columns,)."""
         return self.stripes.profile - self.profile
 
     @property
@@ -253,8 +253,8 @@ class Match:
         return float(np.sqrt(np.mean(self.residual**2)))
 
 
-_USUAL_FRACTION = 0.95
-"""Fraction of columns whose residual an axis shows whole: a single edge is not to set it."""
+_TYPICAL_QUANTILE = 0.95
+"""Quantile of the residual's magnitude that scales an axis, so that no single edge does."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -264,16 +264,16 @@ class Comparison:
     Parameters
     ----------
     first_column
-        The first column of the simulation that the photo lies on.
+        First column of the simulation covered by the photo.
     photo : ndarray of float64, shape (columns,)
-        The photo's profile without its uneven light, in the simulation's grey levels.
+        The photo's profile corrected for uneven light, in the simulation's grey levels.
     simulated : ndarray of float64, shape (columns,)
         The simulation's profile in these columns.
     correlation
         Correlation of the two; 0 where one of them is flat.
     height : ndarray of float64, shape (columns,), or None
-        Height of the photo's stripes over its root mean square, by which columns count; None where
-        all count alike.
+        Height of the photo's stripes relative to its RMS, by which columns are weighted; None for
+        equal weights.
     """
 
     first_column: int
@@ -284,22 +284,22 @@ class Comparison:
 
     @property
     def residual(self) -> FloatArray:
-        """The photo's profile less the simulated one, in grey levels, shape (columns,).
+        """The photo's profile minus the simulated one, in grey levels, shape (columns,).
 
-        Where the photo's stripes are faint it is as faint.
+        It is scaled by the height of the photo's stripes.
         """
         residual = self.photo - self.simulated
         return residual if self.height is None else residual * self.height
 
     @property
     def largest_residual(self) -> float:
-        """The residual that is farthest from 0, without its sign, in grey levels."""
+        """Largest magnitude of the residual, in grey levels."""
         return float(np.abs(self.residual).max())
 
     @property
     def usual_residual(self) -> float:
-        """The grey levels that 95 of 100 columns stay within: what an axis is to show."""
-        return float(np.quantile(np.abs(self.residual), _USUAL_FRACTION))
+        """Magnitude of the residual that 95 % of the columns stay within, in grey levels."""
+        return float(np.quantile(np.abs(self.residual), _TYPICAL_QUANTILE))
 
     @property
     def rmse(self) -> float:

@@ -1,4 +1,4 @@
-"""Result of the search for the scheme that carries most."""
+"""Result of the search for the scheme with the highest net bit rate."""
 
 from dataclasses import dataclass
 
@@ -7,25 +7,20 @@ from occ_model.scene.scene import Scene
 
 @dataclass(frozen=True, slots=True)
 class MostBits:
-    """The scheme, frequency and number of bits that a decoder reads most with.
+    """The scheme, frequency and number of bits with a decoder's highest net bit rate.
 
     Parameters
     ----------
-    decoder
-        The decoder's name.
     scene
-        The scene that carries most, None where every trial failed.
+        The best scene, None where every trial failed.
     pictures
-        Pictures that it was tried with, each with a payload and a start of its own; all bits of all
-        of them were right.
+        Number of pictures tried, with a payload and a start each; all bits were right.
     bits_a_second
-        Net bits a second of a video, one payload a picture.
-    frames_a_second
-        Pictures a second.
+        Net bits a second of a video with one payload a picture.
     tried
-        Combinations that carry more, and were tried and not read.
+        Number of faster combinations that were tried and not read.
     failure
-        None, or a sentence that says why there is no scene.
+        None, or a sentence on why there is no scene.
     """
 
     decoder: str

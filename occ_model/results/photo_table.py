@@ -1,4 +1,4 @@
-"""The table of several photos that were matched, and what they measured together."""
+"""Table of several matched photos, and their combined estimates."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,31 +13,30 @@ VERDICTS = (SURE, DOUBTFUL, REFUSED, UNREADABLE)
 
 
 def known_beside(estimate: str) -> str:
-    """Name the parameter that is known where the other of the two is estimated."""
+    """Return the parameter that is taken as known while the other one is estimated."""
     both = ("readout_time", "switching_frequency")
     return both[1 - both.index(estimate)]
 
 
 @dataclass(frozen=True, slots=True)
 class PhotoRow:
-    """What was found in one photo."""
+    """Result for one photo."""
 
     path: Path
     verdict: str  # One of VERDICTS
-    # Why it, or its exposure time alone, is not sure, in sentences; empty where all of it is
+    # Sentences on why the match, or only its exposure time, is not sure
     note: str = ""
     match: Match | None = field(default=None, compare=False, repr=False)  # None where there is none
-    # Seconds, as the camera noted it in the file; None where it did not
+    # Exposure time in seconds from the file's metadata
     noted_exposure: float | None = None
-    # Lines that the shutter reads out in a picture: the photo's columns; 0 of an unreadable one
+    # Lines read out for a picture, the photo's columns; 0 for an unreadable file
     lines: int = 0
-    # Width and height of the upright picture in pixels; (0, 0) of an unreadable one
+    # Width and height of the upright picture in pixels; (0, 0) for an unreadable file
     size: tuple[int, int] = (0, 0)
-    # ``"lines"`` or ``"columns"`` of the upright picture; empty of an unreadable one
+    # ``"lines"`` or ``"columns"`` of the upright picture; empty for an unreadable file
     scanned_along: str = ""
-    camera: str | None = None  # The camera's maker and model, None where it is not known
-    # The value of the known parameter that was given for this photo alone, in SI units; None where
-    # the scene's was taken
+    camera: str | None = None  # Maker and model
+    # Value of the known parameter given for this photo, in SI units; None for the scene's
     given: float | None = None
 
     @property
@@ -77,20 +76,20 @@ class PhotoRow:
 
 @dataclass(frozen=True, slots=True)
 class CombinedEstimate:
-    """One value from several estimates of it."""
+    """Weighted mean of several estimates."""
 
-    value: float  # The mean, weighted by the inverse variances
-    # Its standard deviation: that of a mean of independent estimates, times ``scale``
+    value: float  # Weighted by the inverse variances
+    # Standard deviation of a mean of independent estimates, times ``scale``
     uncertainty: float
     count: int
-    # Sum of squares of the differences from the mean, each in its standard deviations
+    # Sum of the squared differences from the mean, in standard deviations
     chi_square: float
-    # Of a chi-square that is as large or larger, where the standard deviations are right
+    # Of a chi-square at least as large, if the standard deviations are right
     probability: float
-    # At least 1, as weighted_mean says: above 1 where the estimates scatter by more than their
-    # standard deviations, or by less, so that they may share an error
+    # At least 1, see `weighted_mean`: above 1 where the estimates scatter by more than their
+    # standard deviations, or by so little that they may have an error in common
     scale: float
-    # Places of the estimates that were left out, as too far from the others
+    # Indices of the estimates excluded as too far from the others
     outliers: tuple[int, ...] = ()
 
     @property
@@ -101,10 +100,10 @@ class CombinedEstimate:
     @property
     def agrees(self) -> bool:
         """Whether the estimates agree within their standard deviations, at a level of 1 %."""
-        return self.probability >= _LEAST_PROBABILITY
+        return self.probability >= _MIN_PROBABILITY
 
 
-_LEAST_PROBABILITY = 0.01
+_MIN_PROBABILITY = 0.01
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,16 +112,13 @@ class PhotoTable:
 
     Parameters
     ----------
-    scene
-        The scene that the photos were matched with.
     estimate
         The parameter that was measured: ``"readout_time"`` or ``"switching_frequency"``.
     rows
-        One for each photo, in the order in which they were given.
+        One for each photo, in the given order.
     estimated, exposure_time
-        The estimate from all sure photos, and the exposure time from those of them in which it is
-        sure, too; None where there are none, or for an exposure time that the photos do not share.
-        ``outliers`` are places in ``rows``.
+        Means over the sure photos, and over those with a sure exposure time; None without any, or
+        where the photos differ in exposure time. ``outliers`` are indices of ``rows``.
     notes
         Sentences about the photos together.
     """
@@ -144,15 +140,15 @@ class PhotoTable:
         return sum(row.verdict == verdict for row in self.rows)
 
     def is_outlier(self, place: int) -> bool:
-        """Whether the photo at a place was left out of the mean as too far from the others."""
+        """Whether a photo was excluded from the mean as too far from the others."""
         return self.estimated is not None and place in self.estimated.outliers
 
     @property
     def rests_on_the_scene(self) -> bool:
-        """Whether the known value of the scene was taken for any of the photos."""
+        """Whether the scene's known value was used for any photo."""
         return any(row.given is None for row in self.rows)
 
     def is_counted(self, place: int) -> bool:
-        """Whether the photo at a place is in the mean."""
+        """Whether a photo contributes to the mean."""
         sure = self.rows[place].verdict == SURE
         return self.estimated is not None and sure and not self.is_outlier(place)

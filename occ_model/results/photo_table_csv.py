@@ -27,8 +27,7 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
     Parameters
     ----------
     condition
-        The value that the estimates rest on where it is only assumed, as ``"if f = 10 kHz: "``;
-        empty where it is known.
+        The assumed value that the estimates rest on, as ``"if f = 10 kHz: "``; empty if known.
     """
     counts = ", ".join(
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)
@@ -101,11 +100,11 @@ def _error(deviation: float | None) -> str | None:
 
 
 _FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
-"""Letters that begin a formula in a spreadsheet, also those of full width."""
+"""Characters that begin a formula in a spreadsheet, including full-width ones."""
 
 
 def _text(text: str) -> str:
-    """Write a text of a file, such as its camera's name, which no spreadsheet calculates."""
+    """Return a text from a file, quoted so that no spreadsheet evaluates it."""
     text = one_line(text, _MAX_TEXT_LENGTH)
     return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
 

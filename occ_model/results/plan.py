@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 from occ_model.scene.simulation_settings import Observable
 
 Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]
-"""A stage of the light's way from the panel to the file."""
+"""A stage of the light path from the panel to the file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,30 +15,23 @@ class Decision:
 
     Parameters
     ----------
-    effect
-        Its name.
     label
-        The field's term for it.
+        The effect's term in the field.
     kind
-        ``"column"``: it leaves all rows of the panel alike; ``"noise"``: alike but for independent
-        noise; ``"image"``: not alike.
-    stage
-        Where on the light's way it happens.
+        ``"column"``: all rows of the panel remain alike; ``"noise"``: alike except for independent
+        noise; ``"image"``: they differ.
     estimate
-        About how much leaving it out changes the observable, root mean square in levels of the
-        stretched profile: close, and with an allowance above. 0 where the scene does not have the
-        effect; of the observable ``"decision"`` in margins, 1 being where a chip could be read
-        otherwise.
+        Estimated change of the observable without the effect, RMS in levels of the stretched
+        profile, with an allowance; 0 where the scene does not have it. For the observable
+        ``"decision"`` in decision margins: at 1 a chip could be misread.
     limit
-        The most that it changes, as far as a sample can show: what is compared with the tolerance.
-    included
-        Whether it is simulated.
+        Upper bound of the change, as far as a sample shows: it is compared with the tolerance.
     forced
-        Whether the user decided so.
+        Whether the user decided.
     why
-        Why, in a few words.
+        The reason in a few words.
     reason
-        Why, as a sentence with the estimate and the decision.
+        The reason as a sentence with the estimate and the decision.
     """
 
     effect: str
@@ -55,10 +48,10 @@ class Decision:
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A set of effects, what it takes and how far it is from all."""
+    """A set of simulated effects, with its time and error."""
 
-    effects: frozenset[str]  # Those that are simulated, of those that the scene has
-    seconds: float  # What a picture takes, as measured on one computer
+    effects: frozenset[str]  # Those simulated, of those that the scene has
+    seconds: float  # Of a picture, as measured on one computer
     error: float  # What the others change together, as in Plan
 
 
@@ -69,21 +62,17 @@ class Plan:
     Parameters
     ----------
     tolerance
-        Most change of the observable that is allowed by all effects left out, in levels of the
-        stretched profile.
-    observable
-        The observable.
+        Allowed change of the observable by all omitted effects, in levels of the stretched profile.
     decisions
-        One for each effect, in the order that light travels.
+        One for each effect, in the order of the light path.
     left_out
-        What the effects that the plan, not the user, leaves out change together: at most the
-        tolerance.
+        Combined change of the effects omitted by the plan, not by the user: at most the tolerance.
     stretch
         Levels of the stretched profile per grey level.
     saved
-        Seconds that a picture takes less without what is left out, as measured on one computer.
+        Seconds saved for each picture by omitting effects, as measured on one computer.
     ways
-        The sets of effects that no other is both faster and closer than, the fastest first.
+        Pareto-optimal sets of effects in time and error, fastest first.
     """
 
     tolerance: float

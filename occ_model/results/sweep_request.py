@@ -94,9 +94,9 @@ class SweepRequest:
         camera = self.scene.camera
         columns = values.get("columns", camera.columns)
         readout_time = float(columns) * float(values.get("readout_time", camera.readout_time))
-        share = point.whole[decoder] / images
+        fraction = point.whole[decoder] / images
         bits = point.sent // images
-        return bits_a_second(share, bits, self.settings.frames_a_second, readout_time)
+        return bits_a_second(fraction, bits, self.settings.frames_a_second, readout_time)
 
     def in_order_of_work(self) -> Iterator[int]:
         """Yield the indices of the points in the order in which they take the least time."""

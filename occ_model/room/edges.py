@@ -26,24 +26,24 @@ _INSIDE = 10
 """Further pixels that tell the light of the lamp, and that of its surroundings."""
 
 _BRIGHT = 0.5
-"""Share of the lamp's brightest light from which an edge is measured."""
+"""Fraction of the lamp's brightest light from which an edge is measured."""
 
 _ENDS = 0.06
-"""Share of an edge's length, and pixels, that are left out at its ends."""
+"""Fraction of an edge's length, and pixels, that are left out at its ends."""
 
-_LEAST_POINTS = 16
+_MIN_POINTS = 16
 """Points from which a line is fitted."""
 
-_LEAST_ROWS = 16
+_MIN_ROWS = 16
 """Rows from which the lamp's light in a column is told."""
 
-_LEAST_TOLD = 4
+_MIN_TOLD = 4
 """Bright pixels inside a lamp from which the level of its light is told."""
 
-_MOST_DEVIATIONS = 3.5
+_MAX_DEVIATIONS = 3.5
 """Deviations beyond which a point is left out of a line."""
 
-_LEAST_VARIANCE = 1e-8
+_MIN_VARIANCE = 1e-8
 """Of a line's point, in square pixels: points can be as straight as a ruler."""
 
 _PHASES = 16
@@ -114,7 +114,7 @@ class EdgeFinder:
             along = np.abs(end - start)
             axis = int(along[0] < along[1])
             points = self._across(axis, start, end, corners, own)
-            if len(points.places) >= _LEAST_POINTS:  # the outline was rough: about the edge itself
+            if len(points.places) >= _MIN_POINTS:  # the outline was rough: about the edge itself
                 course = np.polyfit(points.places[:, axis], points.places[:, 1 - axis], 1)
                 start, end = start.copy(), end.copy()
                 for point in (start, end):
@@ -160,12 +160,12 @@ class EdgeFinder:
     def _inner_light(self, corners: FloatArray) -> tuple[IndexArray, FloatArray, float]:
         """Return the columns well within some corners, the light there above the dark, its fall.
 
-        The light is that at the corners' middle row. From row to row it grows by a share of it that
+        The light is that at the corners' middle row. From row to row it grows by a fraction of it that
         is the same in all columns: the fall.
         """
         first, last = column_spans(corners, *self._image.shape)
         first, last = first + _REACH, last - _REACH
-        shown = np.flatnonzero(last - first >= _LEAST_ROWS)
+        shown = np.flatnonzero(last - first >= _MIN_ROWS)
         if not len(shown):
             return shown, np.empty(0), 0.0
         shown = np.arange(shown[0], shown[-1] + 1)
@@ -190,13 +190,13 @@ class EdgeFinder:
         middle = np.rint(line).astype(np.int64)
         kept = (middle > _REACH + _INSIDE) & (middle < rows - _REACH - _INSIDE - 1)
         places, middle = places[kept], middle[kept]
-        if len(places) < _LEAST_POINTS:
+        if len(places) < _MIN_POINTS:
             return _NONE
         near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
         light = self._light[self._image[middle[:, None] + near, places[:, None]]]
         inside = light[:, -_INSIDE:].mean(axis=1) - float(light[:, :_INSIDE].mean())
         lit = inside > _BRIGHT * np.percentile(inside, 95)
-        if lit.sum() < _LEAST_POINTS:
+        if lit.sum() < _MIN_POINTS:
             return _NONE
         count, shared, _ = _counts(light[lit], inside[lit, None], 0.0)
         found = middle[lit] + inwards * (_REACH + 0.5 - count)
@@ -213,7 +213,7 @@ class EdgeFinder:
         middle = np.rint(line).astype(np.int64)
         kept = (middle > _REACH + _INSIDE) & (middle < columns - _REACH - _INSIDE - 1)
         places, middle = places[kept], middle[kept]
-        if len(places) < _LEAST_POINTS:
+        if len(places) < _MIN_POINTS:
             return _NONE
         near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
         across = middle[:, None] + near
@@ -248,7 +248,7 @@ def _counts(
     is_told = inner > max(bright, 0.0)
     places = np.arange(_REACH + 1, _REACH + _INSIDE + 1, dtype=np.float64)[is_told]
     none = np.zeros(len(light), dtype=np.bool_)
-    if len(places) < _LEAST_TOLD:
+    if len(places) < _MIN_TOLD:
         return np.zeros(len(light)), 0.0, none
     level = ((light[:, -_INSIDE:] - outside).mean(axis=0) / np.maximum(inner, 1e-12))[is_told]
     # The light falls towards the rim: the level is taken where the lit pixels are.
@@ -331,7 +331,7 @@ class _Line:
         ends = self.x.mean() + np.array([-1.0, 1.0]) * self.x.std()
         at = self.y.mean() + np.array([-1.0, 1.0]) * self.slope
         slope = self.slope / float(self.x.std())
-        noise = 2.0 * alike * self.variance / len(self.x) + _LEAST_VARIANCE
+        noise = 2.0 * alike * self.variance / len(self.x) + _MIN_VARIANCE
         covariance = (noise * np.eye(2) + self.known) / (1.0 + slope**2)
         points, normal = np.stack([ends, at], axis=1), np.array([-slope, 1.0])
         normal /= np.hypot(1.0, slope)
@@ -351,7 +351,7 @@ def _alike(lines: Sequence[_Line]) -> float:
 
 def _fitted(side: int, found: _Points, scene: Scene) -> _Line | None:
     """Fit a line through points; None where too few are left near it."""
-    if len(found.places) < _LEAST_POINTS:
+    if len(found.places) < _MIN_POINTS:
         return None
     points = undistorted(found.places, scene)
     level = bool(np.ptp(points[:, 0]) >= np.ptp(points[:, 1]))
@@ -363,8 +363,8 @@ def _fitted(side: int, found: _Points, scene: Scene) -> _Line | None:
         if off.std() < 1e-9:
             break
         spread = 1.48 * float(np.median(np.abs(off))) + 1e-6
-        kept = np.abs(off) < _MOST_DEVIATIONS * spread + 0.5
-        if kept.sum() < _LEAST_POINTS:
+        kept = np.abs(off) < _MAX_DEVIATIONS * spread + 0.5
+        if kept.sum() < _MIN_POINTS:
             return None
         x, y, grid = x[kept], y[kept], grid[kept]
     line = _Line(side, level, x, y, np.zeros((2, 2)))

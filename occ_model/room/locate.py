@@ -20,12 +20,12 @@ from occ_model.room.view import angles_of, room_outline, rotation
 _AS_GOOD = 9.0
 """Sum of squared deviations within which another place explains the picture as well."""
 
-_LEAST_EDGES = 4
+_MIN_EDGES = 4
 """Edges of lamps below which there is no place.
 
 Each gives two numbers; what three give, many places explain exactly."""
 
-_MOST_MEAN_SQUARE = 4.0
+_MAX_MEAN_SQUARE = 4.0
 """Mean squared deviation, in standard errors, above which a place does not explain the edges."""
 
 _LEFT_OUT = 3
@@ -78,7 +78,7 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     room
         The room; its camera's place is not used.
     focal_share
-        Standard error of the room's focal length, as a share of it: the place's errors include it.
+        Standard error of the room's focal length, as a fraction of it: the place's errors include it.
 
     Returns
     -------
@@ -135,10 +135,10 @@ def _located(
     if not whole:
         return [], ("Every named lamp is cut by the picture's edge; one has to be whole.",)
     edges = sum(len(one.edges) for one in measured)
-    if edges < _LEAST_EDGES:
+    if edges < _MIN_EDGES:
         return [], (
             f"Only {edges} edges of named lamps are bright enough to be measured; "
-            f"allowed: from {_LEAST_EDGES}.",
+            f"allowed: from {_MIN_EDGES}.",
         )
     table = LampEdges.of([(one.lamp, one.edges) for one in measured], room, focal_share)
     tried = _explanations(table, [*more, *_starts_of(whole, room)])
@@ -167,11 +167,11 @@ def _explanations(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Locate
     """Return the places that explain the edges, or all but a few of them."""
     for _ in range(_LEFT_OUT + 1):
         tried = [fitted for start in starts if (fitted := edges.fitted(start)) is not None]
-        fits = [one for one, _ in tried if one.deviations <= _MOST_MEAN_SQUARE * (one.freedom + 4)]
+        fits = [one for one, _ in tried if one.deviations <= _MAX_MEAN_SQUARE * (one.freedom + 4)]
         if fits or not tried:
             return fits
         _, off = min(tried, key=lambda each: each[0].deviations)
-        if len(off) < _LEAST_EDGES + 2:
+        if len(off) < _MIN_EDGES + 2:
             return []
         edges = edges.without(int(np.argmax(off)))
     return []

@@ -16,7 +16,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
 _SAME_SHAPE = 0.01
-"""Share by which the sides of two pictures may differ for one to be the other, scaled."""
+"""Fraction by which the sides of two pictures may differ for one to be the other, scaled."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,13 +54,13 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
     check_room(room)
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)
     scene, assumed = _camera_of(photo, upright, room.scene)
-    scene, share, said = _with_focal_length(photo, scene, focal_length)
+    scene, fraction, said = _with_focal_length(photo, scene, focal_length)
     seen = room.replace(scene=scene)
     check_size(scene.camera)
-    reading, image, turned = read_room(upright, seen, share), upright, 90 if photo.turned else 0
+    reading, image, turned = read_room(upright, seen, fraction), upright, 90 if photo.turned else 0
     if not any(lamp.name for lamp in reading.lamps):
         around = np.ascontiguousarray(upright[::-1, ::-1])
-        other = read_room(around, seen, share)
+        other = read_room(around, seen, fraction)
         if any(lamp.name for lamp in other.lamps):
             reading, image, turned = other, around, turned + 180
     if turned:
@@ -89,17 +89,17 @@ def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, lis
 
 
 def _with_focal_length(photo: Photo, scene: Scene, given: float | None) -> tuple[Scene, float, str]:
-    """Return the scene with a focal length, its error's share of it, and where it is from."""
-    noted, share = photo.equivalent_focal_length, 0.0
+    """Return the scene with a focal length, its error's fraction of it, and where it is from."""
+    noted, fraction = photo.equivalent_focal_length, 0.0
     if given is not None:
         PARAMETERS["equivalent_focal_length"].check(given)
         value, source = given, "as given"
     elif noted is not None:
         error = photo.focal_length_step / math.sqrt(12.0)  # of what is rounded to it
-        value, share = noted, error / noted
+        value, fraction = noted, error / noted
         source = f"± {1e3 * error:.2g} mm, as the EXIF data say, of a picture that is not cropped"
     else:
         value = scene.camera.equivalent_focal_length
         source = "as the room says: the photo has no EXIF data of it"
     scene = scene.replace(equivalent_focal_length=value)
-    return scene, share, f"Focal length: {1e3 * value:.4g} mm equivalent, {source}."
+    return scene, fraction, f"Focal length: {1e3 * value:.4g} mm equivalent, {source}."

@@ -17,7 +17,7 @@ from occ_model.scene.scene import Camera
 _ROUNDS = 12
 """Rounds of the refinement; it ends sooner where a step is negligible."""
 
-_LEAST_DEPTH = 1e-6
+_MIN_DEPTH = 1e-6
 """Metres before the camera from which a corner is seen."""
 
 _STEP = 1e-6
@@ -72,7 +72,7 @@ class LampEdges:
     # errors
     whitening: FloatArray
     camera: Camera
-    focal_share: float  # Standard error of the focal length, as a share of it
+    focal_share: float  # Standard error of the focal length, as a fraction of it
 
     @classmethod
     def of(
@@ -153,7 +153,7 @@ class LampEdges:
         placed = self.outlines[None] - numbers[:, None, None, :3]
         placed = np.einsum("plci,pij->plcj", placed, rotations(*numbers[:, 3:6].T))
         depth = placed[..., 2:]
-        if not depth.min() > _LEAST_DEPTH:
+        if not depth.min() > _MIN_DEPTH:
             return None
         rays = placed[..., :2] / depth
         if numbers.shape[1] > 6:

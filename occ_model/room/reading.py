@@ -24,12 +24,12 @@ _ABOVE_NOISE = 6.0
 """Standard deviations of the noise above the surroundings from which a pixel is a lamp's."""
 
 _SHARE = 0.1
-"""Share of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
+"""Fraction of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
 
 _SAMPLED = 4
 """Every so manieth of those tells how bright the surroundings and the lamps are."""
 
-_LEAST_SIDE = 12
+_MIN_SIDE = 12
 """Rows and columns of the smallest lamp that is looked at."""
 
 _SEEN = 0.5
@@ -101,7 +101,7 @@ def _unnamed(lamp: ReadLamp, why: str) -> ReadLamp:
 
 
 def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
-    """Give the region and the convex outline of each group of lit pixels."""
+    """Return the region and the convex outline of each group of lit pixels."""
     scale = min(_ROWS, len(image))
     rows = len(image) // scale
     sums = image[: rows * scale].reshape(rows, scale, -1).sum(axis=1, dtype=np.uint16)
@@ -116,7 +116,7 @@ def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
     count, labels, stats, _ = cv2.connectedComponentsWithStats(joined, connectivity=8)
     for label in range(1, count):
         x, y, width, height, _ = stats[label].tolist()
-        if width < _LEAST_SIDE or height * scale < _LEAST_SIDE:
+        if width < _MIN_SIDE or height * scale < _MIN_SIDE:
             continue
         part = np.s_[y : y + height, x : x + width]
         own = (labels[part] == label) & (spots[part] > 0)

@@ -18,11 +18,11 @@ from occ_model.scene.scene import Pose, Scene
 _DISC_CORNERS = 96
 """Corners of the polygon of a disc: it lies within 0.06 % of the radius of the circle."""
 
-_LEAST_DEPTH = 1e-3
+_MIN_DEPTH = 1e-3
 """Depth in metres before which nothing is seen."""
 
 _DISTORTED = 0.15
-"""Share of the picture's size by which a lens may move what it shows."""
+"""Fraction of the picture's size by which a lens may move what it shows."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -146,10 +146,10 @@ def _clipped(points: FloatArray) -> FloatArray:
     """Return the part of a polygon in space that is before the camera."""
     kept: list[FloatArray] = []
     for start, end in zip(points, np.roll(points, -1, axis=0), strict=True):
-        if start[2] >= _LEAST_DEPTH:
+        if start[2] >= _MIN_DEPTH:
             kept.append(start)
-        if (start[2] >= _LEAST_DEPTH) != (end[2] >= _LEAST_DEPTH):
-            along = (_LEAST_DEPTH - start[2]) / (end[2] - start[2])
+        if (start[2] >= _MIN_DEPTH) != (end[2] >= _MIN_DEPTH):
+            along = (_MIN_DEPTH - start[2]) / (end[2] - start[2])
             kept.append(start + along * (end - start))
     return np.array(kept).reshape(-1, 3)
 
@@ -170,7 +170,7 @@ def seen_outline(room: Room, height: float) -> FloatArray:
     rays = image_rays(corners, camera)
     turned = np.column_stack([rays, np.ones(4)]) @ rotation(place).T
     above = height - place.z
-    if above <= 0.0 or turned[:, 2].min() <= _LEAST_DEPTH:
+    if above <= 0.0 or turned[:, 2].min() <= _MIN_DEPTH:
         return np.empty((0, 2))
     return np.asarray([place.x, place.y] + turned[:, :2] / turned[:, 2:] * above)
 
@@ -178,7 +178,7 @@ def seen_outline(room: Room, height: float) -> FloatArray:
 def aim_of(place: Place, height: float) -> tuple[float, float]:
     """Return where on a level plane above it the middle of a camera's picture is."""
     x, y, z = rotation(place)[:, 2].tolist()
-    along = (height - place.z) / max(z, _LEAST_DEPTH)
+    along = (height - place.z) / max(z, _MIN_DEPTH)
     return place.x + along * x, place.y + along * y
 
 

@@ -235,9 +235,9 @@ class Recording:
             point = self.path[max(after - 1, 0)]
             return {name: getattr(point, name) for name in MOTIONS}
         first, second = self.path[after - 1], self.path[after]
-        share = (time - first.time) / (second.time - first.time)
+        fraction = (time - first.time) / (second.time - first.time)
         return {
-            name: (1.0 - share) * getattr(first, name) + share * getattr(second, name)
+            name: (1.0 - fraction) * getattr(first, name) + fraction * getattr(second, name)
             for name in MOTIONS
         }
 

@@ -26,7 +26,7 @@ _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 """Numbers whose comma may also separate thousands: one to three digits before it, three after."""
 
-_MOST_DECIMALS = 6
+_MAX_DECIMALS = 6
 """Decimals of an estimate above which its error is written in a unit of its own."""
 
 _ROUNDING_ERROR = 1e-12
@@ -133,7 +133,7 @@ class Unit:
             return self.format(value)
         symbol, factor = self.display(max(abs(value), deviation))
         decimals = _decimals(deviation / factor)
-        if decimals > _MOST_DECIMALS:
+        if decimals > _MAX_DECIMALS:
             whole = math.floor(math.log10(abs(value / factor))) + 1 if value else 0
             number = f"{value / factor:.{max(whole + decimals, 1)}g} {symbol}".rstrip()
             return f"{number} ± {self.format_deviation(deviation)}"
@@ -145,7 +145,7 @@ class Unit:
         symbol, factor = self.display(deviation)
         number = deviation / factor
         decimals = _decimals(number)
-        text = _rounded(number, decimals) if decimals <= _MOST_DECIMALS else f"{number:.1e}"
+        text = _rounded(number, decimals) if decimals <= _MAX_DECIMALS else f"{number:.1e}"
         return f"{text} {symbol}".rstrip()
 
     def rounded_estimate(self, value: float, deviation: float | None) -> float:

@@ -1,9 +1,8 @@
-"""Measure the time and the error of each way to simulate a scene.
+"""Measure the time and the error of each simulation method for a scene.
 
-Five comparisons: samples of the exposure with its closed form; the effects, switched on one after
-the other, with all of them; the profile path with the image path; drafts with the picture of all
-rows; and reused noise with noise drawn for each pixel. All errors are root mean squares in levels
-of the stretched profile.
+Five comparisons: samples of the exposure with its closed form; effects added one by one with all
+of them; the profile path with the image path; drafts with the whole picture; reused noise with
+noise drawn for each pixel. All errors are RMS in levels of the stretched profile.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -34,16 +33,16 @@ from occ_model.study.observation import panel_span
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
 SAMPLES = tuple(2**power for power in range(13))
-"""1 to 4096 samples an exposure."""
+"""Samples of an exposure."""
 
 DRAFT_STEPS = (4, 16, 64)
-"""A draft has every fourth row, every 16th or every 64th."""
+"""Row steps of the drafts."""
 
-_LEAST_ROWS = 4
-"""Least rows of the panel in a draft."""
+_MIN_DRAFT_ROWS = 4
+"""Minimum number of the panel's rows in a draft."""
 
 _EXACT_COLUMNS = 97
-"""Columns whose exposure is computed in rational arithmetic as the reference."""
+"""Number of columns whose reference exposure is computed in rational arithmetic."""
 
 Result = TypeVar("Result")
 
@@ -56,7 +55,7 @@ def accuracy(
     settings: SimulationSettings | None = None,
     complete: CompleteSimulation | None = None,
 ) -> Iterator[AccuracyPoint]:
-    """Measure the time and the error of each way to simulate a scene, point by point.
+    """Measure the time and the error of each simulation method, point by point.
 
     Parameters
     ----------
@@ -65,8 +64,7 @@ def accuracy(
     settings
         The current settings, by default ``SimulationSettings()``.
     complete
-        The complete simulation of the scene, for the observable and the seed of the settings, where
-        it is there already.
+        The complete simulation with the observable and seed of the settings, if already available.
 
     Raises
     ------
@@ -107,7 +105,7 @@ def _points(
 
 
 def _integration(scene: Scene, stretch: float) -> Iterator[AccuracyPoint]:
-    """Compare the exposure by samples and in closed form with rational arithmetic."""
+    """Compare sampled and closed-form exposures with rational arithmetic."""
     columns = scene.camera.columns
     some = np.unique(np.linspace(0, columns - 1, _EXACT_COLUMNS).astype(np.int64))
     truth = _profile(scene, exact_lit_fraction(scene, some))
@@ -130,9 +128,9 @@ def _profile(scene: Scene, lit: FloatArray) -> FloatArray:
 def _ladder(
     scene: Scene, settings: SimulationSettings, chosen: Plan, complete: CompleteSimulation
 ) -> Iterator[AccuracyPoint]:
-    """Switch the effects on one after the other, the largest bound first."""
-    by_bound = sorted(chosen.decisions, key=lambda decision: -decision.estimate)
-    steps = [decision.effect for decision in by_bound if decision.effect in complete.effects]
+    """Add the effects one by one, the largest estimate first."""
+    by_estimate = sorted(chosen.decisions, key=lambda decision: -decision.estimate)
+    steps = [decision.effect for decision in by_estimate if decision.effect in complete.effects]
     for count in range(len(steps) + 1):
         name = f"+ {_label(chosen, steps[count - 1])}" if count else "paper's model"
         yield _rung(scene, name, steps[:count], settings, complete)
@@ -167,7 +165,7 @@ def _observed(scene: Scene, chosen: Plan, settings: SimulationSettings) -> Pixel
 
 
 def _paths(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterator[AccuracyPoint]:
-    """Compare the profile path and the image path with the profile that shows all effects."""
+    """Compare the profile path and the image path with the profile of all effects."""
     region = paper_view_of(scene).region
     seen = slice(region.first_column, region.last_column)
     truth = _observed(scene, plan(scene, 0.0, "profile"), settings)
@@ -201,15 +199,15 @@ def _drafts(scene: Scene, settings: SimulationSettings, chosen: Plan) -> Iterato
 
 
 def draft_steps(scene: Scene) -> tuple[int, ...]:
-    """Return the steps of the drafts that are compared: those with several rows of the panel."""
+    """Return the row steps that leave enough of the panel's rows."""
     rows = paper_view_of(scene).region.rows
-    return tuple(step for step in DRAFT_STEPS if step * _LEAST_ROWS <= rows)
+    return tuple(step for step in DRAFT_STEPS if step * _MIN_DRAFT_ROWS <= rows)
 
 
 def _noise_sources(
     scene: Scene, settings: SimulationSettings, stretch: float
 ) -> Iterator[AccuracyPoint]:
-    """Compare the standard deviation of each source's noise with the sensor's."""
+    """Compare the standard deviation of each noise source with that of the sensor."""
     complete = plan(scene, 0.0, "image")
     noises = planned(complete, NoiseEffect)
     if not noises:
@@ -228,7 +226,7 @@ def _noise_sources(
 
 
 def timed(work: Callable[[], Result]) -> tuple[float, Result]:
-    """Return the least time of a few runs, fewer of slow work, and the work's result."""
+    """Return the shortest time of a few runs, and the result; slow work runs less often."""
     best, spent = np.inf, 0.0
     for _ in range(_REPEATS):
         forget_exposures()  # as of a new scene

@@ -1,4 +1,4 @@
-"""Gather the facts for advice on a scene: the limits found by trial beside those of theory."""
+"""Combine the limits found by trial with those of theory."""
 
 from occ_model.results.advice import Advice, EndFacts, RangeFacts, Side, TheoryLimits
 from occ_model.results.limits import Limits, RangeEnd, WorkingRange
@@ -8,7 +8,7 @@ from occ_model.study.cause import TWO_HEADERS
 
 
 def advice_of(limits: Limits) -> Advice:
-    """Put the limits found by trial beside those that theory gives."""
+    """Return the limits found by trial together with those of theory."""
     scene = limits.scene
     return Advice(
         limits,

@@ -1,4 +1,4 @@
-"""Measure the bit error rate: random payloads, each sent in a picture of its own."""
+"""Measure the bit error rate of random payloads, each in its own picture."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -19,7 +19,7 @@ from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.packet import code_of
 
 MOST_BITS = 100_000_000
-"""Bits of a measurement."""
+"""Maximum number of bits of a measurement."""
 
 
 def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -33,12 +33,11 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     path: SignalPath = "auto",
     heartbeat: Heartbeat = lambda: None,
 ) -> BitErrors:
-    """Measure the share of bits that a decoder reads wrongly.
+    """Measure the fraction of bits that a decoder reads wrongly.
 
-    Random payloads of the scene's length are sent, each in a picture of its own with a random start
-    time and noise. A payload that is not read counts with all bits wrong, as in
-    :func:`occ_model.success_rate`, of which this is the complement; so does one that the decoder
-    does not accept.
+    Random payloads of the scene's length are sent, each in its own picture with a random start
+    time and noise. All bits of an unread or rejected payload count as wrong, as in
+    :func:`occ_model.success_rate`, of which this is the complement.
 
     Parameters
     ----------
@@ -47,7 +46,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     decoder
         The decoder's name.
     bits
-        Bits to send at the least; whole payloads are sent.
+        Minimum number of bits; whole payloads are sent.
     seed
         Seed of the payloads, the start times and the noise.
     tolerance, force, path
@@ -91,13 +90,7 @@ def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:
 
 
 def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) -> BitErrors:
-    """Make the result of the wrong bits of each picture.
-
-    Parameters
-    ----------
-    right
-        Pictures of which all bits are right, and accepted.
-    """
+    """Return the result for the wrong bits of each picture and ``right`` accepted pictures."""
     length, camera = scene.transmitter.payload_length, scene.camera
     low, high = error_interval(wrong, length)
     right_low, right_high = wilson_interval(right, len(wrong))
@@ -119,10 +112,10 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) 
 def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
     """Return the 95 % interval of a bit error rate whose bits fail together in pictures.
 
-    Wilson's interval of as many independent bits as would scatter as much: bits / D, with the
+    Wilson's interval for the effective number of independent bits: bits / D, with the
     design effect D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates
-    (L. Kish, Survey Sampling, 1965). Where all or no bits are wrong nothing is seen of that, and
-    each picture counts as one bit.
+    (L. Kish, Survey Sampling, 1965). Where all or no bits are wrong, D is unknown and each picture
+    counts as one bit.
     """
     pictures, errors = len(wrong), sum(wrong)
     rate = errors / (pictures * length)
@@ -142,7 +135,7 @@ def _interval(rate: float, bits: int) -> tuple[float, float]:
 
 
 def check_frame_rate(scene: Scene, frames_a_second: float) -> None:
-    """Refuse a frame rate that is none, or at which a picture is not read out in time."""
+    """Raise for an invalid frame rate, or one at which a picture is not read out in time."""
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     is_number = isinstance(frames_a_second, int | float) and not isinstance(frames_a_second, bool)
     if not is_number or not 0.0 < frames_a_second <= most:

@@ -24,7 +24,7 @@ TWO_HEADERS = ("threshold", "equalizer")
 """The decoders whose last step looks for two headers; others read a single packet."""
 
 _NEAR_NULL = 0.96
-"""Share of the null's frequency from which what is left of single chips drowns in the rounding."""
+"""Fraction of the null frequency from which single chips are lost in rounding."""
 
 _BRIGHT = 200.0
 """Grey level of the lit panel that a step towards more or less light aims at."""

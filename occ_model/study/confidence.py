@@ -8,7 +8,7 @@ from occ_model.errors import ParameterError, shown
 from occ_model.results.limits import Trial
 from occ_model.scene.argument_checks import check_count, is_number
 
-_MOST_TRIALS = 2**53
+_MAX_TRIALS = 2**53
 """Largest number up to which a float holds every whole number."""
 
 
@@ -31,7 +31,7 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
     trials
         Number of trials, n.
     level
-        Share of such intervals that hold the true rate, between 0 and 1.
+        Fraction of such intervals that hold the true rate, between 0 and 1.
 
     Returns
     -------
@@ -43,7 +43,7 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
     ParameterError
         There are no trials or more than 2^53, more successes than trials, or no such level.
     """
-    check_count("trials", trials, 1, _MOST_TRIALS)
+    check_count("trials", trials, 1, _MAX_TRIALS)
     check_count("successes", successes, 0, int(trials))
     # From the tail, which keeps its digits where the level is next to 1.
     z = -NormalDist().inv_cdf((1.0 - _checked(level)) / 2.0)
@@ -51,10 +51,10 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
 
 
 def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, float]:
-    """Return the 95 % interval of the share of right bits, in percent; not a number of no bits.
+    """Return the 95 % interval of the fraction of right bits, in percent; not a number of no bits.
 
     The bits of a picture are read together or not at all, so that the pictures are the trials: it
-    is Wilson's interval of as many successes as the pictures' share of right bits adds up to.
+    is Wilson's interval of as many successes as the pictures' fraction of right bits adds up to.
     Where pictures are read in part the rate scatters less, and the interval is wider than it need
     be.
     """
@@ -86,7 +86,7 @@ def _interval(won: float, lost: float, z: float) -> tuple[float, float]:
 
 
 def _checked(level: object) -> float:
-    share = float(level) if is_number(level) and 0 < level < 1 else 0.0
-    if not 0.0 < share < 1.0:
+    fraction = float(level) if is_number(level) and 0 < level < 1 else 0.0
+    if not 0.0 < fraction < 1.0:
         raise ParameterError.of("level", shown(level), "a number between 0 and 1")
-    return share
+    return fraction

@@ -16,7 +16,7 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.receiver.locate import grid_of, least_bright_share
 from occ_model.results.decoding import Region
 
-_MOST_PROBABILITY = 1.0 - 1e-12
+_MAX_PROBABILITY = 1.0 - 1e-12
 """Largest probability of a bright pixel of which a logarithm is taken."""
 
 
@@ -53,13 +53,13 @@ class BrightShares:
     def _marked_cells(
         self, grid: tuple[int, int], least: float, random: np.random.Generator
     ) -> BoolArray:
-        """Draw which cells have more than a share of bright pixels, shape (rows, columns)."""
+        """Draw which cells have more than a fraction of bright pixels, shape (rows, columns)."""
         on_panel = np.zeros(self.rows)
         on_panel[self.span.first_row : self.span.last_row] = 1.0
         kinds, kind = np.unique(_of_cells(on_panel, grid[0]), return_inverse=True)
         pixels = round(self.rows / grid[0] * len(self.around) / grid[1])
         crossed, around = self._crossed(), self.around
-        share, variance = (
+        fraction, variance = (
             kinds[:, None] * _of_cells(at_panel, grid[1])
             + (1.0 - kinds[:, None]) * _of_cells(beside, grid[1])
             for at_panel, beside in (
@@ -68,7 +68,9 @@ class BrightShares:
             )
         )
         enough = np.where(
-            variance > 0.0, _more_than(least, share, pixels), (share > least).astype(np.float64)
+            variance > 0.0,
+            _more_than(least, fraction, pixels),
+            (fraction > least).astype(np.float64),
         )
         return np.asarray(random.random(grid, dtype=np.float32) < enough[kind])
 
@@ -85,8 +87,8 @@ class BrightShares:
         top, bottom = _marked_ends(np.any(marked, axis=1), self.rows)
         left, right = _marked_ends(np.any(marked, axis=0), len(self.around))
         rows, seen = bottom.beyond - top.beyond, slice(left.beyond, right.beyond)
-        dark_crossed = np.log1p(-np.minimum(self._crossed()[seen], _MOST_PROBABILITY))
-        dark_around = np.log1p(-np.minimum(self.around[seen], _MOST_PROBABILITY))
+        dark_crossed = np.log1p(-np.minimum(self._crossed()[seen], _MAX_PROBABILITY))
+        dark_around = np.log1p(-np.minimum(self.around[seen], _MAX_PROBABILITY))
         first, last = np.clip((span.first_row, span.last_row), top.beyond, bottom.beyond).tolist()
         dark_column = (last - first) * dark_crossed + (rows - last + first) * dark_around
         dark_row = np.full(rows, dark_around.sum())
@@ -131,9 +133,9 @@ def _of_cells(values: FloatArray, cells: int) -> FloatArray:
     return np.asarray(np.clip(means, 0.0, 1.0))
 
 
-def _more_than(least: float, share: FloatArray, pixels: int) -> FloatArray:
-    """Return the probability that a cell has more than a share of bright pixels."""
-    too_few = np.zeros_like(share)
+def _more_than(least: float, fraction: FloatArray, pixels: int) -> FloatArray:
+    """Return the probability that a cell has more than a fraction of bright pixels."""
+    too_few = np.zeros_like(fraction)
     for count in range(math.floor(least * pixels) + 1):
-        too_few += math.comb(pixels, count) * share**count * (1.0 - share) ** (pixels - count)
+        too_few += math.comb(pixels, count) * fraction**count * (1.0 - fraction) ** (pixels - count)
     return np.clip(1.0 - too_few, 0.0, 1.0)

@@ -29,7 +29,7 @@ _FLATTEST, _STEEPEST = 0.3, 1e5
 """Slopes of the odds' logarithm at the end, over the whole of the bracket."""
 
 _LARGEST = 0.999
-"""Share of lost pictures at the end, where each of them loses no more than the rate allows."""
+"""Fraction of lost pictures at the end, where each of them loses no more than the rate allows."""
 
 
 def interval_of_end(
@@ -40,7 +40,7 @@ def interval_of_end(
     Parameters
     ----------
     lost
-        The share of bits lost in each picture, by the value at which it was taken.
+        The fraction of bits lost in each picture, by the value at which it was taken.
     rate
         The success rate in percent that is reached inside of the end.
     inside, outside
@@ -66,7 +66,7 @@ def interval_of_end(
 
 
 def _likelihoods(
-    beyond: FloatArray, pictures: FloatArray, gone: FloatArray, share: float, span: float
+    beyond: FloatArray, pictures: FloatArray, gone: FloatArray, fraction: float, span: float
 ) -> FloatArray:
     """Return the logarithm of each end's greatest likelihood.
 
@@ -76,10 +76,10 @@ def _likelihoods(
         How far beyond an end values lie, as logarithms.
     pictures, gone : ndarray of float64, shape (values,)
         Pictures at each value, and how many of them are lost.
-    share
+    fraction
         Of the pictures that are lost at the end.
     """
-    at_end = math.log(share / (1.0 - share))
+    at_end = math.log(fraction / (1.0 - fraction))
     scaled = np.geomspace(_FLATTEST, _STEEPEST, _SLOPES)[:, None] / span * beyond[:, None]
     best = np.full(len(beyond), -np.inf)
     for power in _POWERS:

@@ -69,7 +69,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
         Called before each image, or some times a second while other processes search; what it
         raises ends the search.
     progress
-        Called with the share of the search that is done, from 0 to 1, and what is being searched.
+        Called with the completed fraction of the search, from 0 to 1, and its present object.
 
     Raises
     ------

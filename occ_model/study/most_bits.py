@@ -44,7 +44,7 @@ _STEP = 1.15
 """Ratio of neighbouring frequencies."""
 
 _FILLED = (0.95, 0.5, 0.25)
-"""Shares of the chips that a picture shows which one period of a payload takes."""
+"""Fractions of the chips that a picture shows which one period of a payload takes."""
 
 
 @dataclass(frozen=True, slots=True)

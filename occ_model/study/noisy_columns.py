@@ -82,9 +82,9 @@ class NoisyColumns:
             if crossed > 0 and last > first:
                 panel, deviation = self._on_panel(slice(first, last))
                 seen = slice(first - region.first_column, last - region.first_column)
-                share = crossed / region.rows
-                mean[seen] = share * panel + (1.0 - share) * mean[seen]
-                variance[seen] = share * deviation**2 + (1.0 - share) * variance[seen]
+                fraction = crossed / region.rows
+                mean[seen] = fraction * panel + (1.0 - fraction) * mean[seen]
+                variance[seen] = fraction * deviation**2 + (1.0 - fraction) * variance[seen]
         spread = np.sqrt(variance / region.rows)
         return np.asarray(mean + spread * random.standard_normal(len(mean)))
 

@@ -27,7 +27,8 @@ from occ_model.study.noisy_columns import NoisyColumns
 
 
 def panel_span(scene: Scene) -> Region | None:
-    """Give the rectangle that the panel fills in the image; None where its outline is no rectangle.
+    """Return the rectangle that the panel fills in the image; None where its outline is no
+    rectangle.
 
     The rectangle is empty where the panel is not in the image.
     """
@@ -47,7 +48,7 @@ def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
 
 
 _LENS_SHIFT_PART = 50
-"""The share of a picture's larger side by which a lens may move the panel: one in so many."""
+"""The fraction of a picture's larger side by which a lens may move the panel: one in so many."""
 
 
 _RARE = 0.01

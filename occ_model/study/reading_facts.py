@@ -130,18 +130,18 @@ def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
 
     The rate is written to the first digit that chance could change.
     """
-    share = count / total
-    deviation = _PERCENT * math.sqrt(share * (1.0 - share) / total)
+    fraction = count / total
+    deviation = _PERCENT * math.sqrt(fraction * (1.0 - fraction) / total)
     decimals = max(0, -math.floor(math.log10(deviation))) if deviation else 0
     low, high = wilson_interval(count, total)
     return (
-        f"{_PERCENT * share:.{decimals}f} % of {total} {what}",
+        f"{_PERCENT * fraction:.{decimals}f} % of {total} {what}",
         f"{_percent(low)} to {_percent(high)} % at 95 %",
     )
 
 
-def _percent(share: float) -> str:
-    """Write a share in percent, to two digits of its distance from the nearer of 0 and 100 %."""
-    nearest = _PERCENT * min(share, 1.0 - share)
+def _percent(fraction: float) -> str:
+    """Write a fraction in percent, to two digits of its distance from the nearer of 0 and 100 %."""
+    nearest = _PERCENT * min(fraction, 1.0 - fraction)
     decimals = max(0, 1 - math.floor(math.log10(nearest))) if nearest > 0.0 else 0
-    return f"{_PERCENT * share:.{decimals}f}"
+    return f"{_PERCENT * fraction:.{decimals}f}"

@@ -8,7 +8,7 @@ from occ_model.results.spectrum import Spectrum
 from occ_model.scene.scene import Scene, check_scene
 
 _FEWEST = 8
-_MOST_NULLS = 100
+_MAX_NULLS = 100
 
 
 def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
@@ -40,7 +40,7 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     frequencies = np.fft.rfftfreq(len(values), scene.camera.readout_time)
     exposure = scene.camera.exposure_time
     last = float(frequencies[-1])
-    count = min(int(last * exposure), _MOST_NULLS)
+    count = min(int(last * exposure), _MAX_NULLS)
     return Spectrum(
         frequencies=np.asarray(frequencies, dtype=np.float64),
         amplitudes=np.asarray(amplitudes, dtype=np.float64),

@@ -39,8 +39,7 @@ _CHANCE = 0.025
 """Chance to refute a rate that is reached: that of one side of a 95 % interval."""
 
 _STAKES = (0.03, 0.1, 0.3)
-"""What is staked on each image, as shares of the most that can be: small ones win by small lacks.
-"""
+"""Stakes of the betting test, as fractions of the maximum: small ones detect small deficits."""
 
 
 def images_to_be_sure(rate: float) -> int:
@@ -48,10 +47,10 @@ def images_to_be_sure(rate: float) -> int:
 
     The lower end of the interval of n images is n / (n + z^2).
     """
-    share = rate / 100.0
-    if share >= 1.0:
+    fraction = rate / 100.0
+    if fraction >= 1.0:
         return 0
-    least = math.floor(share * TWO_SIDED**2 / (1.0 - share)) + 1
+    least = math.floor(fraction * TWO_SIDED**2 / (1.0 - fraction)) + 1
     return least if least <= MOST_IMAGES else 0
 
 
@@ -129,7 +128,7 @@ class _Pictures:
         return self._at[value]
 
     def lost(self) -> dict[float, list[float]]:
-        """Return the shares of bits that were lost, by the value."""
+        """Return the fractions of bits that were lost, by the value."""
         return {
             value: [1.0 - right / self.bits for right in images.seen]
             for value, images in self._at.items()
@@ -181,7 +180,7 @@ def _between(first: float, last: float, part: float) -> float:
 
 
 def _until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
-    """Count right bits until they refute that a share of them is read; None if they do not.
+    """Count right bits until they refute that a fraction of them is read; None if they do not.
 
     Whoever stakes on each image that less is read, at odds that are fair if the share is reached,
     has c times the first stake at any time with a chance of at most 1 / c (J. Ville, *Etude

@@ -14,12 +14,12 @@ ICON = (16, 40)
 """Rows and columns of a crop in a line of a table."""
 
 _KEPT = 0.7
-"""Share of a difference that averaging must keep for the averaged panel to show it."""
+"""Fraction of a difference that averaging must keep for the averaged panel to show it."""
 
 _OUTLIERS = 1.0
 """Percent of the pixels at either end that the stretching to the full range may clip."""
 
-_MOST_AMPLIFIED = 256
+_MAX_AMPLIFIED = 256
 _MIDDLE_GREY = 128.0
 
 
@@ -80,6 +80,6 @@ def _amplification(difference: Pixels) -> int:
     """Return the largest power of two that leaves the difference within the range of grey."""
     largest = float(np.percentile(np.abs(difference), 100.0 - _OUTLIERS))
     factor = 1
-    while factor < _MOST_AMPLIFIED and 2 * factor * largest < _MIDDLE_GREY:
+    while factor < _MAX_AMPLIFIED and 2 * factor * largest < _MIDDLE_GREY:
         factor *= 2
     return factor

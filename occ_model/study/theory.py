@@ -49,7 +49,8 @@ def null_frequency(scene: Scene) -> float:
 
 
 def panel_readout_time(scene: Scene) -> float:
-    """Give the time in which the columns that show the panel are read out: t_r times their number.
+    """Return the time in which the columns that show the panel are read out: t_r times their
+    number.
 
     Returns
     -------

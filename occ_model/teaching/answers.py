@@ -13,7 +13,7 @@ from occ_model.teaching.result_text import result_text
 _NEAR_TOLERANCES = 3.0
 """An answer within this many tolerances is near."""
 
-_LEAST_NEAR = 0.02
+_MIN_NEAR = 0.02
 """Relative difference that is near however small the tolerance is."""
 
 _ROUNDING = 1e-9
@@ -71,7 +71,7 @@ def check_answer(
             text, "wrong", f"Not yet: that is not the {quantity.called}. Try again."
         )
     side = "high" if given > expected else "low"
-    if difference <= max(_NEAR_TOLERANCES * check.tolerance, _LEAST_NEAR):
+    if difference <= max(_NEAR_TOLERANCES * check.tolerance, _MIN_NEAR):
         return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look once more.")
     return CheckedAnswer(text, "wrong", f"Not yet: that is too {side}. Try again.")
 

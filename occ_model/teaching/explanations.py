@@ -4,7 +4,7 @@ from occ_model.results.lessons import Step
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene
 
-_MOST_NAMED = 2
+_MAX_NAMED = 2
 
 
 def explanation(step: Step, scene: Scene) -> str:
@@ -22,7 +22,7 @@ def explanation(step: Step, scene: Scene) -> str:
     differing = [name for name in names if scene.value(name) != step.asked.value(name)]
     own = ", ".join(
         f"{PARAMETERS[name].label}: {PARAMETERS[name].format(step.asked.value(name)) or 'empty'}"  # type: ignore[arg-type]
-        for name in differing[:_MOST_NAMED]
+        for name in differing[:_MAX_NAMED]
     )
-    more = ", …" if len(differing) > _MOST_NAMED else ""
+    more = ", …" if len(differing) > _MAX_NAMED else ""
     return f"For the lesson's own scene ({own}{more}): {step.answer}"

@@ -12,7 +12,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
-_MOST_CHIPS = 400
+_MAX_CHIPS = 400
 """Largest number of chips that a drawing resolves."""
 
 
@@ -38,7 +38,7 @@ def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     first = math.floor(begins)
     within = float(begins - first)
     needed = math.ceil(within + scene.camera.exposure_time / period) + 2
-    count = min(needed, _MOST_CHIPS)
+    count = min(needed, _MAX_CHIPS)
     start = (1.0 + within) * period
     # In Python's integers: the first chip's number can exceed an array's.
     places = (first - 1) % len(chips) + np.arange(count)

@@ -44,7 +44,7 @@ _STEP_KEYS = (
     "equation", "animation", "action", "own_photo",
 )  # fmt: skip
 _CHECK_KEYS = ("quantity", "tolerance", "set")
-_MOST_TOLERANCE = 50.0
+_MAX_TOLERANCE = 50.0
 """Percent."""
 
 
@@ -176,9 +176,9 @@ def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
             raise _MistakeError(f"check has no quantity; known are {', '.join(QUANTITIES)}.")
         percent = asked.get("tolerance", 2)
         number = isinstance(percent, int | float) and not isinstance(percent, bool)
-        if not number or not 0.0 <= percent <= _MOST_TOLERANCE:
+        if not number or not 0.0 <= percent <= _MAX_TOLERANCE:
             raise _MistakeError(
-                f"tolerance is {shown(percent)}; allowed: 0 to {_MOST_TOLERANCE:g}, in percent."
+                f"tolerance is {shown(percent)}; allowed: 0 to {_MAX_TOLERANCE:g}, in percent."
             )
         unit, about = QUANTITIES[quantity].asked_in, _changed(scene, asked)
         return Check(quantity, unit, percent / 100.0, about, tuple(asked.get("set", ())))

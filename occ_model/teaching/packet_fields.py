@@ -12,7 +12,7 @@ from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
-_MOST_EXCEPTIONS = 0.05
+_MAX_EXCEPTIONS = 0.05
 """Largest fraction of columns that a level may part otherwise than the decoder's threshold."""
 
 
@@ -123,6 +123,6 @@ def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, 
     # With the lowest k levels taken for zeros: ones among them, and zeros among the others.
     exceptions = np.cumsum(ones)[:-1] + np.cumsum(~ones[::-1])[-2::-1]
     best = int(exceptions.argmin())
-    if exceptions[best] > _MOST_EXCEPTIONS * len(levels):
+    if exceptions[best] > _MAX_EXCEPTIONS * len(levels):
         return None
     return float(levels[order[best]]), float(levels[order[best + 1]])

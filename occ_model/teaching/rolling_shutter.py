@@ -10,7 +10,7 @@ from occ_model.transmitter.packet import sent_chips
 _CHIPS = 4
 """Chips that the shown columns begin in."""
 
-_MOST_CHIPS = 400
+_MAX_CHIPS = 400
 """Largest number of chips that a drawing resolves; of a longer exposure only these are given."""
 
 
@@ -31,7 +31,7 @@ def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
     phase = (scene.model.start_time * scene.transmitter.switching_frequency) % len(chips)
     first = int(phase)
     needed = (float(starts[-1]) + camera.exposure_time) / period
-    count = int(min(np.ceil(needed) + 1, _MOST_CHIPS))
+    count = int(min(np.ceil(needed) + 1, _MAX_CHIPS))
     return RollingShutter(
         columns=columns,
         starts=starts,

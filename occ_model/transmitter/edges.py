@@ -75,7 +75,7 @@ class EdgedWaveform:
         A ramp of height h keeps back h (x - x^2 / (2 tau)) within the time x after its start, and
         h tau / 2 in all.
         """
-        # A share of a ramp that is not a normal number would be divided with an overflow.
+        # A fraction of a ramp that is not a normal number would be divided with an overflow.
         edge = max(float(self._edge), float(np.finfo(np.float64).tiny))
         windows = Windows.of(starts, duration)
         ahead = np.maximum(edge - starts.fraction, 0.0)  # rest of the first chip's ramp

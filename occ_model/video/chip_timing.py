@@ -1,6 +1,6 @@
 """Fit the chips' timing in one picture: where each chip lies, and how sure its value is.
 
-The light of column i is b(i) + a(i) p(i), with p the lit share of its exposure, which starts at
+The light of column i is b(i) + a(i) p(i), with p the lit fraction of its exposure, which starts at
 phase + step i chips and lasts some chips; b and a are polynomials over the picture. All of it is
 linear in b and a and nearly so in the timing: least squares, a few times over (Gauss-Newton).
 """
@@ -21,13 +21,13 @@ _ROUNDS = 6
 _CONVERGED_CHANGE = 1e-5
 """Change of the timing in chips below which the fit has converged."""
 
-_MOST_STEP = 0.2
+_MAX_STEP = 0.2
 """Largest change of the phase in one improvement, in chips."""
 
 _SHIFTS = np.linspace(-0.75, 0.75, 13)
 """Shifts in chips that are tried first: decoders count from different ends of an exposure."""
 
-_LEAST_FREEDOM, _FREEDOMS, _CHIPS_A_FREEDOM = 3, (5, 7), 6
+_MIN_FREEDOM, _FREEDOMS, _CHIPS_A_FREEDOM = 3, (5, 7), 6
 """Numbers of polynomials of either level, and the chips in view for each. Light that falls off as a
 lens's or a round lamp's is no parabola, which shifts the edges of all frames alike: over 60
 simulated films of 25 frames the median error of the readout time is 5.1 ppm with 3 and 1.6 ppm with
@@ -36,17 +36,17 @@ up to 7."""
 _MIN_EXPOSURE_CHIPS = 1e-3
 """Shortest exposure in chips: a shorter one makes the same light."""
 
-_LEAST_NOISE = 1e-6
-"""Least variance of a column about its model that is believed, as a share of the swing squared."""
+_MIN_NOISE = 1e-6
+"""Least variance of a column about its model that is believed, as a fraction of the swing squared."""
 
 _MAX_LOG_LIKELIHOOD_RATIO = 50.0
 """Largest log-likelihood ratio of a chip: no model is surer."""
 
-_MOST_RIM = 8
-"""Share of the columns, as a divisor, that are left out at either end at most."""
+_MAX_RIM = 8
+"""Fraction of the columns, as a divisor, that are left out at either end at most."""
 
 _SINGULAR = 1e-9
-"""Share of the largest singular value below which one is rounding error."""
+"""Fraction of the largest singular value below which one is rounding error."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -61,7 +61,7 @@ class ChipLattice:
     values: ByteArray  # Shape (chips,): the chips
 
     def lit(self, columns: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the lit share of each column's exposure, and the chips at its start and its end.
+        """Return the lit fraction of each column's exposure, and the chips at its start and its end.
 
         Returns
         -------
@@ -90,7 +90,7 @@ class ChipTiming:
     step_error: float
     # Shape (chips,): log-likelihood ratio of each chip, positive where it is likelier lit
     ratios: FloatArray
-    unexplained: float  # Share of the signal's variance that the chips do not explain
+    unexplained: float  # Fraction of the signal's variance that the chips do not explain
 
 
 def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
@@ -118,7 +118,7 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
         return None
     lattice, covariance = fitted
     freedom = _freedom(light, lattice)
-    if freedom > _LEAST_FREEDOM:
+    if freedom > _MIN_FREEDOM:
         fitted = _timed(light, lattice, freedom)
         if fitted is None:
             return None
@@ -145,7 +145,7 @@ def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
 
 
 def _timed(
-    light: FloatArray, lattice: ChipLattice, freedom: int = _LEAST_FREEDOM
+    light: FloatArray, lattice: ChipLattice, freedom: int = _MIN_FREEDOM
 ) -> tuple[ChipLattice, FloatArray] | None:
     """Improve a timing by the columns that do not show the outermost chips.
 
@@ -154,7 +154,7 @@ def _timed(
     """
     if lattice.values.min() == lattice.values.max():
         return None
-    rim = min(int(np.ceil((1.0 + lattice.exposure) / lattice.step)), len(light) // _MOST_RIM)
+    rim = min(int(np.ceil((1.0 + lattice.exposure) / lattice.step)), len(light) // _MAX_RIM)
     inner = light[rim : len(light) - rim]
     moved = replace(lattice, phase=lattice.phase + lattice.step * rim)
     fitted = _improved(inner, moved, freedom)
@@ -178,11 +178,11 @@ class _Levels:
 
     @classmethod
     def fitted(
-        cls, light: FloatArray, lattice: ChipLattice, freedom: int = _LEAST_FREEDOM
+        cls, light: FloatArray, lattice: ChipLattice, freedom: int = _MIN_FREEDOM
     ) -> "_Levels":
-        share, _, _ = lattice.lit(len(light))
+        fraction, _, _ = lattice.lit(len(light))
         shapes = _shapes(len(light), freedom)
-        parts = np.concatenate([shapes, shapes * share[:, None]], axis=1)
+        parts = np.concatenate([shapes, shapes * fraction[:, None]], axis=1)
         found = _solved(parts, light)
         return cls(shapes @ found[freedom:], light - parts @ found, freedom)
 
@@ -194,7 +194,7 @@ def _freedom(light: FloatArray, lattice: ChipLattice) -> int:
     columns.
     """
     most = len(lattice.values) / _CHIPS_A_FREEDOM
-    tried = [_LEAST_FREEDOM, *(freedom for freedom in _FREEDOMS if freedom <= most)]
+    tried = [_MIN_FREEDOM, *(freedom for freedom in _FREEDOMS if freedom <= most)]
     found = [_Levels.fitted(light, lattice, freedom) for freedom in tried]
     # What a parabola leaves is correlated by the light's fall, not by the noise.
     independent = len(light) / correlated_columns(found[-1].residual)
@@ -228,15 +228,15 @@ def _improved(
     levels = _Levels.fitted(light, lattice, freedom)
     parts = np.empty((count, 0))
     for _ in range(_ROUNDS):
-        share, start, end = lattice.lit(count)
+        fraction, start, end = lattice.lit(count)
         swing = levels.swing
         if not float(np.median(swing)) > 0.0:
             return None
         later = (end - start) / lattice.exposure * swing
-        longer = (0.5 * (end + start) - share) / lattice.exposure * swing
-        parts = np.column_stack([shapes, shapes * share[:, None], later, later * place, longer])
+        longer = (0.5 * (end + start) - fraction) / lattice.exposure * swing
+        parts = np.column_stack([shapes, shapes * fraction[:, None], later, later * place, longer])
         shift, turn, growth = _solved(parts, light)[-3:]
-        shift, turn = np.clip([shift, turn], -_MOST_STEP, _MOST_STEP).tolist()
+        shift, turn = np.clip([shift, turn], -_MAX_STEP, _MAX_STEP).tolist()
         longest = 0.5 * lattice.exposure + _MIN_EXPOSURE_CHIPS
         growth = float(np.clip(growth, -longest + 2.0 * _MIN_EXPOSURE_CHIPS, longest))
         moved = _moved(lattice, shift, turn / half, growth, count)
@@ -281,7 +281,7 @@ def _moved(
 def _noise(levels: _Levels) -> float:
     """Return the variance of a column about the model."""
     free = max(1, len(levels.residual) - 2 * levels.freedom - 3)
-    least = _LEAST_NOISE * float(np.median(levels.swing)) ** 2
+    least = _MIN_NOISE * float(np.median(levels.swing)) ** 2
     return max(levels.residual_power / free, least)
 
 

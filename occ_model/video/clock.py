@@ -9,10 +9,10 @@ from occ_model.video.frame_times import FrameTimes, Part
 from occ_model.video.phases import ClockFit, Phases, mean_step
 
 READOUT_TOLERANCE = 0.01
-"""Share by which the readout time may differ from the rough one that is given."""
+"""Fraction by which the readout time may differ from the rough one that is given."""
 
 _OVERLAP = 1e-3
-"""Share of a frame period by which reading out may seem to last longer: of measurement errors."""
+"""Fraction of a frame period by which reading out may seem to last longer: of measurement errors."""
 
 _MIN_FRAMES = 3
 """Minimum number of frames to fit the clock to."""
@@ -37,7 +37,7 @@ def fits_of(
     readout_time
         A rough value in seconds.
     tolerance
-        The share by which it may be wrong.
+        The fraction by which it may be wrong.
     period
         The frame period in seconds: reading out a frame takes no longer.
     """

@@ -20,19 +20,19 @@ _FIRST = 64
 _GRID = 8.0
 """Frequencies that are tried while the phase at the part's end changes by a period."""
 
-_MOST_TRIED = 2**17
+_MAX_TRIED = 2**17
 """Most frequencies that are tried; the part of the film is shortened to it."""
 
-_MOST_ALIASES = 64
+_MAX_ALIASES = 64
 """Most frequencies that may fit alike: of more, as with frames far apart, none is stated."""
 
 _FEW_TRIED = 64.0
 """Frequencies among which none is coherent by chance."""
 
 _AS_COHERENT = 0.8
-"""Share of the best coherence from which another frequency is an alias to be fitted."""
+"""Fraction of the best coherence from which another frequency is an alias to be fitted."""
 
-_LEAST_COHERENCE = 0.5
+_MIN_COHERENCE = 0.5
 """Coherence of phases with the frame times below which they do not follow them."""
 
 _GROWTH = 1.3
@@ -95,23 +95,23 @@ def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
 def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> list[float]:
     """Return the frequencies at which the phases of the first frames are coherent."""
     count = min(len(turned), _FIRST)
-    while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MOST_TRIED:
+    while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MAX_TRIED:
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
     number = _grid(times, low, high, phases.period)
     # Of so many random phasors the mean is longer than r in the share exp(-count r^2).
     by_chance = math.sqrt(2.0 * math.log(max(number / _FEW_TRIED, 1.0)) / count)
-    if number > _MOST_TRIED or by_chance >= 1.0:
+    if number > _MAX_TRIED or by_chance >= 1.0:
         return []
     tried = np.linspace(low, high, number)
     coherent = _coherence(turned[:count], times, tried, phases.period)
     best = float(coherent.max())
-    if best < max(_LEAST_COHERENCE, 1.2 / math.sqrt(count), by_chance) and count > 2:
+    if best < max(_MIN_COHERENCE, 1.2 / math.sqrt(count), by_chance) and count > 2:
         return []
     padded = np.concatenate([[-1.0], coherent, [-1.0]])
     peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:])
     chosen = np.flatnonzero(peaks & (coherent >= _AS_COHERENT * best))
-    return [float(tried[place]) for place in chosen] if len(chosen) <= _MOST_ALIASES else []
+    return [float(tried[place]) for place in chosen] if len(chosen) <= _MAX_ALIASES else []
 
 
 def _grid(times: FloatArray, low: float, high: float, period: float) -> int:

@@ -98,7 +98,7 @@ def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -
 def packets_received(
     timing: ShutterTiming, frame_period: Fraction, length: int, start: Fraction = Fraction(0)
 ) -> Fraction:
-    """Return the share of packets that a film without end shows whole, exactly.
+    """Return the fraction of packets that a film without end shows whole, exactly.
 
     The starts of frames within a packet repeat after b frames, with f T / length = a / b.
 
@@ -122,7 +122,7 @@ def packets_received(
 def packets_received_on_average(
     timing: ShutterTiming, frame_period: Fraction, length: int
 ) -> Fraction:
-    """Return the share of packets that frames show whole, on average over the time of the start.
+    """Return the fraction of packets that frames show whole, on average over the time of the start.
 
     A view of V chips holds a packet of L chips whole from V - L of all starts, of every L where
     V >= L: the mean number is (V - L) / L.

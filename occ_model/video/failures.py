@@ -10,7 +10,7 @@ from occ_model.video.joining import Joined
 from occ_model.video.period import SentPeriod
 from occ_model.video.read_frame import TimedFrame
 
-_LEAST_CERTAINTY = 0.9
+_MIN_CERTAINTY = 0.9
 """Least probability that all bits are right, of a payload that is read."""
 
 NO_CLOCK = (
@@ -67,7 +67,7 @@ def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> 
     if soft.framed.failure is not None:
         return soft.framed.failure
     certainty = certainty_of(soft, period)
-    if certainty < _LEAST_CERTAINTY and not period.scheme.framing.checks:
+    if certainty < _MIN_CERTAINTY and not period.scheme.framing.checks:
         return (
             f"The chips are not certain enough: that all {period.scheme.bits} bits are right has a "
             f"probability of {certainty:.2g}."

@@ -9,10 +9,10 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.video.chip_timing import ChipLattice
 
-_FEWEST_EDGES = 4
+_MIN_EDGES = 4
 """Fewest edges between chips that show a lattice."""
 
-_MOST_EDGE_ERROR = 0.3
+_MAX_EDGE_ERROR = 0.3
 """Chips off the lattice from which an edge shows that chips were miscounted."""
 
 _SEARCHED_FRACTION = 0.05
@@ -44,17 +44,17 @@ def first_lattice(
         None where the decoder found no chips.
     """
     starts = result.chip_starts
-    if starts is None or result.chips.size < _FEWEST_EDGES:
+    if starts is None or result.chips.size < _MIN_EDGES:
         return None
     starts = starts + before
     exposure = scene.camera.exposure_time * scene.transmitter.switching_frequency
     edges = np.flatnonzero(np.diff(result.chips.astype(np.int64))) + 1
-    if len(edges) < _FEWEST_EDGES:
+    if len(edges) < _MIN_EDGES:
         return None
     places, numbers = starts[edges], edges.astype(np.float64)
     rising = result.chips[edges] == 1
     step, offsets = _regular(places, numbers, rising)
-    if step <= 0.0 or np.abs(offsets).max() > _MOST_EDGE_ERROR:
+    if step <= 0.0 or np.abs(offsets).max() > _MAX_EDGE_ERROR:
         expected = scene.camera.readout_time * scene.transmitter.switching_frequency
         step = _most_coherent(places, rising, expected)
         numbers = _numbered(places, rising, step)

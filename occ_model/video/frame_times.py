@@ -9,7 +9,7 @@ from occ_model.results.video_reading import Measured
 from occ_model.scene.units import SECOND
 
 _EVEN = 0.25
-"""Share of a period by which an interval may differ from a whole number of them."""
+"""Fraction of a period by which an interval may differ from a whole number of them."""
 
 _UNEVEN = 0.02
 """Standard deviation of the frame times, as a fraction of the period, that triggers a warning."""

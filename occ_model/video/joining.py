@@ -29,7 +29,7 @@ _AHEAD = 7.0
 _UNLIKE = -12.0
 """Logarithm of the likelihood below which a place contradicts the chips that are known."""
 
-_LEAST_DEVIATION = 0.15
+_MIN_DEVIATION = 0.15
 """Least standard deviation of a place that the clock foretells, in chips."""
 
 
@@ -104,7 +104,7 @@ class Joined:
         likelihood = by_chips = self._likelihood(frame)
         if foretold is not None:
             off = np.mod(np.arange(length) - foretold + 0.5 * length, length) - 0.5 * length
-            likelihood = likelihood - 0.5 * (off / max(deviation, _LEAST_DEVIATION)) ** 2
+            likelihood = likelihood - 0.5 * (off / max(deviation, _MIN_DEVIATION)) ** 2
         shown = self._period.places(frame.chips[first:last])
         places = np.array([(place - first) % length for place in shown], dtype=np.int64)
         if part_unknown and len(places) and self._period.parts > 1:

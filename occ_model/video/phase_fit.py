@@ -9,7 +9,7 @@ from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.video.phases import ClockFit, PhaseJump, Phases, mean_step
 
-_FEWEST_FOR_DRIFT = 6
+_MIN_FOR_DRIFT = 6
 """Frames from which a drift is fitted too."""
 
 _OUTLYING = 6.0
@@ -18,18 +18,18 @@ _OUTLYING = 6.0
 _JUMP = 10.0
 """Deviations from which the phase jumps between two frames."""
 
-_LEAST_JUMP = 0.1
+_MIN_JUMP = 0.1
 """Smallest jump in chips: the picture itself may shift the phase by less."""
 
-_MOST_JUMPS = 8
+_MAX_JUMPS = 8
 
-_FEWEST_TO_COMPARE = 16
+_MIN_TO_COMPARE = 16
 """Frames from which it shows whether neighbouring residuals are alike."""
 
 _BY_CHANCE = 2.5
 """Deviations of their correlation from which they are not so by chance."""
 
-_LEAST_PHASE = 1e-5
+_MIN_PHASE = 1e-5
 """Least standard deviation of a phase in chips that is believed."""
 
 
@@ -38,11 +38,11 @@ def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
     kept = np.ones(len(counted), dtype=bool)
     jumps: list[int] = []
     solution = _solve(phases, counted, kept, jumps)
-    for _ in range(_MOST_JUMPS + 3):
+    for _ in range(_MAX_JUMPS + 3):
         spread = _local_spread(solution.residuals[kept], phases.errors[kept])
         jump = _largest_jump(solution.residuals, kept, spread, jumps)
         outlying = kept & (np.abs(solution.residuals) > _OUTLYING * max(spread, _typical(solution)))
-        if jump is not None and len(jumps) < _MOST_JUMPS:
+        if jump is not None and len(jumps) < _MAX_JUMPS:
             jumps.append(jump)
         elif outlying.any() and (kept & ~outlying).sum() >= max(2, len(kept) // 2):
             kept &= ~outlying
@@ -66,7 +66,7 @@ class _Solution:
     def as_fit(self, phases: Phases, kept: BoolArray, jumps: list[int]) -> ClockFit:
         step, step_error = mean_step(phases)
         errors = np.sqrt(np.diag(self.covariance))
-        chi = self.residuals[kept] / np.maximum(phases.errors[kept], _LEAST_PHASE)
+        chi = self.residuals[kept] / np.maximum(phases.errors[kept], _MIN_PHASE)
         heights = self.found[3:] if self.has_drift else self.found[2:]
         return ClockFit(
             frequency=float(self.found[1]),
@@ -93,7 +93,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
     middle = float(times[kept].mean())
     later = times - middle
     extent = max(float(np.ptp(later)), 1e-12)
-    has_drift = int(kept.sum()) >= _FEWEST_FOR_DRIFT + len(jumps)
+    has_drift = int(kept.sum()) >= _MIN_FOR_DRIFT + len(jumps)
     parts = [np.ones(len(times)), later]
     if has_drift:
         # Of the frequency in the middle: the parabola has no slope there on the mean.
@@ -102,7 +102,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
     parts += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
     design = np.column_stack(parts)
     scale = np.array([1.0, extent, extent**2][: 2 + has_drift] + [1.0] * len(jumps))
-    errors = np.maximum(phases.errors, _LEAST_PHASE)
+    errors = np.maximum(phases.errors, _MIN_PHASE)
     jitter = 0.0
     for _ in range(8):
         weights = np.where(kept, 1.0 / (errors**2 + jitter**2), 0.0)
@@ -117,7 +117,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         jitter = float(
             np.sqrt(max(0.0, float((residuals[kept] ** 2 - errors[kept] ** 2).sum()) / free))
         )
-        if abs(jitter - before) <= 1e-3 * max(jitter, _LEAST_PHASE):
+        if abs(jitter - before) <= 1e-3 * max(jitter, _MIN_PHASE):
             break
     # Frames agree better than each by itself is sure where they share a part of their errors, such
     # as the sensor's fixed pattern; that part moves the fit all the same.
@@ -137,7 +137,7 @@ def _alike(residuals: FloatArray) -> float:
     """Return how many neighbouring residuals count as one, 1 where they are independent."""
     count = len(residuals)
     power = float(residuals @ residuals)
-    if count < _FEWEST_TO_COMPARE or power <= 0.0:
+    if count < _MIN_TO_COMPARE or power <= 0.0:
         return 1.0
     neighbours = float(residuals[1:] @ residuals[:-1]) / power
     return correlated_columns(residuals) if neighbours > _BY_CHANCE / math.sqrt(count) else 1.0
@@ -151,9 +151,9 @@ def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
     """Return the deviation of phases from that of the frame before: it knows of no slow change."""
     least = float(np.median(errors))
     if len(residuals) < 3:
-        return max(least, _LEAST_PHASE)
+        return max(least, _MIN_PHASE)
     steps = np.abs(np.diff(residuals))
-    return max(1.4826 / math.sqrt(2.0) * float(np.median(steps)), least, _LEAST_PHASE)
+    return max(1.4826 / math.sqrt(2.0) * float(np.median(steps)), least, _MIN_PHASE)
 
 
 def _largest_jump(
@@ -166,7 +166,7 @@ def _largest_jump(
     values = residuals[frames]
     heights = np.abs(np.diff(values))
     for place in np.argsort(heights)[::-1][:4].tolist():
-        if heights[place] < max(_JUMP * spread, _LEAST_JUMP):
+        if heights[place] < max(_JUMP * spread, _MIN_JUMP):
             return None
         frame = int(frames[place + 1])
         before, after = values[max(0, place - 2) : place + 1], values[place + 1 : place + 4]

@@ -38,7 +38,7 @@ class PlacedFrames:
     Parameters
     ----------
     readout_time, tolerance
-        A rough readout time in seconds, and the share by which it may be wrong.
+        A rough readout time in seconds, and the fraction by which it may be wrong.
     """
 
     def __init__(self, period: SentPeriod, readout_time: float, tolerance: float) -> None:

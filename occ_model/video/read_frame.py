@@ -18,13 +18,13 @@ from occ_model.scene.scene import Scene
 from occ_model.video.chip_timing import ChipTiming, fit_timing
 from occ_model.video.first_lattice import first_lattice
 
-_MOST_UNEXPLAINED = 0.3
-"""Share of the signal's variance that the chips leave unexplained above which they are not read."""
+_MAX_UNEXPLAINED = 0.3
+"""Fraction of the signal's variance that the chips leave unexplained above which they are not read."""
 
 _REMEMBERED_REGIONS = 5
 """Previous frames whose regions show where the panel ends: it moves little from one to the next."""
 
-_MOST_DARK = 6.0
+_MAX_DARK = 6.0
 """Most dark chips in a row at an end of the panel: more than any line code has."""
 
 _MARGIN = 0.5
@@ -151,7 +151,7 @@ class FrameReader:
         """Widen a region by columns that frames before show: dark chips at its ends hide them."""
         first, last = region.first_column, region.last_column
         most = round(
-            _MOST_DARK / (scene.camera.readout_time * scene.transmitter.switching_frequency)
+            _MAX_DARK / (scene.camera.readout_time * scene.transmitter.switching_frequency)
         )
         self._spans.append((first, last))
         earliest = max(min(span[0] for span in self._spans), first - most, 0)
@@ -179,7 +179,7 @@ def _timing(
     if lattice is None:
         return _Tried(None, result.failure or "Too few stripes to see chips.")
     timing = fit_timing(light, lattice)
-    if timing is None or timing.unexplained > _MOST_UNEXPLAINED:
+    if timing is None or timing.unexplained > _MAX_UNEXPLAINED:
         return _Tried(None, "The stripes do not follow the chips that were read.")
     return _Tried(timing, result.failure)
 

@@ -18,17 +18,17 @@ from occ_model.video.clock import fits_of, state
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.phases import Phases
 
-_LEAST_PERIODS = 3.0
+_MIN_PERIODS = 3.0
 """Periods in a frame from which stripes repeat, and are not by chance alike twice."""
 
-_MOST_UNREPEATED = 0.1
-"""Share of the variance of stripes that no repeated wave explains, above which they are others."""
+_MAX_UNREPEATED = 0.1
+"""Fraction of the variance of stripes that no repeated wave explains, above which they are others."""
 
-_LEAST_CHANGE = 0.2
-"""Share of the brightest frames' light by which dark ones are darker where whole frames blink."""
+_MIN_CHANGE = 0.2
+"""Fraction of the brightest frames' light by which dark ones are darker where whole frames blink."""
 
 _MOST = 0.9
-"""Share of frames from which all are said to show the same."""
+"""Fraction of frames from which all are said to show the same."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +96,7 @@ class WithoutPackets:
 
     @staticmethod
     def _period_error(seen: Sequence[_Look]) -> float:
-        """Give the relative error of a period that many frames show, as that of one of them."""
+        """Return the relative error of a period that many frames show, as that of one of them."""
         return float(np.median([look.period_error / look.period for look in seen]))
 
     def described(self, readout_time: float) -> str:
@@ -134,7 +134,7 @@ class WithoutPackets:
         """Say whether whole frames are bright or dark."""
         levels = np.array([look.level for look in self._looks])
         low, high = (float(level) for level in np.quantile(levels, (0.1, 0.9)))
-        if len(levels) < 3 or high - low < _LEAST_CHANGE * high:
+        if len(levels) < 3 or high - low < _MIN_CHANGE * high:
             return ""
         bright = levels > 0.5 * (low + high)
         changes = int(np.count_nonzero(bright[1:] != bright[:-1]))
@@ -156,11 +156,11 @@ def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Lo
     """Look for stripes that repeat, and for the phase of their first harmonic in the middle."""
     columns = len(even)
     found = repeat_period(even) if columns > 2 and float(np.ptp(even)) > 0.0 else None
-    if found is None or found[0] * _LEAST_PERIODS > columns:
+    if found is None or found[0] * _MIN_PERIODS > columns:
         return _Look(time, level)
     period, error = found
     left = unrepeated_share(even, period)
-    if left > _MOST_UNREPEATED:
+    if left > _MAX_UNREPEATED:
         return _Look(time, level)
     middle = 0.5 * (columns - 1)
     window = np.hanning(columns + 2)[1:-1]

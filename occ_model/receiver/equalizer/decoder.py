@@ -28,11 +28,11 @@ _CURVE_UNKNOWN = (
     "exposure cannot be undone exactly; without the enhancement it can."
 )
 
-_MOST_VOTES = 15
+_MAX_VOTES = 15
 """Packets that are compared; more take time and change nothing."""
 
-_MOST_COLUMNS = 0.25
-"""Longest exposure that is undone, as a share of the picture."""
+_MAX_COLUMNS = 0.25
+"""Longest exposure that is undone, as a fraction of the picture."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -56,7 +56,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
         return result
     camera = scene.camera
     exposure = camera.exposure_time / camera.readout_time
-    if exposure > _MOST_COLUMNS * len(signal):
+    if exposure > _MAX_COLUMNS * len(signal):
         return replace(
             result,
             failure=f"An exposure lasts {exposure:.3g} columns of the {len(signal)} in the panel's "
@@ -84,7 +84,7 @@ def _agreed(read: DecodeResult, scene: Scene) -> DecodeResult:
         return read
     scheme = scheme_of(scene.transmitter)
     length = scheme.length + len(HEADER)  # the next header ends a packet of the paper's
-    starts = read.headers[:_MOST_VOTES]
+    starts = read.headers[:_MAX_VOTES]
     frames = [scheme.decode(read.chips[start : start + length]) for start in starts]
     votes = Counter(
         tuple(frame.bits.tolist())

@@ -20,7 +20,7 @@ _NONE = 1e-6
 """Noise over light that zero-forcing takes for none: at a null it would divide by zero."""
 
 _BESIDE_NULLS = 0.25
-"""Share of the spectrum, where the exposure passes least, that the noise is measured in."""
+"""Fraction of the spectrum, where the exposure passes least, that the noise is measured in."""
 
 _FLOOR = 1e-3
 """Least of a chip's spectrum, relative to its largest; at its own nulls it is 0."""

@@ -37,14 +37,14 @@ from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.packet import bits_of, packet_length
 from occ_model.transmitter.scheme import scheme_of
 
-_LEAST_CORRELATION = 0.7
+_MIN_CORRELATION = 0.7
 """Least correlation of a code that is read: half of the signal's variance is explained."""
 
-_LEAST_CONFIDENCE = 0.05
+_MIN_CONFIDENCE = 0.05
 """Least confidence of a code that is read; below it the best code may be so by chance."""
 
 _EXPLAINED = 1e-3
-"""Share of the variance below which a code explains all: bins and ranks are no more exact.
+"""Fraction of the variance below which a code explains all: bins and ranks are no more exact.
 
 Where two codes do, either can be the one that is sent.
 """
@@ -69,7 +69,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code whose forward model is most like the signal.
 
     With r1 and r2 the correlations of the best and the second best code with the signal, the
-    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same share of the variance,
+    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same fraction of the variance,
     near 1 where the best alone explains all of it.
 
     Parameters
@@ -189,7 +189,7 @@ def _best_code(
     failure = None
     if isinstance(templates, PayloadTemplates):
         failure = _why_ambiguous(code, likely, scene)
-    if failure is None and (r1 < _LEAST_CORRELATION or confidence < _LEAST_CONFIDENCE):
+    if failure is None and (r1 < _MIN_CORRELATION or confidence < _MIN_CONFIDENCE):
         failure = (
             f"No code stands out: the best, {code}, correlates by {r1:.3f} with the signal, the "
             f"second best, {likely[second]}, by {r2:.3f}."
@@ -275,7 +275,7 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
 
 
 def _unexplained(correlation: float) -> float:
-    """Return the share of the signal's variance that a code leaves unexplained."""
+    """Return the fraction of the signal's variance that a code leaves unexplained."""
     return max(1.0 - correlation**2, _EXPLAINED)
 
 

@@ -20,10 +20,10 @@ from occ_model.transmitter.scheme import Scheme, scheme_named, scheme_of
 MOST_STATES = 2048
 """States of a trellis that is searched whole."""
 
-_MOST_ENCODER_STATES = 16
+_MAX_ENCODER_STATES = 16
 """States of an encoder above which its words are not listed."""
 
-_MOST_BLOCK = 8
+_MAX_BLOCK = 8
 """Bits of a block above which its words are not listed."""
 
 _SHORT = 64
@@ -104,7 +104,7 @@ def _common_prefix(periods: list[ByteArray]) -> int:
 
 def _blocks(line_code: LineCode) -> tuple[Word, ...]:
     """Return the words of a line code between the states of its encoder."""
-    if line_code.block_bits > _MOST_BLOCK:
+    if line_code.block_bits > _MAX_BLOCK:
         return FREE_CHIPS
     blocks = [np.array(one, dtype=np.uint8) for one in product((0, 1), repeat=line_code.block_bits)]
     number: dict[bytes, int] = {}
@@ -121,7 +121,7 @@ def _blocks(line_code: LineCode) -> tuple[Word, ...]:
         state_after(np.empty(0, dtype=np.uint8), level)
     words = []
     for state, (bits, level) in enumerate(states):  # it grows meanwhile
-        if len(states) > _MOST_ENCODER_STATES:
+        if len(states) > _MAX_ENCODER_STATES:
             return FREE_CHIPS
         for block in blocks:
             together = np.concatenate([bits, block])

@@ -36,20 +36,20 @@ _IMPROVEMENTS = 4
 """Most times that the fit is improved from the chips that were detected."""
 
 _SETTLED = 0.9
-"""Share of the noise's variance before an improvement above which no other one is tried."""
+"""Fraction of the noise's variance before an improvement above which no other one is tried."""
 
-_LEAST_CERTAINTY = 0.9
+_MIN_CERTAINTY = 0.9
 """Least probability that all bits are right, of a code that is read."""
 
 _LONGEST_MEMORY = 32
 """Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""
 
 _DOUBTFUL = 0.02
-"""Share of the signal's variance that is neither the chips' light nor noise, above which their
+"""Fraction of the signal's variance that is neither the chips' light nor noise, above which their
 timing may be another one."""
 
-_MOST_UNEXPLAINED = 0.05
-"""Largest share of the signal's variance that may be neither the chips' light nor noise."""
+_MAX_UNEXPLAINED = 0.05
+"""Largest fraction of the signal's variance that may be neither the chips' light nor noise."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -146,18 +146,18 @@ def _improved(
         before, fit = fit, detect(rows, *improve(rows, fit), words)
         same = np.array_equal(fit.chips.values, before.chips.values)
         settled = (same and not light.is_estimated) or fit.noise > _SETTLED * before.noise
-        if settled and fit.unexplained() <= _MOST_UNEXPLAINED:
+        if settled and fit.unexplained() <= _MAX_UNEXPLAINED:
             break
     return fit, light
 
 
 def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
     """Add the chips and the fit to a result."""
-    share = fit.brightness.lit_share(light.values)
-    count = len(share)
+    fraction = fit.brightness.lit_share(light.values)
+    count = len(fraction)
     places = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase
     starts = np.asarray(places / fit.timing.step, dtype=np.float64)
-    about, model = share - share.mean(), fit.model - fit.model.mean()
+    about, model = fraction - fraction.mean(), fit.model - fit.model.mean()
     energy = math.sqrt(float(about @ about) * float(model @ model))
     seen = (starts > -1.0 / fit.timing.step) & (starts < count)
     return replace(
@@ -167,7 +167,7 @@ def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
         chip_starts=starts[seen],
         chip_likelihoods=probability(fit.ratios())[seen],
         correlation=float(about @ model) / energy if energy > 0.0 else 0.0,
-        light=share,
+        light=fraction,
         light_model=fit.model,
     )
 
@@ -181,13 +181,13 @@ def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...
     read = replace(read, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
     failure = read.failure
     unexplained = fit.unexplained()
-    if unexplained > _MOST_UNEXPLAINED:
+    if unexplained > _MAX_UNEXPLAINED:
         failure = (
             "The chips found do not explain the signal: "
             f"{100.0 * unexplained:.0f} % of its variance is neither theirs nor noise. No such "
             "code is sent, or exposure time, switching frequency or readout time is another one."
         )
-    elif failure is None and frame.certainty < _LEAST_CERTAINTY and not scheme.framing.checks:
+    elif failure is None and frame.certainty < _MIN_CERTAINTY and not scheme.framing.checks:
         failure = (
             "The chips are not certain enough: that all "
             f"{scheme.bits} bits are right has a probability of {frame.certainty:.2g}."

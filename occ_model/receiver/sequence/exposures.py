@@ -1,7 +1,7 @@
 """What the rows say of the chips: each row is the mean of the chips that its exposure covers.
 
 Row i is exposed over [i s + p, i s + p + T] in chips, with s = t_r f, T = t f and a phase p. The
-share of chip k in it is the overlap of the exposure with [k, k + 1], over T: the taps of a
+fraction of chip k in it is the overlap of the exposure with [k, k + 1], over T: the taps of a
 rectangular filter, sampled at the line rate.
 """
 
@@ -35,7 +35,7 @@ class Timing:
 
 
 def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
-    """Return the chip that each exposure ends in, and the shares of that and the chips before.
+    """Return the chip that each exposure ends in, and the fractions of that and the chips before.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
     last : ndarray of int64, shape as ``starts``
         The chips.
     shares : ndarray of float64, shape (..., memory + 1)
-        The shares of the chip and of those before it, the latest first; their sum is 1.
+        The fractions of the chip and of those before it, the latest first; their sum is 1.
     """
     ends = starts + timing.exposure
     last = np.floor(ends)
@@ -116,7 +116,7 @@ def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
     Parameters
     ----------
     light : ndarray of float64, shape (rows,)
-        The share of full light of each row.
+        The fraction of full light of each row.
     timing
         The timing.
     """

@@ -1,6 +1,6 @@
 """Fit what the detector does not know: the phase of the chips, and how bright they are.
 
-The light of a row is b(x) + a(x) p, with p the lit share of its exposure and x its place in the
+The light of a row is b(x) + a(x) p, with p the lit fraction of its exposure and x its place in the
 picture; a and b vary slowly, as a lens and an uneven panel make them. They and the timing are
 improved from chips that were detected (decision-directed), then the chips are detected anew.
 """
@@ -26,13 +26,13 @@ TRIED_CHIPS = 96
 _LAGS = 3
 """Rows apart whose products give the contrast without the noise, which no two rows share."""
 
-_LEAST_NOISE = 1e-8
-"""Least variance that is assumed, in shares of full light squared: no model is more exact."""
+_MIN_NOISE = 1e-8
+"""Least variance that is assumed, in fractions of full light squared: no model is more exact."""
 
 _SINGULAR = 1e-10
-"""Share of the largest singular value below which one is rounding error."""
+"""Fraction of the largest singular value below which one is rounding error."""
 
-_MOST_STEP = 0.1
+_MAX_STEP = 0.1
 """Largest change of the phase in one improvement, in chips."""
 
 
@@ -44,7 +44,7 @@ class Brightness:
     swing: FloatArray
 
     def lit_share(self, light: FloatArray) -> FloatArray:
-        """Return the share of full light of each row."""
+        """Return the fraction of full light of each row."""
         return (light - self.dark) / self.swing
 
 
@@ -55,15 +55,15 @@ class Fit:
     chips: Chips
     timing: Timing
     brightness: Brightness
-    model: FloatArray  # Shape (rows,): the lit share of each row that the chips have
-    # Shape (rows,): the share of full light of each row less that of the model
+    model: FloatArray  # Shape (rows,): the lit fraction of each row that the chips have
+    # Shape (rows,): the fraction of full light of each row less that of the model
     residual: FloatArray
 
     @property
     def noise(self) -> float:
-        """Variance of the rows about the model, in shares of full light squared."""
+        """Variance of the rows about the model, in fractions of full light squared."""
         free = max(1, len(self.residual) - len(self.chips.values))
-        return max(float(self.residual @ self.residual) / free, _LEAST_NOISE)
+        return max(float(self.residual @ self.residual) / free, _MIN_NOISE)
 
     def noise_of_sums(self) -> float:
         """Variance a row of the residual's sum over rows, up to an exposure apart.
@@ -80,13 +80,13 @@ class Fit:
         return np.asarray(self.chips.margins / (2.0 * self.noise_of_sums()))
 
     def unexplained(self) -> float:
-        """Share of the signal's variance that is neither the model's nor noise.
+        """Fraction of the signal's variance that is neither the model's nor noise.
 
         Noise is independent from row to row; so it is the residual's covariance of neighbours.
         """
         own = _autocorrelation(self.residual, 1)
         variance = float((self.model + self.residual).var())
-        return float(own[1:].sum()) * float(self.residual.var()) / max(variance, _LEAST_NOISE)
+        return float(own[1:].sum()) * float(self.residual.var()) / max(variance, _MIN_NOISE)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -94,13 +94,13 @@ class Rows:
     """Rows as the detector sees them."""
 
     light: FloatArray  # Shape (rows,): proportional to the light of each, up to a constant
-    # Shape (exposures,): the lit shares of exposures of random data in the order of time, for a
+    # Shape (exposures,): the lit fractions of exposures of random data in the order of time, for a
     # first guess
     expected: FloatArray
 
 
 def lit_shares(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, FloatArray]:
-    """Return the lit share of each row's exposure, and its slope over the phase, shape (rows,)."""
+    """Return the lit fraction of each row's exposure, and its slope over the phase, shape (rows,)."""
     starts = timing.starts(rows)
     last, shares = taps(timing, starts)
     place = last[:, None] - np.arange(shares.shape[1]) - chips.first
@@ -150,10 +150,10 @@ def find_phase(
 
 def detect(rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]) -> Fit:
     """Detect the chips at a timing and a brightness."""
-    share = brightness.lit_share(rows.light)
-    chips = _likeliest(words, timing, gather(share, timing))
-    model, _ = lit_shares(chips, timing, len(share))
-    return Fit(chips, timing, brightness, model, share - model)
+    fraction = brightness.lit_share(rows.light)
+    chips = _likeliest(words, timing, gather(fraction, timing))
+    model, _ = lit_shares(chips, timing, len(fraction))
+    return Fit(chips, timing, brightness, model, fraction - model)
 
 
 def _likeliest(words: tuple[Word, ...], timing: Timing, statistics: ChipStatistics) -> Chips:
@@ -173,7 +173,7 @@ def improve(rows: Rows, fit: Fit) -> tuple[Timing, Brightness]:
     dark, swing = found[:3] @ powers, found[3:6] @ powers
     if not (swing > 0.0).all():
         return fit.timing, fit.brightness
-    shift, drift = np.clip(found[6:], -_MOST_STEP, _MOST_STEP).tolist()
+    shift, drift = np.clip(found[6:], -_MAX_STEP, _MAX_STEP).tolist()
     # The phase of the row at x is shift + drift x.
     step = fit.timing.step + 2.0 * drift / max(count - 1, 1)
     timing = replace(fit.timing, phase=fit.timing.phase + shift - drift, step=step)
@@ -190,6 +190,6 @@ def _powers(rows: int) -> FloatArray:
 def _autocorrelation(values: FloatArray, reach: int) -> FloatArray:
     """Return the correlation of values with those some places on, shape (reach + 1,)."""
     about = values - values.mean()
-    energy = max(float(about @ about), _LEAST_NOISE)
+    energy = max(float(about @ about), _MIN_NOISE)
     ahead = [float(about[lag:] @ about[: len(about) - lag]) for lag in range(1, reach + 1)]
     return np.array([energy, *ahead]) / energy

@@ -18,7 +18,7 @@ from occ_model.receiver.sequence.fit import (
 )
 from occ_model.receiver.sequence.trellis import Word
 
-_MOST_TURNS = 8
+_MAX_TURNS = 8
 """Most times that the timing is improved in a part: each moves its ends by a tenth of a chip."""
 
 _SETTLED = 0.01
@@ -55,7 +55,7 @@ def _in_part(
     seen = replace(rows, light=rows.light[part])
     bright = Brightness(brightness.dark[part], brightness.swing[part])
     here = replace(timing, phase=timing.phase + timing.step * first)
-    for _ in range(_MOST_TURNS):
+    for _ in range(_MAX_TURNS):
         before = here
         here, _bright = improve(seen, detect(seen, here, bright, words))
         if abs(here.step - before.step) * size < _SETTLED:

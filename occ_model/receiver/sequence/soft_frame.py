@@ -15,7 +15,7 @@ from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import packet_length
 from occ_model.transmitter.scheme import Scheme
 
-_MOST_LOG_RATIO = 700.0
+_MAX_LOG_RATIO = 700.0
 """Log-likelihood ratio above which its exponential is not told from infinity."""
 
 _REPETITIONS = 3
@@ -79,8 +79,8 @@ def likeliest_packet(folded: FloatArray, bits: int) -> SoftFrame:
     level = np.concatenate([[HEADER[-1]], levels[start] > 0.0]).astype(np.uint8)
     sureness = np.abs(levels[start])
     # A bit is 1 where the level changes: wrong where one of both levels is.
-    least = np.minimum(sureness, np.concatenate([[_MOST_LOG_RATIO], sureness[:-1]]))
-    lead = min(float(score[start] - np.delete(score, start).max()), _MOST_LOG_RATIO)
+    least = np.minimum(sureness, np.concatenate([[_MAX_LOG_RATIO], sureness[:-1]]))
+    lead = min(float(score[start] - np.delete(score, start).max()), _MAX_LOG_RATIO)
     right = probability(sureness).prod() / (1.0 + np.exp(-lead))
     framed = Framed((start,), level[1:] ^ level[:-1])
     return SoftFrame(framed, float(right), probability(least))
@@ -120,4 +120,4 @@ def _sureness(
 
 def probability(ratio: FloatArray) -> FloatArray:
     """Return the probability that a log-likelihood ratio stands for."""
-    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(ratio, -_MOST_LOG_RATIO, _MOST_LOG_RATIO))))
+    return np.asarray(1.0 / (1.0 + np.exp(-np.clip(ratio, -_MAX_LOG_RATIO, _MAX_LOG_RATIO))))

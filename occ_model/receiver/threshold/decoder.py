@@ -15,7 +15,7 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of
 
-_FEWEST_RUNS = 3
+_MIN_RUNS = 3
 """Fewest whole runs from which a chip's length is estimated."""
 
 
@@ -94,7 +94,7 @@ def _read(signal: FloatArray, scene: Scene) -> DecodeResult:
     runs = runs_of((signal > threshold).astype(np.uint8))
     result = replace(result, threshold=threshold, runs=runs)
     whole = Runs(runs.values[1:-1], runs.lengths[1:-1])
-    if len(whole.lengths) < _FEWEST_RUNS:
+    if len(whole.lengths) < _MIN_RUNS:
         return replace(
             result,
             failure=f"Too few stripes: {len(whole.lengths)} whole ones fit the panel's image; "

@@ -1,1 +1,1 @@
-"""How deep the bars of a picture are, which settings show none, and what the eye sees."""
+"""Depth of the bars in a picture, settings without bars, and flicker for the eye."""

@@ -1,4 +1,4 @@
-"""Which exposures, frequencies and shutter speeds show no bars."""
+"""Exposures, frequencies and shutter speeds without bars."""
 
 from collections.abc import Callable
 
@@ -6,17 +6,17 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
-from occ_model.results.bands import BARELY, BandAdvice, SpeedDepth
+from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, SpeedDepth
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_depth
 from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.bands.shutter_speeds import shutter_speeds
 
-_MOST_CHIPS = 10_000
-"""From exposures of as many chips on, ranges are given by a bound of the code's bars only."""
+_MAX_CHIPS = 10_000
+"""Exposure in chips from which the code's bars are bounded, not computed."""
 
-_LEAST_LIMIT = 1e-4
+_MIN_LIMIT = 1e-4
 
 _HALVINGS = 60
 
@@ -26,19 +26,18 @@ Depths = Callable[[FloatArray], FloatArray]
 Ranges = tuple[tuple[float, float], ...]
 
 
-def band_advice(scene: Scene, limit: float = BARELY) -> BandAdvice:
-    """Find what shows bars of less than a depth: exposures, frequencies, shutter speeds.
+def band_advice(scene: Scene, limit: float = NO_BARS_DEPTH) -> BandAdvice:
+    """Find exposures, frequencies and shutter speeds with bars below a depth.
 
-    Exposures are those at the scene's switching frequency, frequencies those at its exposure time.
-    Both are counted for sharp edges, so that they hold with an LED's edges too, where the true
-    ranges are wider. The depth at shutter speeds counts the edges.
+    Exposures hold at the scene's switching frequency, frequencies at its exposure time. Both are
+    computed for sharp edges, the worst case; the depth at shutter speeds includes the LED's edges.
 
     Parameters
     ----------
     scene
         The scene.
     limit
-        Largest light less smallest, relative to the mean, below which there are no bars.
+        Peak-to-peak depth relative to the mean, below which there are no bars.
 
     Raises
     ------
@@ -46,9 +45,9 @@ def band_advice(scene: Scene, limit: float = BARELY) -> BandAdvice:
         The limit is out of range.
     """
     over = DepthOver.of(scene)
-    if not _LEAST_LIMIT <= limit <= 1.0:
+    if not _MIN_LIMIT <= limit <= 1.0:
         raise ParameterError.of(
-            "limit", f"{100.0 * limit:g} %", f"{100.0 * _LEAST_LIMIT:g} % to 100 %"
+            "limit", f"{100.0 * limit:g} %", f"{100.0 * _MIN_LIMIT:g} % to 100 %"
         )
     frequency = scene.transmitter.switching_frequency
     exposures, all_exposures = _exposures(over, frequency, limit)
@@ -81,14 +80,14 @@ def _exposures(over: DepthOver, frequency: float, limit: float) -> tuple[Ranges,
     # The code's bars fall as 1 / (f t), the flicker's as 1 / (pi F t).
     flicker = over.of_flicker / np.pi / over.flicker_frequency
     end = (over.most / frequency + flicker) / limit
-    known = min(end, _MOST_CHIPS / frequency)
+    known = min(end, _MAX_CHIPS / frequency)
     nodes = np.arange(1, int(known * frequency) + 1) / frequency
     nulls = np.arange(1, int(end * over.flicker_frequency) + 1) / over.flicker_frequency
     nodes = np.concatenate([nodes, nulls if over.of_flicker else [], [known, end]])
 
     def depths(exposures: FloatArray) -> FloatArray:
         chips = frequency * exposures
-        code = np.where(chips > _MOST_CHIPS, over.most / chips, over.of_code(chips))
+        code = np.where(chips > _MAX_CHIPS, over.most / chips, over.of_code(chips))
         return code + over.flicker(exposures)
 
     return _split(_below(depths, nodes, limit, allowed.low, end), allowed.high)
@@ -100,18 +99,18 @@ def _frequencies(over: DepthOver, exposure: float, limit: float) -> tuple[Ranges
     if left <= 0.0:
         return (), None
     end = over.most / left
-    nodes = np.arange(1, int(min(end, _MOST_CHIPS)) + 1) / exposure
+    nodes = np.arange(1, int(min(end, _MAX_CHIPS)) + 1) / exposure
 
     def depths(frequencies: FloatArray) -> FloatArray:
         chips = frequencies * exposure
-        return np.where(chips > _MOST_CHIPS, over.most / chips, over.of_code(chips))
+        return np.where(chips > _MAX_CHIPS, over.most / chips, over.of_code(chips))
 
     nodes = np.concatenate([nodes, [end / exposure]])
     return _split(_below(depths, nodes, left, allowed.low, end / exposure), allowed.high)
 
 
 def _split(ranges: list[tuple[float, float]], highest: float) -> tuple[Ranges, float | None]:
-    """Part the last range, from which on all is below, from those before, as far as allowed."""
+    """Separate the last range, which extends to infinity, from those before."""
     *others, last = ranges
     kept = tuple((low, min(high, highest)) for low, high in others if low < highest)
     return kept, last[0] if last[0] < highest else None
@@ -120,7 +119,10 @@ def _split(ranges: list[tuple[float, float]], highest: float) -> tuple[Ranges, f
 def _below(
     depths: Depths, nodes: FloatArray, limit: float, low: float, end: float
 ) -> list[tuple[float, float]]:
-    """Return where depths, quasi-concave between nodes, are below a limit; from the end on all."""
+    """Return the ranges in which depths, quasi-concave between nodes, are below a limit.
+
+    From ``end`` on all depths are below.
+    """
     inner = nodes[(nodes > low) & (nodes < end)]
     places = np.unique(np.concatenate([[min(low, end)], inner, [end]]))
     first, last = places[:-1], places[1:]
@@ -142,7 +144,7 @@ def _below(
 
 
 def _peaks(depths: Depths, first: FloatArray, last: FloatArray) -> FloatArray:
-    """Return the place of the largest value between each pair, by golden sections."""
+    """Return the place of the maximum between each pair, by golden-section search."""
     first, last = first.copy(), last.copy()
     for _ in range(_HALVINGS):
         width = _GOLDEN * (last - first)
@@ -153,7 +155,7 @@ def _peaks(depths: Depths, first: FloatArray, last: FloatArray) -> FloatArray:
 
 
 def _crossings(depths: Depths, low: FloatArray, high: FloatArray, limit: float) -> FloatArray:
-    """Return how far from ``low`` towards ``high``, where values rise, they are below a limit."""
+    """Return the crossing of a limit between ``low`` and ``high``, where values rise."""
     is_free = depths(high) < limit
     inner, outer = low.copy(), high.copy()
     for _ in range(_HALVINGS):

@@ -1,8 +1,8 @@
-"""The shutter speed that takes the bars out of a scene's picture, at the same brightness."""
+"""The shutter speed that removes the bars from a picture at the same brightness."""
 
 import numpy as np
 
-from occ_model.results.bands import BARELY, Cure
+from occ_model.results.bands import NO_BARS_DEPTH, Cure
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import duty
@@ -12,7 +12,7 @@ from occ_model.study.bands.shutter_speeds import shutter_speeds
 _NAMED = 2
 
 _SAMPLES = 65
-"""Of the depth over the error of an exposure."""
+"""Number of exposures within the error at which the depth is sampled."""
 
 
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
@@ -30,8 +30,10 @@ def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
         exposures = np.array([exposure])
         return float((over.of_code(frequency * exposures) + over.flicker(exposures))[0])
 
-    as_written = [each for each in reversed(shutter_speeds()) if depth(each.nominal) < BARELY]
-    kept = [each for each in as_written if depth(each.real) < BARELY]
+    as_written = [
+        each for each in reversed(shutter_speeds()) if depth(each.nominal) < NO_BARS_DEPTH
+    ]
+    kept = [each for each in as_written if depth(each.real) < NO_BARS_DEPTH]
     exposure = as_written[0].nominal if as_written else 1.0 / repeats
     cured = as_bright(scene, exposure)
     return Cure(
@@ -41,10 +43,10 @@ def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
 
 
 def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, float]:
-    """Return between which depths the bars in the lamp's own light are."""
+    """Return the range of the present depth of the bars in the lamp's own light."""
     exposure, frequency = scene.camera.exposure_time, scene.transmitter.switching_frequency
     ends = frequency * np.clip(exposure + np.array([-2.0, 2.0]) * error, 0.01 * exposure, None)
-    # Linear over the exposure between whole chips, but for the mean.
+    # The swing is linear in the exposure between whole chips.
     nodes = np.arange(np.ceil(ends[0]), min(ends[1], ends[0] + over.period) + 0.5)
     chips = np.concatenate(
         [np.linspace(float(ends[0]), float(ends[1]), _SAMPLES), nodes[nodes < ends[1]]]
@@ -54,9 +56,9 @@ def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, 
 
 
 def as_bright(scene: Scene, exposure: float) -> Scene:
-    """Return a scene of another exposure time whose picture is as bright, if a camera can.
+    """Return a scene with another exposure time and, where a camera can, equal brightness.
 
-    The ISO speed follows within the usual ones, then the aperture.
+    The ISO speed is adapted within its usual range, then the aperture.
     """
     camera = scene.camera
     low, high = quantity("iso").slider

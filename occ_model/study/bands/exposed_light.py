@@ -1,4 +1,4 @@
-"""The light of an exposure as a function of where in the code it starts, exactly.
+"""The exact light of an exposure as a function of its start within the code.
 
 With sharp edges it is linear between the starts at which an end of the exposure meets a chip's
 edge; with LED edges it is quadratic between these and the ends of the ramps.
@@ -14,13 +14,13 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.edges import EdgedWaveform
 from occ_model.transmitter.waveform import Phases
 
-_EXACT = 3
-"""Nodes of the rule of Gauss that is exact for the square of a quadratic piece."""
+_VARIANCE_NODES = 3
+"""Gauss-Legendre nodes that integrate the square of a quadratic piece exactly."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposedLight:
-    """Light of an exposure less its mean over all starts, in lit chips, piece by piece."""
+    """Light of an exposure minus its mean over all starts, in lit chips, piece by piece."""
 
     lengths: FloatArray  # Shape (pieces,): in chips; they add up to one period
     # Shape (pieces, 3): at the start, the middle and the end of each piece, which is at most
@@ -41,11 +41,11 @@ class ExposedLight:
     @property
     def variance(self) -> float:
         """Return the mean square over all starts."""
-        values, weights = self.sampled(_EXACT)
+        values, weights = self.sampled(_VARIANCE_NODES)
         return float((weights * values**2).sum())
 
     def sampled(self, nodes: int) -> tuple[FloatArray, FloatArray]:
-        """Return values at the nodes of Gauss's rule in each piece, with weights that sum to 1."""
+        """Return values at the Gauss-Legendre nodes of each piece, and weights that sum to 1."""
         place, weight = np.polynomial.legendre.leggauss(nodes)
         place = 0.5 * (place + 1.0)
         first, slope, bend = (each[:, None] for each in self._coefficients())
@@ -59,16 +59,8 @@ class ExposedLight:
 
 
 def exposed_light(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLight:
-    """Return the light of an exposure of a code that is sent repeatedly.
-
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
-    exposure, edge
-        Exposure time and the LED's rise time, in chips.
-    """
-    # Whole periods hold the same light wherever they start.
+    """Return the light of an exposure of a repeated code; ``exposure`` and ``edge`` in chips."""
+    # Whole periods hold the same light for any start.
     part = exposure % len(chips)
     return _ramped(chips, part, edge) if edge else _sharp(chips, part)
 
@@ -76,9 +68,9 @@ def exposed_light(chips: ByteArray, exposure: Fraction, edge: Fraction) -> Expos
 def _sharp(chips: ByteArray, exposure: Fraction) -> ExposedLight:
     """Return the light for sharp edges.
 
-    The exposure is a whole number of chips, and a fraction from -1/2 to 1/2. So the light at the
-    ends of the pieces is a whole number and a product of that fraction, which alone remain where
-    the bars vanish: nothing is lost by a difference of nearly equal numbers.
+    The exposure is an integer number of chips plus a fraction from -1/2 to 1/2. The light at the
+    ends of the pieces is then an integer plus a product of that fraction, so that no digits are
+    lost where the bars vanish.
     """
     period = len(chips)
     whole = round(exposure)
@@ -87,7 +79,7 @@ def _sharp(chips: ByteArray, exposure: Fraction) -> ExposedLight:
     before = np.concatenate([[0], np.cumsum(level)])
     start = np.arange(period)
     total = int(chips.sum())
-    # In lit chips times the chips of a period, less the mean: whole numbers.
+    # In lit chips times the chips of a period, minus the mean: integers.
     count = period * (before[start + whole] - before[start]) - whole * total
 
     def value(of: np.ndarray, lit: np.ndarray) -> FloatArray:

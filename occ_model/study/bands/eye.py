@@ -1,9 +1,9 @@
-"""How the lamp's light flickers for the eye: flicker index, IEEE 1789-2015, SVM.
+"""Flicker of a lamp for the eye: flicker index, IEEE 1789-2015, SVM.
 
-The texts of IEEE Std 1789-2015 and IEC TR 63158:2018 are not free and were not checked. The lines
-of the former are as lighting makers quote its recommended practices 1 and 2; the measure of the
-latter is as published by M. Perz and others, Stroboscopic effect: contrast threshold function and
-dependence on illumination level, J. Opt. Soc. Am. A 35 (2018) 309.
+The texts of IEEE Std 1789-2015 and IEC TR 63158:2018 were not available. The limits of the former
+are those that manufacturers quote from its recommended practices 1 and 2; SVM is as published by M.
+Perz and others, Stroboscopic effect: contrast threshold function and dependence on illumination
+level, J. Opt. Soc. Am. A 35 (2018) 309.
 """
 
 import numpy as np
@@ -17,28 +17,28 @@ from occ_model.transmitter.packet import sent_chips
 
 NO_EFFECT, LOW_RISK, ABOVE = "no effect", "low risk", "above low risk"
 
-_SLOW = 90.0
-"""Hz below which the lines of IEEE 1789-2015 are lower."""
+_BREAK_FREQUENCY = 90.0
+"""Hz below which the limits of IEEE 1789-2015 are stricter."""
 
 _LOW_RISK = (0.025, 0.08, 1250.0)
 _NO_EFFECT = (0.01, 0.0333, 3000.0)
-"""Percent of modulation for each Hz below 90 Hz and above, and where the line ends, in Hz."""
+"""Percent of modulation per Hz below and above 90 Hz, and the line's end in Hz."""
 
-_VISIBLE = (80.0, 2000.0)
-"""Hz between which SVM counts sines."""
+_SVM_BAND = (80.0, 2000.0)
+"""Hz."""
 
-_EXPONENT = 3.7
-"""Of the sum of the sines in SVM."""
+_SVM_EXPONENT = 3.7
+"""Of the Minkowski sum over the components."""
 
-_MOST_CHIPS = 64
-"""Sines are counted to as many times the switching frequency; those above are weaker than 1 %."""
+_MAX_CHIPS = 64
+"""Highest component included, in switching frequencies; higher ones are below 1 %."""
 
 
 def eye_flicker(scene: Scene) -> EyeFlicker:
-    """Return how the light of a scene's lamp flickers for the eye, as its code is sent repeatedly.
+    """Return the flicker measures of a scene's lamp while its code is repeated.
 
-    The lamp's own light alone, with its edges: light from elsewhere makes all measures smaller, and
-    a code that changes from packet to packet has slower parts besides.
+    They hold for the lamp's own light, including its edges: ambient light reduces them, and a code
+    that changes between packets adds slower components.
 
     Parameters
     ----------
@@ -66,33 +66,36 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
 
 
 def risk_limits(frequencies: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return the largest modulation in percent of no effect and of low risk at some frequencies."""
+    """Return the limits of modulation in percent for no effect and low risk."""
     lines = []
     for slow, fast, end in (_NO_EFFECT, _LOW_RISK):
-        line = np.where(frequencies < _SLOW, slow, fast) * frequencies
+        line = np.where(frequencies < _BREAK_FREQUENCY, slow, fast) * frequencies
         lines.append(np.where(frequencies > end, np.inf, line))
     return lines[0], lines[1]
 
 
 def risk_lines() -> RiskLines:
-    """Return the corners of both lines on a chart of logarithms, from 1 Hz on."""
+    """Return the corners of both lines in a log-log chart from 1 Hz on."""
     lines = [
-        np.array([(at, rate * at) for rate, ends in ((slow, (1.0, _SLOW)), (fast, (_SLOW, end)))
-                  for at in ends])
+        np.array([
+            (at, rate * at)
+            for rate, ends in ((slow, (1.0, _BREAK_FREQUENCY)), (fast, (_BREAK_FREQUENCY, end)))
+            for at in ends
+        ])
         for slow, fast, end in (_NO_EFFECT, _LOW_RISK)
     ]  # fmt: skip
     return RiskLines(*lines)
 
 
 def threshold(frequencies: FloatArray) -> FloatArray:
-    """Return the modulation, 0 to 1, of which half of the observers see the stroboscopic effect."""
+    """Return the modulation, 0 to 1, at which half of the observers see the effect."""
     return np.asarray(2.865e-5 * frequencies**1.543 + 0.225)
 
 
 def _visibility(frequencies: FloatArray, modulations: FloatArray) -> float:
-    seen = (frequencies >= _VISIBLE[0]) & (frequencies <= _VISIBLE[1])
+    seen = (frequencies >= _SVM_BAND[0]) & (frequencies <= _SVM_BAND[1])
     ratios = modulations[seen] / threshold(frequencies[seen])
-    return float((ratios**_EXPONENT).sum() ** (1.0 / _EXPONENT))
+    return float((ratios**_SVM_EXPONENT).sum() ** (1.0 / _SVM_EXPONENT))
 
 
 def _risk(frequencies: FloatArray, modulations: FloatArray) -> str:
@@ -103,19 +106,19 @@ def _risk(frequencies: FloatArray, modulations: FloatArray) -> str:
 
 
 def _lit_chips(scene: Scene) -> ByteArray:
-    """Return the chips in which there is light: none of a lamp that is off."""
+    """Return the lit chips; none for a lamp without luminance."""
     chips = sent_chips(scene.transmitter)
     return chips if scene.transmitter.luminance else np.zeros_like(chips)
 
 
 def _levels(scene: Scene) -> tuple[float, float, float]:
-    """Return the least and the most light over a period, and the mean light above the mean."""
+    """Return the minimum and maximum light over a period, and the mean excess above the mean."""
     chips = _lit_chips(scene)
     lit = float(chips.mean())
     edge = edge_in_chips(scene)
     if not edge:
         return float(chips.min()), float(chips.max()), lit * (1.0 - lit)
-    # The ramps are the running mean of the chips over the edge time: as of an exposure with none.
+    # The ramps are a moving average of the chips over the edge time, as an exposure is.
     light = exposed_light(chips, edge, edge * 0)
     lengths, (first, _, last) = light.lengths / len(chips), light.values.T / float(edge)
     low, high = (value / float(edge) for value in light.extremes)
@@ -127,11 +130,11 @@ def _levels(scene: Scene) -> tuple[float, float, float]:
 
 
 def _sines(scene: Scene) -> tuple[FloatArray, FloatArray]:
-    """Return the frequencies in Hz of the light's sines, and amplitudes in % of the mean."""
+    """Return the Fourier components: frequencies in Hz, amplitudes in percent of the mean."""
     chips = _lit_chips(scene)
     period, total = len(chips), int(chips.sum())
     base = scene.transmitter.switching_frequency / period
-    count = int(min(_NO_EFFECT[2] / base, _MOST_CHIPS * period))
+    count = int(min(_NO_EFFECT[2] / base, _MAX_CHIPS * period))
     order = np.arange(1, count + 1)
     of_a_chip = order / period
     sent = 2.0 * np.abs(np.fft.fft(chips))[order % period] / max(total, 1)

@@ -1,4 +1,4 @@
-"""The depth of the bars over ranges of frequency and exposure, for sharp edges."""
+"""Depth of the bars over ranges of frequency and exposure, for sharp edges."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -13,28 +13,26 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.depth import light_shares
 from occ_model.transmitter.packet import sent_chips
 
-_MOST_NODES = 10_000
-"""Whole chips of a range that are looked at; by then bars are far below what is seen."""
+_MAX_NODES = 10_000
+"""Maximum number of nodes evaluated in a range; beyond, bars are invisible."""
 
-_EXPOSURES = (1e-5, 0.1)
-"""Ends of the map's exposures in s: up to usual shutter speeds, past the slider."""
+_MAP_EXPOSURES = (1e-5, 0.1)
+"""Seconds; to usual shutter speeds, beyond the slider."""
 
-_CELLS = 120
-"""On each side of the map."""
+_MAP_CELLS = 120
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DepthOver:
-    """Peak to peak depth of a scene's light at any frequency and exposure.
+    """Peak-to-peak depth of a scene's light at any frequency and exposure.
 
-    Of an exposure of a chips the light varies by a number of lit chips that repeats with the code,
-    and is linear in a between whole chips. An LED's edges only average it further: with them bars
-    are at most as deep.
+    The light of an exposure of a chips varies by a number of lit chips that is periodic in a with
+    the code and linear between integers. An LED's edges can only reduce it.
     """
 
-    # Shape (chips + 1,): largest less smallest number of lit chips in exposures of 0, 1, ... chips.
+    # Shape (chips + 1,): range of the number of lit chips in exposures of 0, 1, ... chips
     swing: FloatArray
-    # Light of the lit lamp, and largest swing of the surroundings', relative to the mean
+    # Light of the lit lamp, and largest swing of the ambient light, relative to the mean
     of_lamp: float
     of_flicker: float
     flicker_frequency: float  # Hz
@@ -51,49 +49,38 @@ class DepthOver:
 
     @property
     def period(self) -> int:
-        """Chips after which the code repeats, the fewest: exposures of as many show no bars."""
+        """Fundamental period of the code in chips: such exposures show no bars."""
         return int(np.flatnonzero(self.swing[1:] == 0.0)[0]) + 1
 
     @property
     def most(self) -> float:
-        """Bound of the depth of the code's bars, times the chips of an exposure."""
+        """Bound of the code's depth times the exposure in chips."""
         return self.of_lamp * float(self.swing.max())
 
     def of_code(self, chips: FloatArray) -> FloatArray:
-        """Return the depth of the code's bars in exposures of some chips."""
+        """Return the depth of the code's bars for exposures in chips."""
         return np.asarray(self.of_lamp * self.swing_in(chips) / chips)
 
     def swing_in(self, chips: FloatArray) -> FloatArray:
-        """Return the largest less the smallest number of lit chips in exposures of some chips."""
+        """Return the range of the number of lit chips for exposures in chips."""
         period = len(self.swing) - 1
         return np.asarray(np.interp(chips % period, np.arange(period + 1), self.swing))
 
     def flicker(self, exposures: FloatArray) -> FloatArray:
-        """Return the depth that the surroundings' flicker has in some exposures, in seconds."""
+        """Return the depth of the ambient flicker for exposures in seconds."""
         return np.asarray(self.of_flicker * np.abs(np.sinc(self.flicker_frequency * exposures)))
 
     def least(self, frequency: float, ends: FloatArray) -> FloatArray:
-        """Return the least depth within ranges of exposures, at a switching frequency.
+        """Return the smallest depth within each range of exposures, between ``ends`` in seconds.
 
-        Between whole chips, and between the flicker's nulls, the depth is quasi-concave: the least
-        is at one of these or at an end.
-
-        Parameters
-        ----------
-        frequency
-            In Hz.
-        ends : ndarray of float64, shape (ranges + 1,)
-            Where each range ends and the next starts, in seconds.
-
-        Returns
-        -------
-        ndarray of float64, shape (ranges,)
+        The depth is quasi-concave between whole chips and between the flicker's nulls, so the
+        minimum lies at one of these or at an end.
         """
         at_ends = self.of_code(frequency * ends) + self.flicker(ends)
         least = np.minimum(at_ends[:-1], at_ends[1:])
         for rate in (frequency, self.flicker_frequency):
             node = np.maximum(np.ceil(rate * ends[:-1]), 1.0)
-            for _ in range(_MOST_NODES):
+            for _ in range(_MAX_NODES):
                 inside = node <= rate * ends[1:]
                 if not inside.any():
                     break
@@ -106,11 +93,11 @@ class DepthOver:
 
 
 def depth_map(scene: Scene) -> DepthMap:
-    """Return the least depth of a scene's bars over frequency and exposure."""
+    """Return the smallest depth of a scene's bars in each cell of frequency and exposure."""
     over = DepthOver.of(scene)
     frequencies, exposures = (
-        np.geomspace(*ends, _CELLS + 1)
-        for ends in (quantity("switching_frequency").slider, _EXPOSURES)
+        np.geomspace(*ends, _MAP_CELLS + 1)
+        for ends in (quantity("switching_frequency").slider, _MAP_EXPOSURES)
     )
     middles = np.sqrt(frequencies[:-1] * frequencies[1:])
     least = np.stack([over.least(float(each), exposures) for each in middles])
@@ -119,11 +106,11 @@ def depth_map(scene: Scene) -> DepthMap:
 
 @lru_cache(maxsize=16)
 def _swing(chips: bytes) -> FloatArray:
-    """Return the largest less the smallest number of lit chips in each whole number of chips."""
+    """Return the range of the number of lit chips for each integer exposure in chips."""
     level = np.frombuffer(chips, dtype=np.uint8).astype(np.int64)
     period = len(level)
     before = np.concatenate([[0], np.cumsum(np.tile(level, 2))])
-    # As many chips are dark without an exposure as within it: the two halves are alike.
+    # Chips inside and outside an exposure complement each other: the halves are symmetric.
     half = [float(np.ptp(before[k : k + period] - before[:period])) for k in range(period // 2 + 1)]
     swing = np.empty(period + 1)
     swing[: len(half)] = half

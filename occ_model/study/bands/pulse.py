@@ -1,4 +1,4 @@
-"""A lamp that is dimmed by pulses: the depth of its bars in closed form."""
+"""Closed-form depth of the bars of a lamp dimmed by pulse-width modulation."""
 
 import math
 from fractions import Fraction
@@ -8,9 +8,9 @@ from occ_model.results.bands import Depth
 
 
 def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
-    """Return the depth of the bars of a lamp that is lit for a part of each period.
+    """Return the depth of the bars of a lamp with pulse-width modulation.
 
-    Of an exposure of a = n + r periods the n whole ones hold the same light wherever they start.
+    Of an exposure of a = n + r periods the n whole ones hold the same light for any start.
     The light of the rest varies by h = min(r, 1 - r, D, 1 - D) periods: a trapezoid over the start,
     h / (a D) peak to peak relative to the mean. With M = max(min(r, 1 - r), min(D, 1 - D)) its root
     mean square is sqrt(h^2 (M (1 - M) - h / 3)) / (a D).
@@ -25,7 +25,7 @@ def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
     Raises
     ------
     ParameterError
-        One of both is out of range.
+        An argument is out of range.
     """
     if not 0.0 < duty <= 1.0:
         raise ParameterError.of("duty", shown(duty), "above 0, up to 1")

@@ -1,4 +1,4 @@
-"""The shutter speeds of usual cameras: as written on them, and as they are kept."""
+"""Usual shutter speeds of cameras: as marked, and as kept."""
 
 from fractions import Fraction
 
@@ -10,11 +10,11 @@ _THIRDS = (
     "1/250", "1/320", "1/400", "1/500", "1/640", "1/800", "1/1000", "1/1250", "1/1600", "1/2000",
     "1/2500", "1/3200", "1/4000", "1/5000", "1/6400", "1/8000",
 )  # fmt: skip
-"""In seconds, as cameras offer them in thirds of a stop. What is written is rounded: the k-th is
-2^(-k/3) s, so that 1/60 s is 1/64 s and 1/125 s is 1/128 s."""
+"""Marked times in seconds, in thirds of a stop. The k-th is really 2^(-k/3) s, so that 1/60 s is
+1/64 s and 1/125 s is 1/128 s."""
 
 _OTHERS = ("1/48", "1/96", "1/120", "1/240")
-"""Those of film cameras and phones, which are kept as they are written."""
+"""Times of film cameras and phones, which are kept as marked."""
 
 
 def shutter_speeds() -> tuple[ShutterSpeed, ...]:

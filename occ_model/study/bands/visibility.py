@@ -1,39 +1,32 @@
-"""From which contrast on bars are seen, by how fine they are."""
+"""Contrast threshold of bars by their spatial frequency."""
 
 import math
 
 from occ_model.scene.scene import Scene
 
-_WEBER = 0.01
-"""Least relative difference of luminance that is seen, about 1 %. Values from 0.5 to 2 % are used,
-by the conditions (C. Poynton, Digital Video and HD, 2012)."""
+_WEBER_FRACTION = 0.01
+"""Smallest visible relative difference of luminance. Values from 0.5 to 2 % are in use (C. Poynton,
+Digital Video and HD, 2012)."""
 
-_VIEW = 40.0
-"""Degrees that the picture's scan axis spans where it is looked at: about as wide as far."""
+_VIEWING_ANGLE = 40.0
+"""Degrees that the picture's scan axis spans for the viewer."""
 
-_PEAK = 7.89
-"""Cycles per degree to which the eye is most sensitive by the curve below."""
+_PEAK_FREQUENCY = 7.89
+"""Cycles per degree of the maximum of the sensitivity curve below."""
 
 
 def contrast_threshold(scene: Scene, period: float) -> float:
-    """Return the contrast from which bars are seen, peak to peak over the mean.
+    """Return the contrast from which bars are visible, peak to peak over the mean.
 
-    1 % for bars that the eye sees best, and for wider ones, as bars have edges; for finer ones it
-    rises as the sensitivity falls by J. L. Mannos and D. J. Sakrison, The effects of a visual
+    1 % at the peak of the eye's sensitivity and for wider bars, as these have edges; finer bars
+    follow the sensitivity of J. L. Mannos and D. J. Sakrison, The effects of a visual
     fidelity criterion on the encoding of images, IEEE Trans. Inf. Theory 20 (1974) 525. It is a
-    rule of thumb, within a factor of two for one person and one screen: noise, texture and a moving
-    picture hide bars, an eye that searches finds fainter ones.
-
-    Parameters
-    ----------
-    scene
-        Its number of columns is used: the picture is seen as a whole.
-    period
-        Columns from bar to bar.
+    rule of thumb, within a factor of two: noise, texture and motion hide bars. ``period`` is in
+    columns.
     """
-    cycles = scene.camera.columns / _VIEW / period
-    relative = _sensitivity(max(cycles, _PEAK)) / _sensitivity(_PEAK)
-    return _WEBER / relative if relative else math.inf
+    cycles = scene.camera.columns / _VIEWING_ANGLE / period
+    relative = _sensitivity(max(cycles, _PEAK_FREQUENCY)) / _sensitivity(_PEAK_FREQUENCY)
+    return _WEBER_FRACTION / relative if relative else math.inf
 
 
 def _sensitivity(cycles: float) -> float:

@@ -1,9 +1,9 @@
-"""Measure bit error rates over exposure and noise: any scheme, any decoder, one closed setting.
+"""Measure bit error rates over exposure and noise, of any scheme and decoder.
 
-Rows see the chips through their exposure, and have independent noise; nothing else happens. The
-settings are those of the published benchmark of rolling-shutter equalizers: exposures of one to
-seven symbols, four to seven rows a symbol, Manchester (C. Jurado-Verdu et al., Opt. Express
-29:22973, 2021). A symbol is a chip.
+Rows integrate the chips over their exposure and have independent noise, nothing else. The settings
+are those of the published benchmark of rolling-shutter equalizers: exposures of one to seven
+symbols, four to seven rows a symbol, Manchester (C. Jurado-Verdu et al., Opt. Express 29:22973,
+2021). A symbol is a chip.
 """
 
 import math
@@ -31,7 +31,7 @@ _DARK, _SWING = 40.0, 160.0
 
 _ROWS_A_SYMBOL = (1.0, 100.0)
 _LONGEST_EXPOSURE = 100.0
-_MOST_DECIBELS = 100.0
+_MAX_DECIBELS = 100.0
 
 
 def bench(
@@ -50,13 +50,7 @@ def bench(
 def measure_bench_point(
     request: BenchRequest, place: BenchPlace, heartbeat: Heartbeat = lambda: None
 ) -> tuple[BenchPoint, ...]:
-    """Measure one point of a request, which :func:`check_bench` allows.
-
-    Returns
-    -------
-    tuple of BenchPoint
-        One a decoder. It depends on neither the other decoders nor the other points.
-    """
+    """Measure one point of a checked request: a result for each decoder, independent of others."""
     scheme, _, exposure, ratio = place
     scene = bench_scene(request, scheme, exposure)
     names = request.decoders or decoders()
@@ -73,8 +67,8 @@ def measure_bench_point(
         signal = bench_signal(sent, ratio, random)
         for name in names:
             read = decode(signal, sent, name)
-            # Bits that the decoder does not accept count in the rate too: theory, with which it is
-            # compared, decides every bit. They are no payload that was read.
+            # Rejected bits count in the rate, as theory decides every bit, but not as a payload
+            # read.
             is_whole = read.bits.size == length
             wrong[name].append(int((read.bits != bits).sum()) if is_whole else length)
             right[name] += read.failure is None and not wrong[name][-1]
@@ -100,20 +94,14 @@ def check_bench(request: BenchRequest) -> None:
     for exposure in (*request.exposures, request.at_exposure):
         _check("exposure in symbols", exposure, 1e-3, _LONGEST_EXPOSURE)
     for ratio in (*request.decibels, request.at_decibels):
-        _check("signal-to-noise ratio in dB", ratio, -_MOST_DECIBELS, _MOST_DECIBELS)
+        _check("signal-to-noise ratio in dB", ratio, -_MAX_DECIBELS, _MAX_DECIBELS)
     for scheme in request.schemes:
         scene = bench_scene(request, scheme)
-        _ = scheme_of(scene.transmitter).length  # refused where its parts do not go together
+        _ = scheme_of(scene.transmitter).length  # raises where its parts are incompatible
 
 
 def bench_scene(request: BenchRequest, scheme: str, exposure: float = 1.0) -> Scene:
-    """Return the scene of a point, whose rows are the columns of its picture.
-
-    Parameters
-    ----------
-    exposure
-        In symbols.
-    """
+    """Return the scene of a point, whose rows are its columns; ``exposure`` in symbols."""
     line_code, _, framing = scheme.partition("/")
     symbol = request.rows_a_symbol * request.readout_time
     check_count("payload_bits", request.payload_bits, 1, MAX_PAYLOAD_BITS)

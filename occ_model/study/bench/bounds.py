@@ -1,4 +1,4 @@
-"""What theory says of a bench: the nulls of the exposure, and the most bits of a picture."""
+"""Theoretical bounds of a bench: nulls of the exposure, and maximum bits of a picture."""
 
 import numpy as np
 
@@ -7,18 +7,17 @@ from occ_model.results.bench import BenchBounds, BenchRequest
 from occ_model.study.bench.bench import bench_scene
 from occ_model.study.theory import gaussian_rate_bound
 
-_PLACES = 31
-"""Places of a curve of the bound."""
+_CURVE_POINTS = 31
 
-_NULL = 2.0
-"""Exposures, in symbols, that collect as much of either of two chips that alternate."""
+_NULL_EXPOSURE = 2.0
+"""Exposure in symbols of the first null of alternating chips; the others are its multiples."""
 
 
 def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> BenchBounds:
-    """Compute what theory says along both axes of a request.
+    """Compute the theoretical bounds along both axes of a request.
 
-    The nulls are those of chips that alternate, the fastest wave of each line code: its frequency
-    is f/2, and |sinc(t f / 2)| is nothing where the exposure lasts an even number of symbols. The
+    The nulls are those of alternating chips, the fastest wave of each line code: its frequency
+    is f/2, and |sinc(t f / 2)| vanishes where the exposure lasts an even number of symbols. The
     most bits are :func:`occ_model.study.theory.gaussian_rate_bound`, which no scheme changes.
     """
 
@@ -30,7 +29,7 @@ def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> 
     exposures, ratios = _between(request.exposures), _between(request.decibels)
     longest = max(request.exposures, default=0.0)
     return BenchBounds(
-        tuple(_NULL * number for number in range(1, int(longest / _NULL) + 1)),
+        tuple(_NULL_EXPOSURE * number for number in range(1, int(longest / _NULL_EXPOSURE) + 1)),
         {
             "exposure": (exposures, tuple(bound(at, request.at_decibels) for at in exposures)),
             "noise": (ratios, tuple(bound(request.at_exposure, at) for at in ratios)),
@@ -42,4 +41,4 @@ def _between(values: tuple[float, ...]) -> tuple[float, ...]:
     """Return places from the least to the largest of some values."""
     if not values:
         return ()
-    return tuple(np.linspace(min(values), max(values), _PLACES).tolist())
+    return tuple(np.linspace(min(values), max(values), _CURVE_POINTS).tolist())

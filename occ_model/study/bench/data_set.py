@@ -1,10 +1,10 @@
-"""Measure decoders on a public data set: a folder of pictures, and a CSV that says how each came.
+"""Measure decoders on a public data set: a folder of pictures and a CSV of their settings.
 
 The layout is that of "Effects of the camera's exposure time on Rolling Shutter based Optical Camera
 Communication Links" (figshare 19153166): ``relative_path`` names a picture, ``tclk`` is the length
 of a tick in seconds, and ``sampling_ticks``, ``exposure_ticks`` and ``txsymbol_ticks`` are the time
-between rows, the exposure and a symbol. What was sent is not in it; so the table says how well the
-chips found explain a picture, and how many of them are wrong by their own likelihoods.
+between rows, the exposure and a symbol. It does not contain the data sent, so the results are how
+well the chips explain a picture and how many of them are wrong by their own likelihoods.
 """
 
 import csv
@@ -42,11 +42,11 @@ class SampleReading:
     sample: Sample
     decoder: str
     chips: int
-    # Of the chips' light with the signal; None where the decoder has no model of it
+    # Of the chips' predicted light with the signal; None for decoders without a model
     correlation: float | None
-    # Share of the chips that are wrong by their own likelihoods; None without any
+    # Fraction of the chips that are wrong by their own likelihoods; None without any
     wrong_chips: float | None
-    failure: str | None  # None, or a sentence that says why there are no chips
+    failure: str | None  # None, or a sentence on why there are no chips
 
 
 def load_samples(table: Path) -> tuple[Sample, ...]:
@@ -61,7 +61,7 @@ def load_samples(table: Path) -> tuple[Sample, ...]:
             _sample(row, table.parent, f"{name}, line {line}") for line, row in enumerate(rows, 2)
         )
     except csv.Error as error:  # such as a cell of more than 131,072 characters
-        raise PhotoError(f"{name} is no table: {one_line(str(error))}.") from None
+        raise PhotoError(f"{name} is not a table: {one_line(str(error))}.") from None
 
 
 def _sample(row: dict[str, str | None], folder: Path, where: str) -> Sample:
@@ -80,7 +80,7 @@ def _path(text: str | None, folder: Path, where: str) -> Path:
     try:
         path = (folder / text).resolve()
         is_inside = path.is_relative_to(folder.resolve())
-    except (OSError, ValueError, RuntimeError):  # no file can have the name, or a link to itself
+    except (OSError, ValueError, RuntimeError):  # an impossible name, or a link to itself
         raise PhotoError(f"{where}: {shown(text)} cannot be the name of a file.") from None
     if not is_inside:
         raise PhotoError(f"{where}: {shown(text)} is outside the folder of the data set.")

@@ -14,7 +14,7 @@ FRAME_PERIOD = Fraction(333, 10_000)
 """Seconds from frame to frame."""
 
 GAP = Fraction(1, 5)
-"""Share of the frame period."""
+"""Fraction of the frame period."""
 
 FREQUENCY = 8000.0
 PACKET_CHIPS = 4 + 2 * (8 + 16)
@@ -26,7 +26,7 @@ _STEP = Fraction(1, 10_000)
 """Seconds in whose multiples the published simulator counts time."""
 
 _ERRORS = Fraction(1, 100)
-"""Share of the packets in view that it loses."""
+"""Fraction of the packets in view that it loses."""
 
 
 def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
@@ -52,7 +52,7 @@ def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
 
 
 def published_rule() -> Fraction:
-    """Return the share of packets that the published simulator's own rule receives.
+    """Return the fraction of packets that the published simulator's own rule receives.
 
     It states no figure. Its rule: the time in view is rounded up to whole milliseconds, a packet is
     received where it starts early enough to end before, and one in a hundred of those is lost. The

@@ -1,7 +1,7 @@
 """Measure how many packets films carry: over frequency, gap and packet length.
 
-Each point is a film that is simulated and read; beside it stands the share of packets that frames
-show whole, counted in exact arithmetic. The difference is what the receiver costs.
+Each point is a film that is simulated and read; beside it stands the fraction of packets that
+frames show whole, counted in exact arithmetic. The difference is what the receiver costs.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -25,7 +25,7 @@ from occ_model.video.render import SimulatedVideo, render_video
 MOST_POINTS = 10_000
 
 _LARGEST_GAP = 0.9
-"""Largest share of a frame period that a gap may take."""
+"""Largest fraction of a frame period that a gap may take."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,7 @@ class FilmRequest:
     # The scene; its readout time follows from the gap, and its payload from the number of bits
     scene: Scene
     frequencies: tuple[float, ...]  # Switching frequencies in Hz
-    gaps: tuple[float, ...]  # Gaps as shares of the frame period, from 0
+    gaps: tuple[float, ...]  # Gaps as fractions of the frame period, from 0
     bits: tuple[int, ...]  # Numbers of bits of a payload
     frame_rate: float = 30.0  # In Hz
     frames: int = 120
@@ -79,7 +79,7 @@ class FilmRequest:
 class FilmPoint:
     """What a film carried."""
 
-    # Switching frequency in Hz, gap as a share of the frame period, bits of the payload
+    # Switching frequency in Hz, gap as a fraction of the frame period, bits of the payload
     frequency: float
     gap: float
     bits: int
@@ -89,7 +89,7 @@ class FilmPoint:
     packets: int
     read: int
     counted: int
-    # Share of packets that frames show whole, on average over the time of the start
+    # Fraction of packets that frames show whole, on average over the time of the start
     on_average: float
     bits_per_second: float  # Bits of the payload in the packets read, a second, repeats included
     # Seconds after which the whole payload was joined; None where it was not
@@ -99,12 +99,12 @@ class FilmPoint:
 
     @property
     def reception(self) -> float:
-        """Share of the packets that were read right; 0 where none was sent."""
+        """Fraction of the packets that were read right; 0 where none was sent."""
         return self.read / self.packets if self.packets else 0.0
 
     @property
     def counted_reception(self) -> float:
-        """Share of the packets that counting finds whole in a frame."""
+        """Fraction of the packets that counting finds whole in a frame."""
         return self.counted / self.packets if self.packets else 0.0
 
 

@@ -56,7 +56,7 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
     """Measure the success rate at all combinations of some parameters' values.
 
     A point's rate is ``success_rate(scene.replace(**point), images, decoder, seed)``: all points
-    have the same seed, and so start times at the same shares of a packet.
+    have the same seed, and so start times at the same fractions of a packet.
 
     Parameters
     ----------

@@ -72,7 +72,7 @@ class GivenExecutor:
         """Do nothing: these workers share no memory with this process."""
 
     def counted(self, counter: int) -> int:  # noqa: ARG002
-        """Give none: these workers share no memory with this process."""
+        """Return none: these workers share no memory with this process."""
         return 0
 
     def renew(self) -> None:
@@ -163,17 +163,17 @@ class _Progress(Generic[Point]):
             yield self._work.job(chosen)
 
     def _size(self) -> int:
-        """Give the number of points in a job: one until their time is known."""
+        """Return the number of points in a job: one until their time is known."""
         each = self._seconds_a_point
         return max(1, int(_JOB_SECONDS / each)) if each else 1
 
     def newly_measured(self) -> list[Point]:
-        """Give the points that were measured since the last call."""
+        """Return the points that were measured since the last call."""
         measured, self._measured = self._measured, []
         return measured
 
     def left(self) -> Iterable[int]:
-        """Give the points without a result."""
+        """Return the points without a result."""
         return chain(self._sent, self._unsent)
 
     def results_ready(self, _channel: int, _run: int, results: list[Any]) -> None:

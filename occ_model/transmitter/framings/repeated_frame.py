@@ -12,7 +12,7 @@ from occ_model.transmitter.framings.framing import (
     is_unique,
 )
 
-_MOST_WHOLE_FRAMES = 32
+_MAX_WHOLE_FRAMES = 32
 """Places of a preamble behind all of which the whole frame is read."""
 
 _CHECKED_CHIPS = 120
@@ -71,7 +71,7 @@ def _candidates(
     Of very many preambles only those count behind which the line code is obeyed.
     """
     headers = find_preambles(chips, preamble)
-    many = len(headers) > _MOST_WHOLE_FRAMES
+    many = len(headers) > _MAX_WHOLE_FRAMES
     tried: set[bytes] = set()
     frames = (_whole(chips, preamble, length, headers), _wrapped(chips, preamble, length))
     for wrapped, datas in enumerate(frames):

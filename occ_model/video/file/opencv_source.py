@@ -10,7 +10,7 @@ from occ_model.errors import VideoError
 from occ_model.video.file.source import FrameSource, StoredFrame, one_channel, too_large
 
 _MILLISECONDS = 1e3
-_MOST_FRAMES, _FASTEST = 1e9, 1e6
+_MAX_FRAMES, _FASTEST = 1e9, 1e6
 _THREADS = 2
 """Threads of FFmpeg. With one for each of many processors, each keeping frames, films of 4K would
 take more memory than the process may have."""
@@ -36,7 +36,7 @@ class OpenCvSource(FrameSource):
         rate = self._capture.get(cv2.CAP_PROP_FPS)
         count = self._capture.get(cv2.CAP_PROP_FRAME_COUNT)
         self.frame_rate = rate if 0.0 < rate < _FASTEST else None
-        self.frame_count = round(count) if 0.0 < count < _MOST_FRAMES else None
+        self.frame_count = round(count) if 0.0 < count < _MAX_FRAMES else None
 
     def read(self) -> StoredFrame | None:
         """Return the next frame, None after the last."""

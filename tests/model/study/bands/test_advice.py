@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.results.bands import BARELY
+from occ_model.results.bands import NO_BARS_DEPTH
 from occ_model.scene.scene import Scene
 from occ_model.study.bands.depth import light_depth
 from occ_model.study.bands.least_depth import DepthOver
@@ -70,9 +70,9 @@ def test_exposures_and_frequencies_without_bars_end_where_the_depth_reaches_the_
         for low, high in ranges:
             assert max(
                 _depth(scene, **{name: at}) for at in np.linspace(low, high, 9)
-            ) <= BARELY * (1 + 1e-9)
-            assert _depth(scene, **{name: low * (1 - 1e-6)}) >= BARELY
-            assert _depth(scene, **{name: high * (1 + 1e-6)}) >= BARELY
+            ) <= NO_BARS_DEPTH * (1 + 1e-9)
+            assert _depth(scene, **{name: low * (1 - 1e-6)}) >= NO_BARS_DEPTH
+            assert _depth(scene, **{name: high * (1 + 1e-6)}) >= NO_BARS_DEPTH
             # Nothing between two ranges was left out.
             gap = np.linspace(before, low, 12)[1:-1]
             assert (
@@ -81,13 +81,13 @@ def test_exposures_and_frequencies_without_bars_end_where_the_depth_reaches_the_
                     for at in gap
                     if at > 1.0 or name[0] == "e"
                 )
-                >= BARELY
+                >= NO_BARS_DEPTH
                 or before == 0.0
             )
             before = high
         for factor in np.geomspace(1.0 + 1e-9, 8.0, 50):
-            assert _depth(scene, **{name: rest * factor}) <= BARELY * (1 + 1e-6)
-        assert _depth(scene, **{name: rest * (1 - 1e-6)}) >= BARELY
+            assert _depth(scene, **{name: rest * factor}) <= NO_BARS_DEPTH * (1 + 1e-6)
+        assert _depth(scene, **{name: rest * (1 - 1e-6)}) >= NO_BARS_DEPTH
 
 
 def test_an_exposure_of_the_advice_s_valley_shows_no_bars_and_none_shorter_does() -> None:
@@ -102,7 +102,7 @@ def test_an_exposure_of_the_advice_s_valley_shows_no_bars_and_none_shorter_does(
 def test_a_lamp_of_120_hz_shows_no_bars_at_a_60th_where_the_camera_keeps_it() -> None:
     # A published list for 300 Hz: no bars at 1/25, 1/30, 1/50, 1/60 and 1/100 s.
     scene = _lamp("10", 600.0, illuminance=0.0)
-    free = {each.name for each in occ.band_advice(scene).speeds if each.at_nominal < BARELY}
+    free = {each.name for each in occ.band_advice(scene).speeds if each.at_nominal < NO_BARS_DEPTH}
     assert {"1/25 s", "1/30 s", "1/50 s", "1/60 s", "1/100 s"} <= free
     assert "1/80 s" not in free
     kept = {each.name: each for each in occ.band_advice(scene).speeds}

@@ -59,11 +59,8 @@ class Transmission:
 def transmission(scene: Scene, board: Board) -> Transmission:
     """Prepare what a board sends.
 
-    Raises
-    ------
-    ParameterError
-        The board cannot blink that fast or that slowly, the packet does not fit into it, or the
-        scene's line code and framing do not go together.
+    Raises ParameterError: the board cannot blink that fast or that slowly, the packet does not fit
+    into it, or the scene's line code and framing do not go together.
     """
     chips = packet(scene)
     room = table_size(board, len(chips))

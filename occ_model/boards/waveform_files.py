@@ -55,10 +55,7 @@ def decimal(value: Fraction) -> str:
 def vcd_text(sent: Transmission) -> str:
     """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact.
 
-    Raises
-    ------
-    OutputError
-        The clock's period is not a whole number of femtoseconds.
+    Raises OutputError: the clock's period is not a whole number of femtoseconds.
     """
     unit, ticks = _vcd_unit(Fraction(1, sent.timing.clock))
     lines = [
@@ -132,10 +129,7 @@ def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
 def wav_bytes(sent: Transmission) -> bytes:
     """Write whole periods of at least one second as a WAV file of 8 bits: 255 is lit, 0 is dark.
 
-    Raises
-    ------
-    OutputError
-        No sample rate serves, or the file would be too large.
+    Raises OutputError: no sample rate serves, or the file would be too large.
     """
     timing = wav_timing(sent)
     period = len(sent.chips) * timing.samples_a_chip

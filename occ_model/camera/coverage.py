@@ -70,12 +70,8 @@ class Coverage:
     A pixel belongs to the panel when its centre lies inside the outline. The blur includes light
     from beyond the picture's rim, as the lens blurs before the sensor cuts.
 
-    Parameters
-    ----------
-    outline : ndarray of float64, shape (corners, 2)
-        (column, row) of each corner, in order round the panel; it may be concave.
-    blur
-        Standard deviation of the blur in pixels; 0 for none.
+    ``outline``: shape (corners, 2); (column, row) of each corner, in order round the panel; it may
+    be concave. ``blur``: standard deviation of the blur in pixels; 0 for none.
     """
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
@@ -238,12 +234,8 @@ def _crossings(
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
     """Find where the outline crosses the rows seen, or the middle one of every ``stride`` rows.
 
-    Returns
-    -------
-    row : ndarray of int64, shape (crossings,)
-        In order.
-    column, sign : ndarray of float64, shape (crossings,)
-        Where, and 1 upwards or -1 downwards.
+    Returns ``row``, shape (crossings,); in order. Returns shape (crossings,); where, and 1 upwards
+    or -1 downwards.
     """
     (x0, y0), (x1, y1) = outline.T, np.roll(outline, -1, axis=0).T
     # Half open, so that a corner on a row is crossed by one of its two edges only.
@@ -264,15 +256,8 @@ def _crossings(
 def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
     """Find the rows of every column between an outline's first edge and its last.
 
-    Parameters
-    ----------
-    outline : ndarray of float64, shape (corners, 2)
-        (column, row) of each corner, in order.
-
-    Returns
-    -------
-    first, last : ndarray of int64, shape (columns,)
-        The first row inside and the one after the last; equal where the column has none.
+    ``outline``: shape (corners, 2); (column, row) of each corner, in order. Returns shape
+    (columns,); the first row inside and the one after the last; equal where the column has none.
     """
     column, row, _ = _crossings(outline[:, ::-1], range(columns), 1)
     top, bottom = np.full(columns, np.inf), np.full(columns, -np.inf)

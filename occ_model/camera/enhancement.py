@@ -40,18 +40,10 @@ class Enhancement:
     A profile that spans less than one grey level is only rounded. One whose values differ by
     nothing but rounding errors has the same grey level everywhere, also half-way between two.
 
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        Grey levels.
-    method
-        ``"equalization"``: histogram equalization of the rounded values, the paper's choice;
-        ``"stretch"``: the smallest rounded value becomes 0, the largest 255; ``"none"``.
-
-    Attributes
-    ----------
-    curve : ndarray of uint8, shape (256,)
-        The enhanced level of each grey level; nowhere falling.
+    ``profile``: shape (columns,); grey levels. ``method``: ``"equalization"``: histogram
+    equalization of the rounded values, the paper's choice; ``"stretch"``: the smallest rounded
+    value becomes 0, the largest 255; ``"none"``. ``curve``: shape (256,); the enhanced level of
+    each grey level; nowhere falling.
     """
 
     def __init__(self, profile: FloatArray, method: str) -> None:
@@ -83,16 +75,8 @@ class Enhancement:
         Q((k + 1/2 - v) / s), Q being the tail of the normal distribution. The mean is the sum of
         the steps times these probabilities, and that of the square likewise.
 
-        Parameters
-        ----------
-        levels : ndarray of float64, shape (values,)
-            Grey levels from 0 to 255, before rounding.
-        spread : ndarray of float64, shape as ``levels``
-            Standard deviation of the noise in grey levels.
-
-        Returns
-        -------
-        mean, deviation : ndarray of float64, shape as ``levels``
+        ``levels``: shape (values,); grey levels from 0 to 255, before rounding. ``spread``: shape
+        as levels; standard deviation of the noise in grey levels. Returns shape as levels.
         """
         mean, deviation, _ = self.smoothed(PassedSteps.of(levels, spread))
         return mean, deviation
@@ -115,10 +99,8 @@ class Enhancement:
     def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
         """Enhance grey levels that are rounded already, shape (rows, columns), if wanted in place.
 
-        Parameters
-        ----------
-        image, out : ndarray of uint8, shape (rows, columns)
-            The grey levels, and where the enhanced ones are written.
+        ``image`` and ``out``: shape (rows, columns); the grey levels, and where the enhanced ones
+        are written.
         """
         return np.asarray(cv2.LUT(image, self.curve, dst=out), dtype=np.uint8)
 
@@ -126,17 +108,9 @@ class Enhancement:
 def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
     """Return the distribution of noisy pixels over the 256 grey levels.
 
-    Parameters
-    ----------
-    levels, spread : ndarray of float64, shape (values,)
-        Mean and standard deviation in grey levels.
-    weights : ndarray of float64, shape (values,)
-        How often each value occurs.
-
-    Returns
-    -------
-    ndarray of float64, shape (256,)
-        Its sum is that of the weights.
+    ``levels`` and ``spread``: shape (values,); mean and standard deviation in grey levels.
+    ``weights``: shape (values,); how often each value occurs. Returns shape (256,); its sum is that
+    of the weights.
     """
     steps = PassedSteps.of(levels, spread)
     edge, passed = steps.edge, steps.passed
@@ -212,13 +186,6 @@ def _equalization(rounded: ByteArray) -> ByteArray:
 def enhance(profile: FloatArray, method: str) -> ByteArray:
     """Enhance the contrast of column values and round them.
 
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        Grey levels.
-
-    Returns
-    -------
-    ndarray of uint8, shape (columns,)
+    ``profile``: shape (columns,); grey levels. Returns shape (columns,).
     """
     return Enhancement(profile, method)(profile)

@@ -30,18 +30,9 @@ def column_phases(
     below 1e-7 chips, so that the error does not grow with the column: about 2e-16 chips after a
     million columns, however many chips a period has.
 
-    Parameters
-    ----------
-    period
-        The number of chips of one sent period.
-    shift
-        Chips added to all starts.
-    columns
-        Number of columns, by default those of the camera.
-
-    Returns
-    -------
-    Phases, shape (columns,), read-only
+    ``period``: the number of chips of one sent period. ``shift``: chips added to all starts.
+    ``columns``: number of columns, by default those of the camera. Returns shape (columns,),
+    read-only.
     """
     wanted = scene.camera.columns if columns is None else columns
     # Parts of a picture are read more often than more than a picture: all share its columns.
@@ -82,16 +73,8 @@ def _step(readout_time: float, frequency: float, period: int) -> Fraction:
 def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
     """Return the phase of a periodic signal at a delay after each column's start, in cycles.
 
-    Parameters
-    ----------
-    frequency
-        Of the signal, in Hz.
-    delay
-        In seconds.
-
-    Returns
-    -------
-    ndarray of float64, shape (columns,), from 0 to below 1
+    ``frequency``: of the signal, in Hz. ``delay``: in seconds. Returns shape (columns,), from 0 to
+    below 1.
     """
     cycles = Fraction(frequency)
     start = (Fraction(scene.model.start_time) + delay) * cycles % 1
@@ -148,9 +131,7 @@ def _steps(step: Fraction, count: int) -> _Steps:
 def lit_fraction(scene: Scene) -> FloatArray:
     """Return the fraction of each column's exposure in which the LED is on, t_on / t.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns,), from 0 to 1; read-only
+    Returns shape (columns,), from 0 to 1; read-only.
     """
     transmitter, camera = scene.transmitter, scene.camera
     return _lit_fraction(

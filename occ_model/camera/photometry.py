@@ -36,19 +36,8 @@ def pixel_value(
 
     PV = 118 (S t L / (K N^2))^(1/gamma), the paper's equations (1) and (2).
 
-    Parameters
-    ----------
-    luminance : ndarray of float64
-        cd/m2.
-    camera
-        Its exposure time, ISO speed, f-number, calibration constant and gamma are used.
-    power
-        Raises to a power.
-
-    Returns
-    -------
-    ndarray of float64, shape as ``luminance``
-        Grey levels; above 255 the pixel is saturated, see :func:`saturate`.
+    ``camera``: its exposure time, ISO speed, f-number, calibration constant and gamma are used.
+    Returns shape as luminance; grey levels; above 255 the pixel is saturated, see :func:`saturate`.
     """
     return np.asarray(_MID_GREY * power(_gain(camera) * luminance, 1.0 / camera.gamma))
 
@@ -103,10 +92,7 @@ def panel_values(
     PV_sim(i) = (PV_max t_on(i) + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged
     and the pixel value is taken of their mean, as light adds up in a sensor before gamma encoding.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns,)
-        Grey levels.
+    Returns shape (columns,); grey levels.
     """
     dark, bright = luminance_levels(scene)
     reflected, emitted = dark * light.ambient, bright - dark

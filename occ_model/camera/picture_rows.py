@@ -74,10 +74,8 @@ class Rows:
     ) -> None:
         """Combine pixels with what is known at the nodes and of the rims, in place.
 
-        Parameters
-        ----------
-        nodes, rims
-            Values in place of those of ``nodes`` and ``rims``, of the same shapes.
+        ``nodes`` and ``rims``: values in place of those of ``nodes`` and ``rims``, of the same
+        shapes.
         """
         places = [rim.columns for rim in self.rims]
         own = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
@@ -152,12 +150,8 @@ class _Lit:
 class PictureRows:
     """The mean pixel values of a picture, of any rows in any order.
 
-    Parameters
-    ----------
-    panels
-        The panels in the picture, through one lens: it darkens all alike.
-    surroundings : ndarray of float64, shape (columns,)
-        Pixel value of each column beside them before saturation.
+    ``panels``: the panels in the picture, through one lens: it darkens all alike. ``surroundings``:
+    shape (columns,); pixel value of each column beside them before saturation.
     """
 
     def __init__(
@@ -180,10 +174,7 @@ class PictureRows:
     def of(self, place: range, stage_ended: Callable[[str], object] = lambda _stage: None) -> Rows:
         """Compute some rows.
 
-        Parameters
-        ----------
-        stage_ended
-            Called with the name of each stage that has just ended.
+        ``stage_ended``: called with the name of each stage that has just ended.
         """
         lit = [
             _Lit(panel, part.columns, None if isinstance(part.fraction, float) else part.fraction)

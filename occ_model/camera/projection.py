@@ -76,11 +76,7 @@ def rays_at(points: FloatArray, rows: int, columns: int, focal_length: float) ->
 def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
     """Return the rays of the pixels in some rows, which may lie between pixels.
 
-    Returns
-    -------
-    x : ndarray of float32, shape (1, columns)
-    y : ndarray of float32, shape (rows, 1)
-        In focal lengths.
+    Returns ``x``, shape (1, columns). Returns ``y``, shape (rows, 1); in focal lengths.
     """
     column, row = _centre(camera)
     x = (np.arange(camera.columns) - column) / camera.focal_length_pixels
@@ -124,15 +120,8 @@ def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray,
     A pixel lies inside when its centre does, or lies on the left or upper rim, so that each pixel
     belongs to only one of two adjacent panels. Corners may lie any distance outside the image.
 
-    Parameters
-    ----------
-    corners : ndarray of float64, shape (corners, 2)
-        (column, row) of each, in order.
-
-    Returns
-    -------
-    first, last : ndarray of int64, shape (rows,)
-        The first column inside and the one after the last; equal where the row has none.
+    ``corners``: shape (corners, 2); (column, row) of each, in order. Returns shape (rows,); the
+    first column inside and the one after the last; equal where the row has none.
     """
     row = np.arange(rows, dtype=np.float64)
     left = np.full(rows, np.inf)
@@ -172,18 +161,9 @@ def paint(
 ) -> ByteArray:
     """Make the image: inside the panel every row carries the profile, outside the surroundings.
 
-    Parameters
-    ----------
-    enhanced : ndarray of uint8, shape (columns,)
-        The column values.
-    corners : ndarray of float64, shape (4, 2)
-        The panel's corners.
-    surroundings : ndarray of uint8, shape (columns,)
-        Grey levels outside the panel.
-
-    Returns
-    -------
-    ndarray of uint8, shape (number of ``rows``, columns)
+    ``enhanced``: shape (columns,); the column values. ``corners``: shape (4, 2); the panel's
+    corners. ``surroundings``: shape (columns,); grey levels outside the panel. Returns shape
+    (number of rows, columns).
     """
     columns = len(enhanced)
     spans = row_spans(corners, rows.stop, columns)

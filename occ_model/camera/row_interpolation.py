@@ -46,12 +46,8 @@ def weighted(weights: Pixels, values: Pixels) -> Pixels:
 def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
     """Return in which columns the rows follow from values at the nodes, shape (columns,).
 
-    Parameters
-    ----------
-    values : ndarray of float32, shape (nodes, columns)
-        In grey levels.
-    tolerance
-        Largest error, in grey levels.
+    ``values``: shape (nodes, columns); in grey levels. ``tolerance``: largest error, in grey
+    levels.
     """
     last = np.abs(weighted(_coefficients()[-2:].astype(np.float32), values))
     return np.asarray(last.sum(axis=0) <= tolerance)

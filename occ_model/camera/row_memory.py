@@ -24,10 +24,7 @@ as much again in objects that are no arrays."""
 class RowMemory:
     """Arrays by what they depend on; those used longest ago are forgotten first.
 
-    Parameters
-    ----------
-    limit
-        Most bytes that they have together.
+    ``limit``: most bytes that they have together.
     """
 
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
@@ -44,10 +41,7 @@ class RowMemory:
     ) -> _Made:
         """Return what was made for a key, or make it.
 
-        Parameters
-        ----------
-        arrays
-            Returns the arrays that it has, which nobody may write to from now on.
+        ``arrays``: returns the arrays that it has, which nobody may write to from now on.
         """
         with self._lock:
             if key in self._known:

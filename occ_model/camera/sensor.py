@@ -69,16 +69,8 @@ def deviation(
     from saturation: a full pixel shows no noise, and one within a deviation of being full shows
     less than a sensor that is saturated by its gain alone.
 
-    Parameters
-    ----------
-    values : ndarray of float64
-        Mean pixel values before saturation.
-    variance
-        Gives the variance of electrons for their mean number.
-
-    Returns
-    -------
-    ndarray of float64, shape as ``values``
+    ``values``: mean pixel values before saturation. ``variance``: gives the variance of electrons
+    for their mean number. Returns shape as values.
     """
     electrons = electrons_of(values, scene)
     square = variance(electrons)

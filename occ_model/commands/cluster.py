@@ -21,10 +21,7 @@ class ClusterError(OccError):
 def cluster_executor(address: str) -> Iterator[Executor]:
     """Return an executor whose workers are those of a dask cluster.
 
-    Parameters
-    ----------
-    address
-        The address of its scheduler, such as ``tcp://10.0.0.5:8786``.
+    ``address``: the address of its scheduler, such as ``tcp://10.0.0.5:8786``.
     """
     try:
         from distributed import Client

@@ -59,17 +59,10 @@ def folder_of_figures(*names: str) -> Written:
 def check_files(options: argparse.Namespace) -> None:
     """Refuse a command line that would write a file over another one that it names.
 
-    Parameters
-    ----------
-    options
-        The parsed command line. ``options.writes``, if there, maps an option to what is written to
-        its path, or to a function that says so of the parsed command line.
-
-    Raises
-    ------
-    OutputError
-        An output is one of the inputs, by its path or by a link; two outputs are one file; or a
-        file has the ending of another kind.
+    ``options``: the parsed command line. ``options.writes``, if there, maps an option to what is
+    written to its path, or to a function that says so of the parsed command line. Raises
+    OutputError: an output is one of the inputs, by its path or by a link; two outputs are one file;
+    or a file has the ending of another kind.
     """
     inputs, outputs = list(_inputs(options)), list(_outputs(options))
     for place, (name, path) in enumerate(outputs):

@@ -67,22 +67,11 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     Each frame shows the panel's picture, the profile with the band model's where there is one, and
     what the decoder reads.
 
-    Parameters
-    ----------
-    path
-        The file: .gif, .mp4 or .png. The scene is kept inside.
-    name, values
-        The parameter, a quantity, and its values in SI units, one a frame.
-    rate
-        Frames a second.
-    progress
-        Called with the number of frames done after each one; what it raises ends the work.
-
-    Raises
-    ------
-    ParameterError
-        The parameter is unknown or no quantity, a value is out of range, there are no values or
-        more than :data:`MOST_FRAMES`, or the rate is not from above 0 to 50 a second.
+    ``path``: the file: .gif, .mp4 or .png. The scene is kept inside. ``name`` and ``values``: the
+    parameter, a quantity, and its values in SI units, one a frame. ``progress``: called with the
+    number of frames done after each one; what it raises ends the work. Raises ParameterError: the
+    parameter is unknown or no quantity, a value is out of range, there are no values or more than
+    :data:`MOST_FRAMES`, or the rate is not from above 0 to 50 a second.
     """
     check_scene(scene)
     ending = path.suffix.lower()

@@ -34,19 +34,10 @@ def write_lesson_report(
 ) -> None:
     """Write the report of a lesson.
 
-    Parameters
-    ----------
-    path
-        The file: .pdf, or .md with its figures in a folder beside it; .png or .svg where one page
-        holds it all.
-    author, date
-        Who wrote it, and when; each may be empty.
-
-    Raises
-    ------
-    OutputError
-        There is no step, the ending is none of these, the report has more than one page and the
-        ending is that of a picture, or a file cannot be written.
+    ``path``: the file: .pdf, or .md with its figures in a folder beside it; .png or .svg where one
+    page holds it all. ``author`` and ``date``: who wrote it, and when; each may be empty. Raises
+    OutputError: there is no step, the ending is none of these, the report has more than one page
+    and the ending is that of a picture, or a file cannot be written.
     """
     if not steps:
         raise OutputError(f"The lesson {one_line(lesson.title)} has no answers to report.")

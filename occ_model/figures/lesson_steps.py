@@ -56,10 +56,7 @@ def draw_page(
 ) -> Figure:
     """Draw a page of A4.
 
-    Parameters
-    ----------
-    first
-        The number of the first of them.
+    ``first``: the number of the first of them.
     """
     figure = Figure(figsize=_PAGE)
     figure.set_layout_engine("none")

@@ -75,12 +75,8 @@ class Difference:
 def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:
     """Draw a photo over the picture that is drawn already, within that picture's limits.
 
-    Parameters
-    ----------
-    cells : ndarray of float64, shape (cell rows, cell columns)
-        The part of the photo that is seen, averaged for print.
-    shape
-        Rows and columns of the whole photo.
+    ``cells``: shape (cell rows, cell columns); the part of the photo that is seen, averaged for
+    print. ``shape``: rows and columns of the whole photo.
     """
     limits = ax.get_xlim(), ax.get_ylim()
     rows, columns = shape

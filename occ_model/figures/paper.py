@@ -139,10 +139,7 @@ def write_rate_figure(
 ) -> None:
     """Write figure 5 or 6: success rate over frequency and distance, at both exposure times.
 
-    Parameters
-    ----------
-    tables
-        The rates of each of the device's presets, measured alike.
+    ``tables``: the rates of each of the device's presets, measured alike.
     """
     settings = next(iter(tables.values())).request.settings
     title = f"Figure {number}: success rate, {device}, {settings.images} images a point"

@@ -14,10 +14,7 @@ def write_table(
 ) -> None:
     """Write a table.
 
-    Parameters
-    ----------
-    rows
-        The rows; None becomes an empty cell.
+    ``rows``: the rows; None becomes an empty cell.
     """
     write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
 

@@ -20,12 +20,8 @@ def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path
     The scene is the one with the frequency that is really sent. All files are made before the first
     is written.
 
-    Returns
-    -------
-    paths : list of Path
-        The files.
-    missing : str
-        Why there is no WAV file, a sentence; empty where there is one.
+    Returns ``paths``, the files. Returns ``missing``, why there is no WAV file, a sentence; empty
+    where there is one.
     """
     contents, missing = _contents(folder, sent)
     make_folder(folder)

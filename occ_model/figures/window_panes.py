@@ -55,10 +55,7 @@ def _named_values(scene: Scene) -> list[str]:
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
     """Write the scene under a figure, and what is told of a photo in it.
 
-    Parameters
-    ----------
-    about
-        A sentence on the photo; empty without one.
+    ``about``: a sentence on the photo; empty without one.
     """
     # Spaces that may not break: lines end after a comma only.
     values = [value.replace(" ", "\xa0") for value in _named_values(scene)]
@@ -83,14 +80,9 @@ def picture_drawing(
 
     The table holds the means of cells of pixels, as small as print can resolve.
 
-    Parameters
-    ----------
-    region
-        The rectangle that the decoder read, None where it read none.
-    whose
-        Whose picture is drawn, the ``"camera"``'s or the ``"receiver"``'s.
-    layer
-        How the photo lies over the picture, or their difference; None for a photo beside it.
+    ``region``: the rectangle that the decoder read, None where it read none. ``whose``: whose
+    picture is drawn, the ``"camera"``'s or the ``"receiver"``'s. ``layer``: how the photo lies over
+    the picture, or their difference; None for a photo beside it.
     """
     image, name = frame.picture(whose), frame.picture_title(whose)
     cells, size = _cells(image)
@@ -182,19 +174,11 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
 ) -> Drawing:
     """Draw the column profiles, and the photo's residual under them.
 
-    Parameters
-    ----------
-    band : ndarray of float64, shape (columns,), or None
-        The band model's profile, None where it is undefined.
-    undefined
-        Why it is undefined, a sentence; empty where it is defined.
-    columns
-        The columns to draw, by default all. The table holds all.
-    enhanced
-        Whether the profiles are those after the receiver's enhancement; ``band`` and ``comparison``
-        then are so already.
-    about
-        What is known of the photo: its name, and what its match has found.
+    ``band``: shape (columns,), or None; the band model's profile, None where it is undefined.
+    ``undefined``: why it is undefined, a sentence; empty where it is defined. ``columns``: the
+    columns to draw, by default all. The table holds all. ``enhanced``: whether the profiles are
+    those after the receiver's enhancement; ``band`` and ``comparison`` then are so already.
+    ``about``: what is known of the photo: its name, and what its match has found.
     """
     simulated = frame.signal if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {

@@ -47,11 +47,8 @@ def write_whole(path: Path, content: bytes) -> None:
 def write_image(path: Path, image: ByteArray, description: str = "") -> None:
     """Write a grey image in the format that the file's ending names.
 
-    Parameters
-    ----------
-    description
-        What it shows: the text ``Description`` of a PNG file, the EXIF tag ``ImageDescription`` of
-        other formats. BMP files hold no texts.
+    ``description``: what it shows: the text ``Description`` of a PNG file, the EXIF tag
+    ``ImageDescription`` of other formats. BMP files hold no texts.
     """
     write_whole(path, _encoded(path, image, description))
 
@@ -59,10 +56,7 @@ def write_image(path: Path, image: ByteArray, description: str = "") -> None:
 def check_replaceable(path: Path) -> int | None:
     """Refuse a path that no file can be written to.
 
-    Returns
-    -------
-    int or None
-        The permissions of the file that is there, None where there is none yet.
+    Returns the permissions of the file that is there, None where there is none yet.
     """
     try:
         mode = path.stat().st_mode

@@ -26,10 +26,7 @@ class Abandoned(Exception):  # noqa: N818 - no error: the result is no longer wa
 class WorkersLostError(OccError):
     """Workers ended, and no others could take over their jobs.
 
-    Parameters
-    ----------
-    times
-        How often workers ended one after the other without a result.
+    ``times``: how often workers ended one after the other without a result.
     """
 
     def __init__(self, reason: str, times: int) -> None:
@@ -147,10 +144,7 @@ def counting_heartbeat(
 ) -> Heartbeat:
     """Make a heartbeat that counts itself and ends a job of an abandoned run.
 
-    Parameters
-    ----------
-    first_runs
-        The earliest run of each channel that is still wanted.
+    ``first_runs``: the earliest run of each channel that is still wanted.
     """
 
     def heartbeat() -> None:

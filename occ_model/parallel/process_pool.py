@@ -28,12 +28,8 @@ _GRACE = 0.2
 class ProcessPool:
     """Processes that live until the pool is closed, and are started by the first job.
 
-    Parameters
-    ----------
-    preload
-        A module that the jobs need: where it can be shared it is imported only once.
-    niceness
-        How far the processes yield to others, as for :func:`os.nice`.
+    ``preload``: a module that the jobs need: where it can be shared it is imported only once.
+    ``niceness``: how far the processes yield to others, as for :func:`os.nice`.
     """
 
     lost_by: tuple[type[Exception], ...] = (BrokenExecutor, CancelledError, *NO_PROCESSES)

@@ -25,10 +25,7 @@ _FILES_OF_SERVER, _FILES_OF_WORKER = 16, 4
 def process_context(preload: Sequence[str]) -> Any:
     """Choose the way in which processes are started.
 
-    Parameters
-    ----------
-    preload
-        Modules that they need; where possible they are imported only once for all.
+    ``preload``: modules that they need; where possible they are imported only once for all.
     """
     # A process forked from one with threads copies locks that no thread will ever release. So it
     # is forked from a server without threads, or started anew where there is no such server.

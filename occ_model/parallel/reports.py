@@ -9,10 +9,7 @@ from occ_model.parallel.request import Run, StageProgress
 class Reports:
     """Reports the results of each channel at intervals.
 
-    Parameters
-    ----------
-    interval
-        Seconds between two reports of a channel, at least.
+    ``interval``: seconds between two reports of a channel, at least.
     """
 
     def __init__(

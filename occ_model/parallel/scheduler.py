@@ -35,16 +35,10 @@ class Scheduler:
     :meth:`put`, :meth:`cancel` and :meth:`close` may be called from any thread; they only leave a
     message. The messages are answered by :meth:`step` or :meth:`run`, in one thread.
 
-    Parameters
-    ----------
-    start
-        Starts the workers; called at the first job.
-    fallback
-        Starts workers that replace processes where none can be started. None: the runs fail.
-    interval
-        Seconds between two reports of a channel's results, at least.
-    stage_interval
-        The same during an uninterruptible stage, which is short enough to be reported whole.
+    ``start``: starts the workers; called at the first job. ``fallback``: starts workers that
+    replace processes where none can be started. None: the runs fail. ``interval``: seconds between
+    two reports of a channel's results, at least. ``stage_interval``: the same during an
+    uninterruptible stage, which is short enough to be reported whole.
     """
 
     def __init__(
@@ -91,10 +85,7 @@ class Scheduler:
     def step(self, timeout: float | None = None) -> bool:
         """Wait for a message and answer it; say whether more may come.
 
-        Parameters
-        ----------
-        timeout
-            Seconds to wait at most; None: without limit.
+        ``timeout``: seconds to wait at most; None: without limit.
         """
         try:
             message = self._inbox.get(timeout=timeout)

@@ -46,13 +46,9 @@ def is_curve_known(scene: Scene) -> bool:
 def in_light(signal: FloatArray, scene: Scene) -> Light:
     """Return a signal in light.
 
-    Parameters
-    ----------
-    signal : ndarray of float64, shape (columns,)
-        Grey levels.
-    scene
-        What a receiver knows of it is used: averaging, gamma and enhancement, and where the curve
-        is estimated, exposure time, switching frequency and number of bits.
+    ``signal``: shape (columns,); grey levels. ``scene``: what a receiver knows of it is used:
+    averaging, gamma and enhancement, and where the curve is estimated, exposure time, switching
+    frequency and number of bits.
     """
     model = scene.model
     # Above white, the signal's levels are not those of a picture, and none is the largest.
@@ -68,15 +64,10 @@ def in_light(signal: FloatArray, scene: Scene) -> Light:
 
 
 def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
-    """Return each value of a signal the light that as large a fraction of the columns has or
-    exceeds.
+    """Return the light of each value of a signal by its rank among the columns.
 
-    Parameters
-    ----------
-    signal : ndarray of float64, shape (columns,)
-        Grey levels, which rise with the light.
-    levels : ndarray of float64, any shape
-        The light of many exposures.
+    ``signal``: shape (columns,); grey levels, which rise with the light. ``levels``: the light of
+    many exposures.
     """
     _, place, counts = np.unique(signal, return_inverse=True, return_counts=True)
     fraction = (np.cumsum(counts) - 0.5 * counts) / len(signal)

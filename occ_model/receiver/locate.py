@@ -26,15 +26,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     the grown contour, which growth does not extend into the surroundings. The growth itself, a
     measure of the distance between the contours, thus does not change the rectangle.
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The image.
-
-    Returns
-    -------
-    Location or None
-        None where all pixels have the same value.
+    ``image``: shape (rows, columns); the image. Returns None where all pixels have the same value.
     """
     level = bright_level(_histogram(image), bright_fraction)
     if level is None:
@@ -94,15 +86,8 @@ def _histogram(image: ByteArray) -> IndexArray:
 def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
     """Find the grey level from which a pixel counts as bright.
 
-    Parameters
-    ----------
-    counts : ndarray of int64, shape (256,)
-        Pixels of each grey level in the image.
-
-    Returns
-    -------
-    int or None
-        None where all pixels have the same value.
+    ``counts``: shape (256,); pixels of each grey level in the image. Returns None where all pixels
+    have the same value.
     """
     split = otsu_split(counts)
     if split is None:

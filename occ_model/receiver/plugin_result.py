@@ -35,12 +35,7 @@ _LONGEST_PAYLOAD = 4 * MAX_PAYLOAD_BITS
 def problem_of(result: object, columns: int) -> str | None:
     """Say what is wrong with a result, as the end of a sentence; None if nothing is.
 
-    Parameters
-    ----------
-    result
-        What the plug-in has given.
-    columns
-        Length of the signal that it was given.
+    ``result``: what the plug-in has given. ``columns``: length of the signal that it was given.
     """
     if not isinstance(result, DecodeResult):
         return f"no DecodeResult but a {type(result).__name__}"

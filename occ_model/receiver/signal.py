@@ -16,10 +16,7 @@ _WHOLE_ROWS = 2**23
 def column_means(image: ByteArray, region: Region) -> FloatArray:
     """Average each column of a region.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns of the region,)
-        Grey levels.
+    Returns shape (columns of the region,); grey levels.
     """
     part = region.crop(image)
     sums = np.zeros(region.columns)
@@ -43,15 +40,7 @@ def otsu_split(counts: IndexArray) -> int | None:
     The split maximises the variance between the classes (Otsu, IEEE Trans. SMC 9:62, 1979). Where
     several splits do, as when empty bins lie between the classes, the middle one is taken.
 
-    Parameters
-    ----------
-    counts : ndarray of int64, shape (bins,)
-        The histogram.
-
-    Returns
-    -------
-    int or None
-        None where fewer than two bins are filled.
+    ``counts``: shape (bins,); the histogram. Returns None where fewer than two bins are filled.
     """
     filled = np.flatnonzero(counts)
     if filled.size < 2:

@@ -24,10 +24,8 @@ _COLUMNS = (
 def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -> str:
     """Write a table.
 
-    Parameters
-    ----------
-    condition
-        The assumed value that the estimates rest on, as ``"if f = 10 kHz: "``; empty if known.
+    ``condition``: the assumed value that the estimates rest on, as ``"if f = 10 kHz: "``; empty if
+    known.
     """
     counts = ", ".join(
         f"{table.count(v)} {v}" for v in dict.fromkeys(r.verdict for r in table.rows)

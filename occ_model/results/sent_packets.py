@@ -142,16 +142,9 @@ class SentPackets(Sequence[PacketReading]):
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:
         """Divide the packets by how long the film had run when each began.
 
-        Parameters
-        ----------
-        edges : ndarray of float64, shape (windows + 1,)
-            Rising times from the film's start, without what lies between its parts, in seconds; all
-            packets lie between the outermost two.
-
-        Returns
-        -------
-        tuple of (int, tuple of PacketReading)
-            Of each window how many packets were sent, and those in view.
+        ``edges``: shape (windows + 1,); rising times from the film's start, without what lies
+        between its parts, in seconds; all packets lie between the outermost two. Returns of each
+        window how many packets were sent, and those in view.
         """
         bounds = [0, *(self._before(edge) for edge in edges[1:-1].tolist()), len(self)]
         found = []
@@ -163,12 +156,8 @@ class SentPackets(Sequence[PacketReading]):
     def time_at(self, elapsed: float, is_end: bool = False) -> float:
         """Return the film's time when it had run for so long: at a cut, where the next part begins.
 
-        Parameters
-        ----------
-        elapsed
-            Seconds from the start, without what lies between the parts.
-        is_end
-            Whether a part's end is meant where the next one begins.
+        ``elapsed``: seconds from the start, without what lies between the parts. ``is_end``:
+        whether a part's end is meant where the next one begins.
         """
         search = bisect_left if is_end else bisect_right
         place = min(max(search(self._elapsed, elapsed) - 1, 0), len(self.parts) - 1)

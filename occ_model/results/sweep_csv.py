@@ -58,11 +58,8 @@ def point_text(
 ) -> str:
     """Write the rows of a point.
 
-    Parameters
-    ----------
-    intervals
-        The interval of each decoder's rate, percent; not a number where the model refuses the
-        scene.
+    ``intervals``: the interval of each decoder's rate, percent; not a number where the model
+    refuses the scene.
     """
     settings = request.settings
     values = [_written(value) for value in request.values(point.index).values()]

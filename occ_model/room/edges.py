@@ -160,8 +160,8 @@ class EdgeFinder:
     def _inner_light(self, corners: FloatArray) -> tuple[IndexArray, FloatArray, float]:
         """Return the columns well within some corners, the light there above the dark, its fall.
 
-        The light is that at the corners' middle row. From row to row it grows by a fraction of it that
-        is the same in all columns: the fall.
+        The light is that at the corners' middle row. From row to row it grows by a fraction of it
+        that is the same in all columns: the fall.
         """
         first, last = column_spans(corners, *self._image.shape)
         first, last = first + _REACH, last - _REACH
@@ -232,14 +232,9 @@ def _counts(
     The light about an edge is as much as its innermost pixels would hold, so many and a part of
     the next. A count is told only where that one is bright.
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (points, 2 _REACH + 2 _INSIDE + 1)
-        From outside to inside.
-    expected : ndarray of float64
-        The lamp's own light there, shape as ``light`` or (points, 1).
-    bright
-        Expected light from which a pixel is bright.
+    ``light``: shape (points, 2 _REACH + 2 _INSIDE + 1); from outside to inside. ``expected``: the
+    lamp's own light there, shape as ``light`` or (points, 1). ``bright``: expected light from which
+    a pixel is bright.
     """
     full = np.broadcast_to(expected, light.shape)
     dark = light[:, :_INSIDE].mean(axis=0)

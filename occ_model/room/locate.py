@@ -78,7 +78,8 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     room
         The room; its camera's place is not used.
     focal_share
-        Standard error of the room's focal length, as a fraction of it: the place's errors include it.
+        Standard error of the room's focal length, as a fraction of it: the place's errors include
+        it.
 
     Returns
     -------

@@ -38,18 +38,9 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
     is the room's. A photo in which the stripes lie is turned by a right angle, and one in which no
     lamp is named is also tried the other way round.
 
-    Parameters
-    ----------
-    focal_length
-        Equivalent focal length in metres; None for that of the EXIF data, whose rounding the
-        place's errors then include, or else for the room's.
-
-    Raises
-    ------
-    ParameterError
-        The focal length is out of range.
-    ProjectionError
-        The photo is too large.
+    ``focal_length``: equivalent focal length in metres; None for that of the EXIF data, whose
+    rounding the place's errors then include, or else for the room's. Raises ParameterError: the
+    focal length is out of range. Raises ProjectionError: the photo is too large.
     """
     check_room(room)
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)

@@ -99,9 +99,7 @@ class LampEdges:
     def fitted(self, start: FloatArray) -> tuple[Located, FloatArray] | None:
         """Refine a place; with it each edge's squared deviation, None where there is no such place.
 
-        Parameters
-        ----------
-        start : ndarray of float64, shape (6,)
+        ``start``: shape (6,).
         """
         numbers = np.append(start, 0.0) if self.focal_share else start
         inverse = np.eye(len(numbers))
@@ -142,13 +140,7 @@ class LampEdges:
     def _outlines_at(self, numbers: FloatArray) -> FloatArray | None:
         """Return the corners in the picture from some places; None where one is behind the camera.
 
-        Parameters
-        ----------
-        numbers : ndarray of float64, shape (places, 6 or 7)
-
-        Returns
-        -------
-        ndarray of float64, shape (places, lamps, 4, 2)
+        ``numbers``: shape (places, 6 or 7). Returns shape (places, lamps, 4, 2).
         """
         placed = self.outlines[None] - numbers[:, None, None, :3]
         placed = np.einsum("plci,pij->plcj", placed, rotations(*numbers[:, 3:6].T))
@@ -171,9 +163,7 @@ class LampEdges:
     def _deviations(self, numbers: FloatArray, sides: IndexArray) -> FloatArray | None:
         """Return how far edges are from where places put them, in standard errors.
 
-        Returns
-        -------
-        ndarray of float64, shape (places, 2 edges), or one more for the focal length
+        Returns shape (places, 2 edges), or one more for the focal length.
         """
         outlines = self._outlines_at(numbers)
         if outlines is None:
@@ -189,15 +179,8 @@ class LampEdges:
 def _off(outlines: FloatArray, points: FloatArray) -> FloatArray:
     """Return how far points are from each side of an outline, to its left.
 
-    Parameters
-    ----------
-    outlines : ndarray of float64, shape (..., edges, 4, 2)
-    points : ndarray of float64, shape (edges, 2, 2)
-
-    Returns
-    -------
-    ndarray of float64, shape (..., edges, 4, 2)
-        Of each edge and each side both points' distances.
+    ``outlines``: shape (..., edges, 4, 2). ``points``: shape (edges, 2, 2). Returns shape (...,
+    edges, 4, 2); of each edge and each side both points' distances.
     """
     along = np.roll(outlines, -1, axis=-2) - outlines
     along = along / np.hypot(along[..., 0], along[..., 1])[..., None]

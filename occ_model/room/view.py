@@ -56,10 +56,7 @@ def room_outline(lamp: RoomLamp) -> FloatArray:
 def lamp_scene(room: Room, lamp: RoomLamp) -> Scene:
     """Return the scene whose panel is a lamp of the room, a disc being in its square.
 
-    Raises
-    ------
-    ParameterError
-        The lamp's plane is turned too far from the picture's for a scene.
+    Raises ParameterError: the lamp's plane is turned too far from the picture's for a scene.
     """
     camera = room.camera
     if camera.yaw == camera.pitch == camera.roll == 0.0:
@@ -98,11 +95,8 @@ def angles_of(turned: FloatArray) -> tuple[float, float, float]:
 def lamps_in_view(room: Room) -> tuple[LampView, ...]:
     """Return the lamps whose front any pixel can show, in the room's order.
 
-    Raises
-    ------
-    ProjectionError
-        A lamp is partly in the picture and partly behind the camera, or its plane is turned from
-        the picture's by 90 degrees and more.
+    Raises ProjectionError: a lamp is partly in the picture and partly behind the camera, or its
+    plane is turned from the picture's by 90 degrees and more.
     """
     return tuple(seen for lamp in room.lamps if (seen := _seen(room, lamp)) is not None)
 
@@ -159,10 +153,7 @@ def seen_outline(room: Room, height: float) -> FloatArray:
 
     Empty where no whole picture of it is above the camera.
 
-    Parameters
-    ----------
-    height
-        Of the plane, metres.
+    ``height``: of the plane, metres.
     """
     camera, place = room.scene.camera, room.camera
     right, bottom = camera.columns - 1.0, camera.rows - 1.0

@@ -18,10 +18,7 @@ class Declaration:
     def refuse(self, problem: str, allowed: str) -> ParameterError:
         """Return the error that names the parameter, the problem and what is allowed.
 
-        Parameters
-        ----------
-        problem
-            A verb and the value, such as "is 3 m".
+        ``problem``: a verb and the value, such as "is 3 m".
         """
         verb, _, value = problem.partition(" ")
         return ParameterError.of(self.name, value, allowed, verb=verb, parameters=(self.name,))

@@ -49,10 +49,8 @@ def write_scene_file(path: Path, scene: Scene) -> None:
 def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
     """Change a scene by texts such as ``"switching_frequency=10kHz"``.
 
-    Raises
-    ------
-    ParameterError
-        A text has no ``=``, its name is unknown, or its value cannot be read or is out of range.
+    Raises ParameterError: a text has no ``=``, its name is unknown, or its value cannot be read or
+    is out of range.
     """
     changes: dict[str, ParameterValue] = {}
     for setting in settings:

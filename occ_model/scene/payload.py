@@ -32,10 +32,7 @@ _REPLACEMENT_LETTER = "?"
 def canonical(value: object) -> str:
     """Return a payload in its shortest form: no spaces between digits, small letters in hex.
 
-    Raises
-    ------
-    ValueError
-        It is not a payload; the message is the part of a sentence that says why.
+    Raises ValueError: it is not a payload; the message is the part of a sentence that says why.
     """
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
@@ -142,10 +139,7 @@ class Piece:
 def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
     """Compare a payload with the bits received, letter by letter or byte by byte.
 
-    Returns
-    -------
-    tuple of Piece
-        Empty for a payload that is written as bits, or none.
+    Returns empty for a payload that is written as bits, or none.
     """
     if form_of(payload) not in ("text", "hex"):
         return ()

@@ -66,10 +66,8 @@ def all_presets() -> tuple[Preset, ...]:
 def unreadable_presets() -> dict[str, str]:
     """List the user's own preset files that cannot be used.
 
-    Returns
-    -------
-    dict
-        The reason, a sentence, by the file's name without its ending, control characters escaped.
+    Returns the reason, a sentence, by the file's name without its ending, control characters
+    escaped.
     """
     return _read_own()[1]
 

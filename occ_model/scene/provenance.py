@@ -87,10 +87,7 @@ def first_scene_in(text: str) -> Scene | None:
 def scene_inside(path: Path) -> Scene:
     """Read the scene that an exported figure or table carries, the first of several.
 
-    Parameters
-    ----------
-    path
-        A PNG, SVG, PDF or CSV file that this package wrote.
+    ``path``: a PNG, SVG, PDF or CSV file that this package wrote.
     """
     where = one_line(str(path))
     try:

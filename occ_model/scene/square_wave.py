@@ -28,9 +28,6 @@ SQUARE_FREQUENCY = Quantity(
 def blinking(scene: Scene, cycles: float) -> Scene:
     """Let a scene send a square wave.
 
-    Parameters
-    ----------
-    cycles
-        Cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
+    ``cycles``: cycles per second, a value that ``SQUARE_FREQUENCY`` allows.
     """
     return scene.replace(pattern=SQUARE_WAVE, switching_frequency=CHIPS_OF_A_CYCLE * cycles)

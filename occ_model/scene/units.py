@@ -67,18 +67,9 @@ class Unit:
     def parse(self, text: str, plain: float = 1.0) -> float | None:
         """Read a quantity.
 
-        Parameters
-        ----------
-        text
-            A number or a fraction, with a decimal point or comma, with or without a unit.
-        plain
-            The SI value of 1 without a unit.
-
-        Returns
-        -------
-        float or None
-            The value in SI, None if the text is no quantity of this unit, is too long, or can mean
-            two values.
+        ``text``: a number or a fraction, with a decimal point or comma, with or without a unit.
+        ``plain``: the SI value of 1 without a unit. Returns the value in SI, None if the text is no
+        quantity of this unit, is too long, or can mean two values.
         """
         readings = self.readings(text, plain)
         return readings[0] if len(readings) == 1 else None

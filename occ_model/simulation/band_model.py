@@ -82,10 +82,7 @@ def band_drift(scene: Scene) -> float:
     The literal reading rounds every band, and between two equal chips it has no columns for the
     exposure: a run of n of them lasts n t_LED, but n h_c + h_t are (n - 1) t less.
 
-    Returns
-    -------
-    float
-        Below zero where the model's packet is longer; 0 for the aligned reading.
+    Returns below zero where the model's packet is longer; 0 for the aligned reading.
     """
     complete, transition = band_lengths(scene)
     if scene.model.band_reading == "aligned":
@@ -98,10 +95,7 @@ def band_drift(scene: Scene) -> float:
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
     """Return the band model's column profile as the scene's receiver would enhance it.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns,)
-        Grey levels, 0 to 255, by the profile's own histogram.
+    Returns shape (columns,); grey levels, 0 to 255, by the profile's own histogram.
     """
     return enhance(profile, scene.model.enhancement).astype(np.float64)
 

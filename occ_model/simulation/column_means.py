@@ -17,10 +17,7 @@ class ColumnMeans:
     def add(self, rows: Rows, values: Pixels | ByteArray) -> None:
         """Add the panel's pixels of some rows.
 
-        Parameters
-        ----------
-        values : ndarray, shape (rows, columns)
-            Grey levels.
+        ``values``: shape (rows, columns); grey levels.
         """
         for columns in rows.inside:
             self._sums[columns] += _column_sums(values[:, columns])

@@ -62,10 +62,7 @@ class DraftedMeans:
 def draft_errors(panel: DraftedPanel, means: Mapping[str, DraftedMeans]) -> dict[str, float]:
     """Return how far column means of a draft may lie from those of the whole picture, by name.
 
-    Returns
-    -------
-    dict of str to float
-        Root mean square over the columns of the panel's bounding rectangle, in grey levels.
+    Returns root mean square over the columns of the panel's bounding rectangle, in grey levels.
     """
     whole = [ends[panel.columns] for ends in column_spans(panel.outline, *panel.size)]
     first, last = (_rows_before(ends, panel.rows) for ends in whole)
@@ -113,10 +110,8 @@ def _of_parts(
 ) -> tuple[FloatArray, FloatArray]:
     """Estimate the variance of each column's mean by successive parts, and what its rim adds.
 
-    Returns
-    -------
-    variance, rim : ndarray of float64, shape (columns,)
-        Not a number and 0 where a column has fewer than two whole parts within the panel.
+    Returns shape (columns,); not a number and 0 where a column has fewer than two whole parts
+    within the panel.
     """
     count = len(image) // _BLOCK
     if not count:

@@ -73,16 +73,10 @@ class MeanRows(Protocol):
 class PixelExposure:
     """The pixels of a picture.
 
-    Parameters
-    ----------
-    bands
-        The rows that are exposed, in order, each a whole number of blocks of a JPEG file but the
-        last; None for the whole picture.
-    panel_only
-        Whether the file is made of the blocks that show the panel only. What becomes of a block
-        does not depend on others.
-    mean
-        The mean pixel values, where they are not those of one panel.
+    ``bands``: the rows that are exposed, in order, each a whole number of blocks of a JPEG file but
+    the last; None for the whole picture. ``panel_only``: whether the file is made of the blocks
+    that show the panel only. What becomes of a block does not depend on others. ``mean``: the mean
+    pixel values, where they are not those of one panel.
     """
 
     def __init__(
@@ -244,11 +238,8 @@ class PixelExposure:
 
         The bands are those that show the panel, or all.
 
-        Returns
-        -------
-        ndarray of float32
-            ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it; ``"profile"``:
-            the means of its columns.
+        Returns ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it;
+        ``"profile"``: the means of its columns.
         """
         image = np.empty(self._shape, dtype=np.float32)
         for exposed in self.rows(seed, source):

@@ -145,10 +145,7 @@ def render_plan(
 ) -> Frame:
     """Simulate a picture whose effects are chosen.
 
-    Parameters
-    ----------
-    heartbeat
-        Called before each band of rows that differ; what it raises ends the work.
+    ``heartbeat``: called before each band of rows that differ; what it raises ends the work.
     """
     scene = view.scene
     check_size(scene.camera)
@@ -215,12 +212,9 @@ def observe(
 ) -> Pixels:
     """Simulate the observable that a plan's tolerance refers to.
 
-    Returns
-    -------
-    ndarray of float32
-        Grey levels of the panel's bounding rectangle. ``"image"``: the camera's pixels before
-        rounding, shape (rows, columns) of it; ``"profile"``: the means of its columns;
-        ``"signal"``: the means of its columns in the receiver's picture.
+    Returns grey levels of the panel's bounding rectangle. ``"image"``: the camera's pixels before
+    rounding, shape (rows, columns) of it; ``"profile"``: the means of its columns; ``"signal"``:
+    the means of its columns in the receiver's picture.
     """
     check_size(scene.camera)
     view, timer = paper_view_of(scene), timer or StageTimer()

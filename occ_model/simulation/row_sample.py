@@ -67,10 +67,7 @@ def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | N
     Its noise is spread evenly over the bands, so that a column's mean over the panel has hardly any
     sampling error; that of the whole picture has to be added.
 
-    Returns
-    -------
-    SampledPicture or None
-        None where a sample would not be much smaller than the picture.
+    Returns None where a sample would not be much smaller than the picture.
     """
     across = _span(view)
     rows_each = len(across) / (BANDS * BAND)

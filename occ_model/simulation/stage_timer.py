@@ -12,10 +12,7 @@ class StageTimer:
     Every moment since the timer was made counts to one stage: the times of all stages add up to the
     time between the first moment and the end of the last stage.
 
-    Parameters
-    ----------
-    before
-        Seconds of stages that ended before the timer was made, which count too.
+    ``before``: seconds of stages that ended before the timer was made, which count too.
     """
 
     def __init__(self, before: Mapping[str, float] | None = None) -> None:

@@ -73,26 +73,10 @@ def code_lengths(
     The lamps' codes are drawn at random among all of a length, those of the room among them; its
     lamps are read in pictures over its floor.
 
-    Parameters
-    ----------
-    request
-        The map of the room, a part of the house that has so many lamps.
-    lamps
-        Lamps that have a code each.
-    bits
-        Lengths of code; by default the shortest that suffices, and 2 and 4 bits more.
-    executor, jobs, progress
-        As for :func:`occ_model.study.room_map.room_map`.
-
-    Returns
-    -------
-    tuple of CodeLength
-        In the order of the lengths.
-
-    Raises
-    ------
-    ParameterError
-        A length has fewer codes than there are lamps, or an argument is out of range.
+    ``request``: the map of the room, a part of the house that has so many lamps. ``lamps``: lamps
+    that have a code each. ``bits``: lengths of code; by default the shortest that suffices, and 2
+    and 4 bits more. Returns in the order of the lengths. Raises ParameterError: a length has fewer
+    codes than there are lamps, or an argument is out of range.
     """
     room = request.room
     check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
@@ -153,9 +137,7 @@ def _chips(room: Room, sent: IndexArray) -> ByteArray:
 def least_distance(packets: ByteArray) -> int:
     """Return in how many chips two packets sent over and over differ at the least.
 
-    Parameters
-    ----------
-    packets : ndarray of uint8, shape (packets, chips)
+    ``packets``: shape (packets, chips).
     """
     signs, chips = 2.0 * packets - 1.0, int(packets.shape[1])
     most = -float(chips)

@@ -77,11 +77,9 @@ class BrightShares:
     def _bright_bounds(self, marked: BoolArray, least: int, random: np.random.Generator) -> Region:
         """Draw the rows and the columns from the first bright pixel to the last.
 
-        Parameters
-        ----------
-        marked : ndarray of bool, shape (rows, columns) of the grid
-            The cells with at least ``least`` bright pixels: these lie where brightness is likely.
-            In and beside the marked cells further pixels count.
+        ``marked``: shape (rows, columns) of the grid; the cells with at least ``least`` bright
+        pixels: these lie where brightness is likely. In and beside the marked cells further pixels
+        count.
         """
         span = self.span
         top, bottom = _marked_ends(np.any(marked, axis=1), self.rows)

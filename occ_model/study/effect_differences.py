@@ -31,10 +31,7 @@ class CompleteSimulation:
 
     What has been compared once is known from then on.
 
-    Parameters
-    ----------
-    seed
-        Seed of the noise, which is drawn for every pixel, each effect from its own stream.
+    ``seed``: seed of the noise, which is drawn for every pixel, each effect from its own stream.
     """
 
     def __init__(

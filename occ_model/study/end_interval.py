@@ -37,14 +37,9 @@ def interval_of_end(
 ) -> tuple[float, float]:
     """Return between which values an end lies, with 95 %, the nearer to ``inside`` first.
 
-    Parameters
-    ----------
-    lost
-        The fraction of bits lost in each picture, by the value at which it was taken.
-    rate
-        The success rate in percent that is reached inside of the end.
-    inside, outside
-        Values between which the end surely lies.
+    ``lost``: the fraction of bits lost in each picture, by the value at which it was taken.
+    ``rate``: the success rate in percent that is reached inside of the end. ``inside`` and
+    ``outside``: values between which the end surely lies.
     """
     direction = math.copysign(1.0, outside - inside)
     span = abs(math.log(outside / inside))
@@ -70,14 +65,9 @@ def _likelihoods(
 ) -> FloatArray:
     """Return the logarithm of each end's greatest likelihood.
 
-    Parameters
-    ----------
-    beyond : ndarray of float64, shape (ends, values)
-        How far beyond an end values lie, as logarithms.
-    pictures, gone : ndarray of float64, shape (values,)
-        Pictures at each value, and how many of them are lost.
-    fraction
-        Of the pictures that are lost at the end.
+    ``beyond``: shape (ends, values); how far beyond an end values lie, as logarithms. ``pictures``
+    and ``gone``: shape (values,); pictures at each value, and how many of them are lost.
+    ``fraction``: of the pictures that are lost at the end.
     """
     at_end = math.log(fraction / (1.0 - fraction))
     scaled = np.geomspace(_FLATTEST, _STEEPEST, _SLOPES)[:, None] / span * beyond[:, None]

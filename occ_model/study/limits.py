@@ -102,13 +102,8 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them.
 
-    Parameters
-    ----------
-    rate, images, seed, tolerance, force, path, jobs, heartbeat, progress
-        As for :func:`limits`.
-    found
-        Called with the limits of each decoder as soon as they are known, before it is known how
-        surely.
+    ``found``: called with the limits of each decoder as soon as they are known, before it is known
+    how surely.
     """
     check_scene(scene)
     wanted = _checked(rate)

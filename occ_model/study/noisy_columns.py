@@ -41,10 +41,7 @@ def _noise_of(effects: tuple[NoiseEffect, ...], camera: Camera, sensor: Sensor) 
 class NoisyColumns:
     """The columns of a level panel, their pixels noisy and enhanced.
 
-    Parameters
-    ----------
-    plan
-        Its noise, and its limits of a pixel's value, are simulated.
+    ``plan``: its noise, and its limits of a pixel's value, are simulated.
     """
 
     def __init__(

@@ -27,10 +27,9 @@ from occ_model.study.noisy_columns import NoisyColumns
 
 
 def panel_span(scene: Scene) -> Region | None:
-    """Return the rectangle that the panel fills in the image; None where its outline is no
-    rectangle.
+    """Return the rectangle that the panel fills in the image, empty without a panel in view.
 
-    The rectangle is empty where the panel is not in the image.
+    None where its outline is not a rectangle.
     """
     return _span_of(panel_corners(scene).tobytes(), scene.camera.rows, scene.camera.columns)
 
@@ -78,11 +77,8 @@ def decode_profile(
     The decoder's region is drawn as it is found in the image: see
     :mod:`occ_model.study.drawn_region`.
 
-    Returns
-    -------
-    DecodeResult or None
-        None where rows differ by more than noise: the panel is not level, or the plan holds an
-        image effect.
+    Returns None where rows differ by more than noise: the panel is not level, or the plan holds an
+    image effect.
     """
     span = panel_span(scene)
     if span is None or "image" in plan.kinds:
@@ -95,11 +91,8 @@ def observe_profile(
 ) -> Observation:
     """Compute the column means of an image that every decoder reads, without the image.
 
-    Parameters
-    ----------
-    span
-        The rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at any
-        start time.
+    ``span``: the rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at
+    any start time.
     """
     columns = expose_columns(view, plan)
     if span.columns == 0:
@@ -117,10 +110,7 @@ def observe_profile(
 def region_without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> Region:
     """Find the rectangle that a receiver finds in a picture without noise.
 
-    Parameters
-    ----------
-    panel, around : ndarray of uint8, shape (columns,)
-        Grey levels on the panel, enhanced, and beside it.
+    ``panel`` and ``around``: shape (columns,); grey levels on the panel, enhanced, and beside it.
     """
     rows, seen = scene.camera.rows, slice(span.first_column, span.last_column)
     counts = np.bincount(around, minlength=256) * rows
@@ -172,10 +162,7 @@ def observe_sample(
 ) -> Observation | None:
     """Compute the column means of a whole picture from a sample of its rows.
 
-    Returns
-    -------
-    Observation or None
-        None where no panel is found.
+    Returns None where no panel is found.
     """
     found = locate(sample.image, scene.receiver.bright_fraction)
     if found is None:

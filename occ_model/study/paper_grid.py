@@ -40,15 +40,8 @@ def grid_request(
 def ceases_at(table: SweepTable, decoder: str, readable: float = 60.0) -> float | None:
     """Find the lowest frequency from which on no distance is read at ``readable`` percent.
 
-    Parameters
-    ----------
-    readable
-        Success rate in percent from which a point counts as read.
-
-    Returns
-    -------
-    float or None
-        Hz; None where the highest frequency is still read.
+    ``readable``: success rate in percent from which a point counts as read. Returns hz; None where
+    the highest frequency is still read.
     """
     ceased = None
     best = table.rates(decoder).max(axis=1).tolist()

@@ -57,15 +57,8 @@ def read_profile(
 ) -> ProfileReading | None:
     """Read a scene by the profile path.
 
-    Parameters
-    ----------
-    settings
-        How its picture is simulated; the effects are planned for the signal all the same.
-
-    Returns
-    -------
-    ProfileReading or None
-        None where rows differ by more than noise: only pixels show what is read there.
+    ``settings``: how its picture is simulated; the effects are planned for the signal all the same.
+    Returns None where rows differ by more than noise: only pixels show what is read there.
     """
     check_scene(scene)
     check_size(scene.camera)

@@ -15,10 +15,7 @@ _RATE = Unit("Hz/s")
 def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
     """List the facts of a film that is being read.
 
-    Parameters
-    ----------
-    whole
-        What the frames said together when they were last looked at; None before.
+    ``whole``: what the frames said together when they were last looked at; None before.
     """
     facts = [
         Fact(

@@ -43,10 +43,7 @@ _BESIDE = 20.0
 class RoomMapRequest:
     """What a map over a floor measures: at each place the camera is as the room says otherwise.
 
-    Raises
-    ------
-    ParameterError
-        There are too many places, or a value is out of range.
+    Raises ParameterError: there are too many places, or a value is out of range.
     """
 
     room: Room  # The room
@@ -262,22 +259,9 @@ def room_map(
 ) -> tuple[RoomPoint, ...]:
     """Measure the places of a map.
 
-    Parameters
-    ----------
-    request
-        The map.
-    executor, jobs, progress, results
-        As for :func:`occ_model.sweep`: a file that was left half full is gone on with.
-
-    Returns
-    -------
-    tuple of RoomPoint
-        In the order of the places.
-
-    Raises
-    ------
-    ParameterError, OutputError
-        As for :func:`occ_model.sweep`.
+    ``executor``, ``jobs``, ``progress``, ``results``: as for :func:`occ_model.sweep`: a file that
+    was left half full is gone on with. Returns in the order of the places. Raises ParameterError,
+    OutputError: as for :func:`occ_model.sweep`.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     found: dict[int, RoomPoint] = {}

@@ -16,9 +16,7 @@ def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
 
     The samples lie in the middle of equal parts of the exposure, as in other simulators.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns,)
+    Returns shape (columns,).
     """
     chips = sent_chips(scene.transmitter)
     camera, frequency = scene.camera, scene.transmitter.switching_frequency
@@ -36,14 +34,7 @@ def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
 def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
     """Return t_on / t of some columns in rational arithmetic, rounded once at the end.
 
-    Parameters
-    ----------
-    columns : ndarray of int64, shape (chosen,)
-        The columns.
-
-    Returns
-    -------
-    ndarray of float64, shape (chosen,)
+    ``columns``: shape (chosen,); the columns. Returns shape (chosen,).
     """
     chips = sent_chips(scene.transmitter).tolist()
     frequency = Fraction(scene.transmitter.switching_frequency)

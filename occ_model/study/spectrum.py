@@ -17,15 +17,8 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     The mean is taken off, and both ends are faded out by a Hann window, so that a profile that does
     not hold whole periods has clean lines.
 
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        The profile, at least 8 columns.
-
-    Returns
-    -------
-    Spectrum
-        The response is that of a box of the exposure's length (arXiv 2602.08474).
+    ``profile``: shape (columns,); the profile, at least 8 columns. Returns the response is that of
+    a box of the exposure's length (arXiv 2602.08474).
     """
     check_scene(scene)
     values = np.asarray(profile, dtype=np.float64)

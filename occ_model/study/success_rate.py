@@ -99,10 +99,6 @@ def right_bits(
 
     A decoder's count does not depend on the other decoders: :func:`success_rate` with that decoder
     alone rests on the same count.
-
-    Returns
-    -------
-    tuple of int, one a decoder
     """
     return right_and_whole(scene, settings, heartbeat)[0]
 

@@ -69,14 +69,7 @@ def with_sure_ends(
 ) -> WorkingRange:
     """Find, for each bisected end, values on both sides that are sure, and its interval.
 
-    Parameters
-    ----------
-    scene, rate, settings
-        Those of the search.
-    found
-        What it has found.
-    heartbeat
-        Called before each image; what it raises ends the search.
+    ``heartbeat``: called before each image; what it raises ends the search.
     """
     images = images_to_be_sure(rate)
     if not images or not found.intervals:

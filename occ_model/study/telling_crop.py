@@ -29,10 +29,8 @@ def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = C
     A difference that varies slowly is shown on the whole panel, reduced by averaging areas. A fine
     one would be averaged away: it is shown in real pixels, where it is largest.
 
-    Parameters
-    ----------
-    with_effect, without : ndarray of float32, shape (rows, columns)
-        Grey levels of the panel's bounding rectangle in both pictures.
+    ``with_effect`` and ``without``: shape (rows, columns); grey levels of the panel's bounding
+    rectangle in both pictures.
     """
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))

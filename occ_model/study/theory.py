@@ -25,10 +25,7 @@ def band_model_frequency(scene: Scene) -> float:
     Beyond it every column's exposure holds a change of state, and no column shows one state alone:
     h_c = (t_LED - t) / t_r is negative (the paper's section II.B).
 
-    Returns
-    -------
-    float
-        Hz.
+    Returns hz.
     """
     return 1.0 / scene.camera.exposure_time
 
@@ -40,22 +37,15 @@ def null_frequency(scene: Scene) -> float:
     same light wherever it starts: the first null of sinc(t f / 2), the exposure's response to the
     square wave's fundamental f/2.
 
-    Returns
-    -------
-    float
-        Hz.
+    Returns hz.
     """
     return 2.0 / scene.camera.exposure_time
 
 
 def panel_readout_time(scene: Scene) -> float:
-    """Return the time in which the columns that show the panel are read out: t_r times their
-    number.
+    """Return the readout time of the columns that show the panel: t_r times their number.
 
-    Returns
-    -------
-    float
-        Seconds; 0 where the image shows no panel.
+    Returns seconds; 0 where the image shows no panel.
     """
     camera = scene.camera
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
@@ -69,10 +59,7 @@ def two_packets_frequency(scene: Scene) -> float | None:
     chips take 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers, and so a
     packet and a header at the least, two packets to find them wherever a packet starts.
 
-    Returns
-    -------
-    float or None
-        Hz; None where the image shows no panel.
+    Returns hz; None where the image shows no panel.
     """
     seen = panel_readout_time(scene)
     return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
@@ -84,10 +71,7 @@ def row_rate_frequency(scene: Scene) -> float:
     The columns sample the light each t_r; of anything faster they show another frequency. Chips
     that alternate at a switching frequency f have the frequency f/2, so that 1/t_r is its limit.
 
-    Returns
-    -------
-    float
-        Hz.
+    Returns hz.
     """
     return 1.0 / (2.0 * scene.camera.readout_time)
 
@@ -104,17 +88,8 @@ def gaussian_rate_bound(
     light in the gap nothing is seen. A lamp with two levels and a limited switching frequency
     carries less.
 
-    Parameters
-    ----------
-    scene
-        Its exposure time, readout time and number of columns are used.
-    signal_to_noise
-        The light's variance over that of a column's noise.
-
-    Returns
-    -------
-    float
-        Bits a second.
+    ``scene``: its exposure time, readout time and number of columns are used. ``signal_to_noise``:
+    the light's variance over that of a column's noise. Returns bits a second.
     """
     camera = scene.camera
     half_rate = row_rate_frequency(scene)
@@ -138,10 +113,7 @@ def saturation_exposure(scene: Scene) -> float:
     The paper's equations (1) and (2) with PV_max = 255, solved for t:
     t = (255 / 118)^gamma K N^2 / (S (L_v + E_v R / pi)).
 
-    Returns
-    -------
-    float
-        Seconds; infinite where there is no light.
+    Returns seconds; infinite where there is no light.
     """
     brightest = float(luminance_levels(scene)[1])
     if not brightest:

@@ -52,10 +52,7 @@ def working_range(
 ) -> WorkingRange:
     """Find the intervals of values of a parameter at which a decoder reads a scene.
 
-    Parameters
-    ----------
-    settings
-        Checked, with one decoder; the images are those of each value that is reported.
+    ``settings``: checked, with one decoder; the images are those of each value that is reported.
     """
     return _Search(scene, name, rate, settings, heartbeat).working_range()
 
@@ -191,11 +188,8 @@ class _Search:
     def _end(self, place: int, beyond: int, is_wanted: bool) -> RangeEnd | None:
         """Find an end of an interval; None where its last coarse value is refuted.
 
-        Parameters
-        ----------
-        place, beyond
-            The last coarse value that is read, and the first that is not, which may lie outside
-            the search.
+        ``place`` and ``beyond``: the last coarse value that is read, and the first that is not,
+        which may lie outside the search.
         """
         works = first = self._values[place]
         fails = outer = self._values[beyond] if 0 <= beyond < len(self._values) else None

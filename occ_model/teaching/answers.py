@@ -31,14 +31,9 @@ def check_answer(
     a photo of the student's, the value is that of the photo's match. A wrong answer does not give
     it away.
 
-    Parameters
-    ----------
-    text
-        The answer; a number without a unit is in the quantity's ``asked_in``.
-    match
-        The match of the photo that is open, None where there is none.
-    scene
-        The scene that is shown; None: the one that the question is about.
+    ``text``: the answer; a number without a unit is in the quantity's ``asked_in``. ``match``: the
+    match of the photo that is open, None where there is none. ``scene``: the scene that is shown;
+    None: the one that the question is about.
     """
     text = text.strip()
     check = step.check

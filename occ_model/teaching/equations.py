@@ -27,12 +27,9 @@ _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
 def equations(scene: Scene) -> tuple[Equation, ...]:
     """Return the equations that determine a scene's stripes, with its numbers in them.
 
-    Returns
-    -------
-    tuple of Equation
-        The paper's equations (1) to (3), the band model's lengths, the columns of a chip, the time
-        in which a picture is read out, and the frequency at which an alternating pattern has no
-        stripes.
+    Returns the paper's equations (1) to (3), the band model's lengths, the columns of a chip, the
+    time in which a picture is read out, and the frequency at which an alternating pattern has no
+    stripes.
     """
     return (
         *_pixel_values(scene),

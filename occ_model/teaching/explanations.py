@@ -10,11 +10,8 @@ _MAX_NAMED = 2
 def explanation(step: Step, scene: Scene) -> str:
     """Return a step's explanation beside another scene than its own.
 
-    Returns
-    -------
-    str
-        As it is where its numbers are those of the scene, or of a photo of the student's; else it
-        begins with the scene that they are of.
+    Returns as it is where its numbers are those of the scene, or of a photo of the student's; else
+    it begins with the scene that they are of.
     """
     if step.own_photo or scene == step.asked:
         return step.answer

@@ -19,10 +19,7 @@ _MAX_CHIPS = 400
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
     """Return the chips that a column's exposure covers.
 
-    Returns
-    -------
-    ExposureWindow
-        With a chip before the exposure and one after it.
+    Returns with a chip before the exposure and one after it.
     """
     check_scene(scene)
     check_count("column", column, 0)

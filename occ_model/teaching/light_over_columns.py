@@ -23,20 +23,10 @@ def light_over_columns(
     Column ``i`` begins at ``t_0 + i t_r``, and so does every point ``i`` of this axis, also one
     between two columns.
 
-    Parameters
-    ----------
-    first, last
-        The columns from which and to which the light is given.
-    most
-        Largest number of chips.
-    edged
-        Whether the light rises and falls within the scene's edge time: linearly, from the start of
-        a chip on, as the mean of the chips over the last edge time.
-
-    Returns
-    -------
-    LightCurve or None
-        With all chips that the interval touches; None where they are more than ``most``.
+    ``first`` and ``last``: the columns from which and to which the light is given. ``edged``:
+    whether the light rises and falls within the scene's edge time: linearly, from the start of a
+    chip on, as the mean of the chips over the last edge time. Returns with all chips that the
+    interval touches; None where they are more than ``most``.
     """
     check_scene(scene)
     if not first < last:

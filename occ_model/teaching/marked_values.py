@@ -12,12 +12,9 @@ from occ_model.transmitter.packet import sent_chips
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
     """Return the values to mark on the slider of a parameter, all else as in a scene.
 
-    Returns
-    -------
-    tuple of MarkedValue
-        Of the switching frequency and the exposure time: where both are equal, t = t_LED; of codes
-        the first null of alternating chips, t = 2 t_LED; and where the exposure is a whole period
-        of what is sent, so that there are no bars. Of others none.
+    Returns of the switching frequency and the exposure time: where both are equal, t = t_LED; of
+    codes the first null of alternating chips, t = 2 t_LED; and where the exposure is a whole period
+    of what is sent, so that there are no bars. Of others none.
     """
     check_scene(scene)
     exposure, transmitter = scene.camera.exposure_time, scene.transmitter

@@ -29,11 +29,8 @@ class PacketField:
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
     """Return header and bits of the packet that a scene sends.
 
-    Returns
-    -------
-    tuple of PacketField
-        Chips are counted from the packet's first; empty where the packet is no header with the bits
-        sent behind it, or where a bit has no chips of its own.
+    Returns chips are counted from the packet's first; empty where the packet is no header with the
+    bits sent behind it, or where a bit has no chips of its own.
     """
     check_scene(scene)
     sent = scene.transmitter
@@ -54,11 +51,8 @@ def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
 def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ...]:
     """Return header and bits of the packet that a decoder read.
 
-    Returns
-    -------
-    tuple of PacketField
-        Chips are counted as in ``result.chips``; empty where no packet was read from chips, or
-        where all packets together were.
+    Returns chips are counted as in ``result.chips``; empty where no packet was read from chips, or
+    where all packets together were.
     """
     fields = packet_fields(scene) if scene.transmitter.framing == FRAMING.name else ()
     if not fields or not result.chips.size or not result.bits.size or len(result.headers) < 2:
@@ -79,9 +73,7 @@ def received_edges(result: DecodeResult) -> FloatArray | None:
     columns begins and ends with them. A decoder that finds the chips by their light gives the time
     at which each is sent; the exposure of column ``i`` begins at the time that lies at ``i``.
 
-    Returns
-    -------
-    ndarray of float64, shape (chips + 1,), or None where no chips were read
+    Returns shape (chips + 1,), or None where no chips were read.
     """
     if result.chip_starts is None or result.region is None or not result.chips.size:
         return None
@@ -98,17 +90,9 @@ def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, 
     enhancement has a level, too, that parts the columns as the decoder does. Columns that show
     more than the panel, at its sides, can be on the other side of both.
 
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        The profile of the whole picture.
-
-    Returns
-    -------
-    (float, float) or None
-        Neighbouring levels of columns: any level between them parts zeros from ones with the
-        fewest exceptions. None without a threshold of the signal, or where more than one column in
-        twenty is an exception.
+    ``profile``: shape (columns,); the profile of the whole picture. Returns neighbouring levels of
+    columns: any level between them parts zeros from ones with the fewest exceptions. None without a
+    threshold of the signal, or where more than one column in twenty is an exception.
     """
     region, signal = result.region, result.signal
     if result.threshold is None or region is None or signal is None:

@@ -17,10 +17,7 @@ _MAX_CHIPS = 400
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
     """Return the exposures of some of the first columns, which begin within four chips.
 
-    Parameters
-    ----------
-    shown
-        Number of columns; fewer where the picture has fewer.
+    ``shown``: number of columns; fewer where the picture has fewer.
     """
     check_scene(scene)
     camera, period = scene.camera, scene.transmitter.switching_period

@@ -20,12 +20,7 @@ PhasesAt = Callable[[Fraction], Phases]
 class EdgedWaveform:
     """The light of a chip sequence sent repeatedly by an LED with edges.
 
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
-    edge
-        The edge time tau in chips, above 0.
+    ``chips``: shape (chips,); one period. ``edge``: the edge time tau in chips, above 0.
     """
 
     def __init__(self, chips: ByteArray, edge: Fraction) -> None:
@@ -54,10 +49,7 @@ class EdgedWaveform:
         As in :meth:`.Waveform.lit_chips` no term is the difference of two much larger numbers: the
         error stays that of the phases, also in windows far shorter than a chip.
 
-        Parameters
-        ----------
-        exposure
-            Length of every window, in chips.
+        ``exposure``: length of every window, in chips.
         """
         duration = Duration.of(exposure, self.period)
         now = starts(Fraction(0))

@@ -27,9 +27,7 @@ def protected_bits(bits: int) -> int:
 def protect(bits: ByteArray) -> ByteArray:
     """Add the parity to a payload, which is filled up with zeros to whole bytes.
 
-    Returns
-    -------
-    ndarray of uint8, shape (protected_bits,)
+    Returns shape (protected_bits,).
     """
     sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
     return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))
@@ -38,15 +36,8 @@ def protect(bits: ByteArray) -> ByteArray:
 def correct(bits: ByteArray, count: int) -> ByteArray | None:
     """Correct a payload with its parity.
 
-    Parameters
-    ----------
-    bits : ndarray of uint8, shape (protected_bits,)
-        As received.
-
-    Returns
-    -------
-    ndarray of uint8, shape (count,), or None
-        None where too many bytes are wrong.
+    ``bits``: shape (protected_bits,); as received. Returns shape (count,), or None; None where too
+    many bytes are wrong.
     """
     codec = _codec()
     from reedsolo import ReedSolomonError

@@ -33,9 +33,7 @@ def packet_length(bits: int) -> int:
 def sent_chips(transmitter: Transmitter) -> ByteArray:
     """Return one period of the chips sent: the raw pattern if there is one, else the packet.
 
-    Returns
-    -------
-    ndarray of uint8, shape (chips,), read-only
+    Returns shape (chips,), read-only.
     """
     if transmitter.pattern:
         return _pattern_chips(transmitter.pattern)
@@ -72,9 +70,7 @@ def sends_paper_code(transmitter: Transmitter) -> bool:
 def packets(codes: IndexArray, bits: int) -> ByteArray:
     """Return the packets of some codes by the paper's scheme.
 
-    Returns
-    -------
-    ndarray of uint8, shape (codes, chips)
+    Returns shape (codes, chips).
     """
     places = np.arange(bits)[::-1]
     data = differential_manchester.encode(codes[:, None] >> places & 1, level=HEADER[-1])

@@ -74,10 +74,7 @@ class Windows:
 class Waveform:
     """The light of a chip sequence that is sent repeatedly.
 
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
+    ``chips``: shape (chips,); one period.
     """
 
     def __init__(self, chips: ByteArray) -> None:
@@ -93,9 +90,7 @@ class Waveform:
         The difference is taken term by term, the exact whole chips separately: the error stays that
         of the phases, about 2e-16 chips, for windows of any length.
 
-        Returns
-        -------
-        ndarray of float64, shape as ``starts``
+        Returns shape as starts.
         """
         windows = Windows.of(starts, duration)
         first, last, crosses = windows.first, windows.last, windows.crosses

@@ -37,7 +37,8 @@ _MIN_EXPOSURE_CHIPS = 1e-3
 """Shortest exposure in chips: a shorter one makes the same light."""
 
 _MIN_NOISE = 1e-6
-"""Least variance of a column about its model that is believed, as a fraction of the swing squared."""
+"""Least variance of a column about its model that is believed, as a fraction of the swing
+squared."""
 
 _MAX_LOG_LIKELIHOOD_RATIO = 50.0
 """Largest log-likelihood ratio of a chip: no model is surer."""
@@ -61,11 +62,10 @@ class ChipLattice:
     values: ByteArray  # Shape (chips,): the chips
 
     def lit(self, columns: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the lit fraction of each column's exposure, and the chips at its start and its end.
+        """Return the lit fraction of each column's exposure, and the chips at its start and its
+        end.
 
-        Returns
-        -------
-        share, start, end : ndarray of float64, shape (columns,)
+        Returns shape (columns,).
         """
         starts = self.phase - self.first + self.step * np.arange(columns)
         ends = starts + self.exposure
@@ -96,17 +96,9 @@ class ChipTiming:
 def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
     """Fit the timing of chips to the light of columns.
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (columns,)
-        Proportional to the light of each column, up to a constant.
-    start
-        The chips as they were decoded, with a rough timing.
-
-    Returns
-    -------
-    ChipTiming or None
-        None where the light does not follow the chips.
+    ``light``: shape (columns,); proportional to the light of each column, up to a constant.
+    ``start``: the chips as they were decoded, with a rough timing. Returns None where the light
+    does not follow the chips.
     """
     if start.values.size == 0:
         return None

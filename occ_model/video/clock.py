@@ -12,7 +12,8 @@ READOUT_TOLERANCE = 0.01
 """Fraction by which the readout time may differ from the rough one that is given."""
 
 _OVERLAP = 1e-3
-"""Fraction of a frame period by which reading out may seem to last longer: of measurement errors."""
+"""Fraction of a frame period by which reading out may seem to last longer: of measurement
+errors."""
 
 _MIN_FRAMES = 3
 """Minimum number of frames to fit the clock to."""
@@ -32,14 +33,8 @@ def fits_of(
 ) -> tuple[ClockFit, ...]:
     """Fit the clock to phases, with what a rough readout time allows.
 
-    Parameters
-    ----------
-    readout_time
-        A rough value in seconds.
-    tolerance
-        The fraction by which it may be wrong.
-    period
-        The frame period in seconds: reading out a frame takes no longer.
+    ``readout_time``: a rough value in seconds. ``tolerance``: the fraction by which it may be
+    wrong. ``period``: the frame period in seconds: reading out a frame takes no longer.
     """
     if len(phases.times) < _MIN_FRAMES:
         return ()
@@ -55,12 +50,8 @@ def state(
 ) -> Clock:
     """State what fits say of a film's clock.
 
-    Parameters
-    ----------
-    fits
-        The likeliest first; at least one.
-    times, part
-        The frames' times, and the part of the film that the phases are those of.
+    ``fits``: the likeliest first; at least one. ``times`` and ``part``: the frames' times, and the
+    part of the film that the phases are those of.
     """
     best = fits[0]
     readout = best.step / best.frequency

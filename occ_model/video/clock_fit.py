@@ -45,18 +45,8 @@ _AS_LIKELY = 9.0
 def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
     """Fit the frequency to the phases of frames.
 
-    Parameters
-    ----------
-    phases
-        At least two frames.
-    low, high
-        The frequencies between which it lies, in Hz.
-
-    Returns
-    -------
-    tuple of ClockFit
-        The likeliest, and others that are about as likely; none where the phases follow no
-        frequency.
+    ``low`` and ``high``: the frequencies between which it lies, in Hz. Returns the likeliest, and
+    others that are about as likely; none where the phases follow no frequency.
     """
     step, _ = mean_step(phases)
     turned = np.mod(phases.places - step * phases.columns, phases.period)

@@ -34,10 +34,8 @@ class ShutterTiming:
     def of(cls, scene: Scene, columns: tuple[int, int] | None = None) -> "ShutterTiming":
         """Return the timing of a scene.
 
-        Parameters
-        ----------
-        columns
-            The first column that shows the panel and the one after the last; by default all.
+        ``columns``: the first column that shows the panel and the one after the last; by default
+        all.
         """
         first, end = columns or (0, scene.camera.columns)
         if not 0 <= first < end:
@@ -62,10 +60,7 @@ class ShutterTiming:
     def whole_chips(self, start: Fraction) -> tuple[int, int]:
         """Return the first chip that a frame shows whole, and the one after the last.
 
-        Parameters
-        ----------
-        start
-            When the exposure of column 0 starts, in seconds; chip 0 starts at 0.
+        ``start``: when the exposure of column 0 starts, in seconds; chip 0 starts at 0.
         """
         begin = (start + self.first * self.readout_time) * self.frequency
         return ceil(begin), floor(begin + self.view * self.frequency)
@@ -79,14 +74,7 @@ class ShutterTiming:
 def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -> IndexArray:
     """Count how often frames show each chip of what is sent repeatedly.
 
-    Parameters
-    ----------
-    period
-        Chips after which what is sent repeats.
-
-    Returns
-    -------
-    ndarray of int64, shape (period,)
+    ``period``: chips after which what is sent repeats. Returns shape (period,).
     """
     counts = np.zeros(period, dtype=np.int64)
     for timing, start in timings:
@@ -102,14 +90,7 @@ def packets_received(
 
     The starts of frames within a packet repeat after b frames, with f T / length = a / b.
 
-    Parameters
-    ----------
-    frame_period
-        T in seconds.
-    length
-        Chips of a packet.
-    start
-        When the first frame starts, in seconds.
+    ``frame_period``: t in seconds. ``start``: when the first frame starts, in seconds.
     """
     packets_a_frame = timing.frequency * frame_period / length
     frames = packets_a_frame.denominator

@@ -30,8 +30,8 @@ def decode_video(
     decoder
         The decoder that finds the chips in each frame.
     readout_tolerance
-        The fraction by which the scene's readout time may be wrong: frequencies that need another one
-        are excluded.
+        The fraction by which the scene's readout time may be wrong: frequencies that need another
+        one are excluded.
     progress
         Called after each frame. What it raises ends the reading.
 

@@ -27,21 +27,10 @@ def first_lattice(
 ) -> ChipLattice | None:
     """Put the chips of a decoder on a regular lattice.
 
-    Parameters
-    ----------
-    result
-        With the chips and where each starts.
-    signal : ndarray of float64, shape (columns,)
-        The columns to put chips on: those of the result, and some to either side.
-    before
-        How many of them lie before those of the result.
-    scene
-        Its exposure time and switching frequency are a first guess.
-
-    Returns
-    -------
-    ChipLattice or None
-        None where the decoder found no chips.
+    ``result``: with the chips and where each starts. ``signal``: shape (columns,); the columns to
+    put chips on: those of the result, and some to either side. ``before``: how many of them lie
+    before those of the result. ``scene``: its exposure time and switching frequency are a first
+    guess. Returns None where the decoder found no chips.
     """
     starts = result.chip_starts
     if starts is None or result.chips.size < _MIN_EDGES:

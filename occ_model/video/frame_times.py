@@ -73,17 +73,8 @@ class FrameTimes:
 def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
     """Find the period of frame times.
 
-    Parameters
-    ----------
-    times : ndarray of float64, shape (frames,)
-        In seconds.
-    rounded_to
-        The step that they are whole multiples of, in seconds.
-
-    Returns
-    -------
-    FrameTimes or None
-        None where fewer than two times differ.
+    ``times``: shape (frames,); in seconds. ``rounded_to``: the step that they are whole multiples
+    of, in seconds. Returns None where fewer than two times differ.
     """
     intervals = np.diff(times)
     ahead = intervals[intervals > _MIN_INTERVAL]

@@ -83,19 +83,10 @@ class Joined:
     ) -> Place | None:
         """Find the place of a frame's first chip.
 
-        Parameters
-        ----------
-        foretold, deviation
-            The place that the clock foretells, and its standard deviation in chips; None where it
-            does not.
-        part_unknown
-            Whether places are right but for a whole number of parts: a frame's own number of its
-            part then says nothing.
-
-        Returns
-        -------
-        Place or None
-            None where no place is far likelier than others.
+        ``foretold`` and ``deviation``: the place that the clock foretells, and its standard
+        deviation in chips; None where it does not. ``part_unknown``: whether places are right but
+        for a whole number of parts: a frame's own number of its part then says nothing. Returns
+        None where no place is far likelier than others.
         """
         length = self._period.length
         first, last = frame.whole

@@ -81,10 +81,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
 class VideoFile(Video):
     """A film in a file: see :func:`load_video`.
 
-    Attributes
-    ----------
-    turned
-        Whether the film's lines became the columns.
+    ``turned``: whether the film's lines became the columns.
     """
 
     path: Path

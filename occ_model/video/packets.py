@@ -37,13 +37,9 @@ def packets_of(
 ) -> SentPackets:
     """Count the packets that were sent while a film ran, and read those in view.
 
-    Parameters
-    ----------
-    parts
-        The parts of the film. Of each count the packets that start after its first chip and end
-        before its last one.
-    bits : ndarray of uint8
-        The payload, joined from all frames; empty where it was not read.
+    ``parts``: the parts of the film. Of each count the packets that start after its first chip and
+    end before its last one. ``bits``: the payload, joined from all frames; empty where it was not
+    read.
     """
     found: list[FilmPart] = []
     packets: list[PacketReading] = []

@@ -17,10 +17,7 @@ UNKNOWN = "·"
 def known_bits(joined: Joined, period: SentPeriod) -> IndexArray:
     """Return the payload's bits that chips in view tell.
 
-    Returns
-    -------
-    ndarray of int64, shape (bits,)
-        0 or 1, and -1 where it is not known.
+    Returns shape (bits,); 0 or 1, and -1 where it is not known.
     """
     scheme = period.scheme
     if scheme is None or scheme.correction != "none":
@@ -68,12 +65,8 @@ def _of_blocks(chips: ByteArray, known: BoolArray, period: SentPeriod) -> IndexA
 def written(bits: IndexArray, scene: Scene) -> str:
     """Write bits of which some are unknown, in the form of the scene's payload.
 
-    Parameters
-    ----------
-    bits : ndarray of int64, shape (bits,)
-        As :func:`known_bits` gives them.
-    scene
-        Its payload's form is used; a code is written in bits.
+    ``bits``: shape (bits,); as :func:`known_bits` gives them. ``scene``: its payload's form is
+    used; a code is written in bits.
     """
     form = form_of(scene.transmitter.payload) if scene.transmitter.payload else "bits"
     if form == "bits":

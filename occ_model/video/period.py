@@ -114,16 +114,9 @@ class SentPeriod:
     def places(self, chips: ByteArray) -> tuple[int, ...]:
         """Return the places in the period that a frame's first chip can have, as headers show it.
 
-        Parameters
-        ----------
-        chips : ndarray of uint8, shape (chips,)
-            Those in view, none of them cut off.
-
-        Returns
-        -------
-        tuple of int
-            One where a header shows it, several where it may be any of them, none where no header
-            is in view, or several contradict each other.
+        ``chips``: shape (chips,); those in view, none of them cut off. Returns one where a header
+        shows it, several where it may be any of them, none where no header is in view, or several
+        contradict each other.
         """
         if self.scheme is None:
             return ()
@@ -169,15 +162,8 @@ class SentPeriod:
     def part_bits(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
         """Read one part by itself.
 
-        Parameters
-        ----------
-        chips : ndarray of uint8, shape (part_length,)
-            Its chips.
-
-        Returns
-        -------
-        part, bits
-            Which part it says it is, and its bits; None where it is not read.
+        ``chips``: shape (part_length,); its chips. Returns which part it says it is, and its bits;
+        None where it is not read.
         """
         if self.scheme is None:
             return None

@@ -72,10 +72,7 @@ class ClockFit:
     def at_start(self, times: FloatArray) -> FloatArray:
         """Return the phase in column 0 of frames at some times, in chips counted on over periods.
 
-        Parameters
-        ----------
-        times : ndarray of float64, any shape
-            In seconds.
+        ``times``: in seconds.
         """
         later = np.asarray(times, dtype=np.float64) - self.middle
         phase = self.start + self.frequency * later + 0.5 * self.drift * later**2

@@ -35,10 +35,8 @@ _ROUNDS = 4
 class PlacedFrames:
     """Frames, in the order of time, and their places.
 
-    Parameters
-    ----------
-    readout_time, tolerance
-        A rough readout time in seconds, and the fraction by which it may be wrong.
+    ``readout_time`` and ``tolerance``: a rough readout time in seconds, and the fraction by which
+    it may be wrong.
     """
 
     def __init__(self, period: SentPeriod, readout_time: float, tolerance: float) -> None:

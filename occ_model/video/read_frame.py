@@ -19,7 +19,8 @@ from occ_model.video.chip_timing import ChipTiming, fit_timing
 from occ_model.video.first_lattice import first_lattice
 
 _MAX_UNEXPLAINED = 0.3
-"""Fraction of the signal's variance that the chips leave unexplained above which they are not read."""
+"""Fraction of the signal's variance that the chips leave unexplained above which they are not
+read."""
 
 _REMEMBERED_REGIONS = 5
 """Previous frames whose regions show where the panel ends: it moves little from one to the next."""
@@ -58,16 +59,9 @@ class TimedFrame:
 def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray:
     """Return the panel of a camera's picture as a receiver enhances it.
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The camera's picture.
-    method
-        The enhancement, as a scene names it; its curve follows from the columns' means.
-
-    Returns
-    -------
-    ndarray of uint8, shape (rows of the region, columns of the region)
+    ``image``: shape (rows, columns); the camera's picture. ``method``: the enhancement, as a scene
+    names it; its curve follows from the columns' means. Returns shape (rows of the region, columns
+    of the region).
     """
     enhancement = Enhancement(column_means(image, region), method)
     return enhancement.of_bytes(np.ascontiguousarray(region.crop(image)))
@@ -76,15 +70,8 @@ def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray
 def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
     """Read one frame as a single picture: as the camera gives it, else as the receiver enhances it.
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The camera's picture.
-
-    Returns
-    -------
-    DecodeResult
-        That of the enhanced picture where this one alone shows the payload, else of the camera's.
+    ``image``: shape (rows, columns); the camera's picture. Returns that of the enhanced picture
+    where this one alone shows the payload, else of the camera's.
     """
     plain = decode(image, scene.replace(enhancement="none"), decoder)
     method, region = scene.model.enhancement, plain.region

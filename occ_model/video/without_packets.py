@@ -102,10 +102,7 @@ class WithoutPackets:
     def described(self, readout_time: float) -> str:
         """Say what the frames show, in a sentence or two; nothing where it is neither of these.
 
-        Parameters
-        ----------
-        readout_time
-            A rough value in seconds, by which a frequency is told.
+        ``readout_time``: a rough value in seconds, by which a frequency is told.
         """
         seen = [look for look in self._looks if look.repeats]
         count = len(self._looks)

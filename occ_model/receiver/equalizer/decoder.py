@@ -38,18 +38,9 @@ _MAX_COLUMNS = 0.25
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code from a signal whose exposure is undone.
 
-    Parameters
-    ----------
-    signal : ndarray of float64, shape (columns,)
-        Mean grey level of each column.
-    scene
-        Its number of bits, switching frequency, exposure time, readout time, averaging, gamma and
-        enhancement are used, and the way to undo the exposure.
-
-    Returns
-    -------
-    DecodeResult
-        With the light that is left when the exposure is undone, and the threshold decoder's steps.
+    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its number of bits,
+    switching frequency, exposure time, readout time, averaging, gamma and enhancement are used, and
+    its deconvolution. The result holds the deconvolved light and the threshold decoder's steps.
     """
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:

@@ -32,10 +32,7 @@ _TAPER = 4.0
 def box(columns: float) -> FloatArray:
     """Return a moving average over a number of columns, as an impulse response about its middle.
 
-    Returns
-    -------
-    ndarray of float64, an odd number of columns
-        Their sum is 1. A column that is covered in part counts as much.
+    Their sum is 1. A column that is covered in part counts as much.
     """
     reach = max(0, math.ceil((columns - 1.0) / 2.0))
     covered = np.clip(columns / 2.0 - np.abs(np.arange(-reach, reach + 1)) + 0.5, 0.0, 1.0)
@@ -45,15 +42,7 @@ def box(columns: float) -> FloatArray:
 def response(columns: float, length: int) -> FloatArray:
     """Return the frequency response of :func:`box` at the frequencies of a spectrum.
 
-    Parameters
-    ----------
-    columns
-        Length of the box.
-
-    Returns
-    -------
-    ndarray of float64, shape (length // 2 + 1,)
-        Real, as the box is even.
+    Returns shape (length // 2 + 1,); real, as the box is even.
     """
     taps = box(columns)
     circle = np.zeros(length)
@@ -66,21 +55,9 @@ def undo_exposure(
 ) -> FloatArray:
     """Return the light before it was averaged over the exposure.
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (columns,)
-        Proportional to light.
-    exposure
-        Exposure time in columns, t / t_r.
-    chip
-        Length of a chip in columns, whose spectrum the light has.
-    method
-        ``"mmse"`` or ``"zero-forcing"``.
-
-    Returns
-    -------
-    ndarray of float64, shape as ``light``
-        At each column the light in the middle of its exposure.
+    ``light``: shape (columns,); proportional to light. ``exposure``: exposure time in columns, t /
+    t_r. ``chip``: length of a chip in columns, whose spectrum the light has. Returns shape as
+    light; at each column the light in the middle of its exposure.
     """
     from scipy.fft import next_fast_len  # both slow to import, and for this decoder alone
     from skimage.restoration import wiener

@@ -48,12 +48,7 @@ class CodeTemplates:
 def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
     """Make the forward model of every code.
 
-    Parameters
-    ----------
-    bits
-        Bits of a code.
-    exposure
-        The exposure time in chips, exactly.
+    ``exposure``: the exposure time in chips, exactly.
     """
     response = chip_response(packet_length(bits), exposure)
     bins = np.arange(len(response))
@@ -71,16 +66,7 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
 def chip_response(period: int, exposure: Fraction) -> FloatArray:
     """Return the lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
 
-    Parameters
-    ----------
-    period
-        Chips of a period.
-    exposure
-        The exposure time in chips, exactly.
-
-    Returns
-    -------
-    ndarray of float64, shape (period * BINS_PER_CHIP,)
+    ``exposure``: the exposure time in chips, exactly. Returns shape (period * BINS_PER_CHIP,).
     """
     first_chip = np.zeros(period, dtype=np.uint8)
     first_chip[0] = 1
@@ -98,18 +84,10 @@ def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArra
     packet is that over its first half, of which there are only 2^(bits / 2), plus that over its
     second half.
 
-    Parameters
-    ----------
-    values : ndarray of float64, shape (chips, n)
-        Values for each chip of a packet.
-
-    Returns
-    -------
-    first : ndarray of float64, shape (2 ** (bits // 2), n)
-        Over the header and the first ``bits // 2`` bits, by the levels after each of them, read
-        as a binary number.
-    second : ndarray of float64, shape (2 ** (bits - bits // 2), n)
-        Over the other bits, in the same way.
+    ``values``: shape (chips, n); values for each chip of a packet. Returns ``first``, shape (2 **
+    (bits // 2), n); over the header and the first ``bits // 2`` bits, by the levels after each of
+    them, read as a binary number. Returns ``second``, shape (2 ** (bits - bits // 2), n); over the
+    other bits, in the same way.
     """
     header = np.array(HEADER, dtype=np.float64) @ values[: len(HEADER)]
     pairs = values[len(HEADER) :].reshape(bits, 2, -1)
@@ -130,9 +108,7 @@ def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
 def codes_by_levels(bits: int) -> IndexArray:
     """Return the code with these levels after its bits, the levels read as a binary number.
 
-    Returns
-    -------
-    ndarray of int64, shape (2 ** bits,), read-only
+    Returns shape (2 ** bits,), read-only.
     """
     after = np.arange(2**bits)
     before = after >> 1 | HEADER[-1] << (bits - 1)

@@ -69,20 +69,12 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code whose forward model is most like the signal.
 
     With r1 and r2 the correlations of the best and the second best code with the signal, the
-    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same fraction of the variance,
-    near 1 where the best alone explains all of it.
+    confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same fraction of the
+    variance, near 1 where the best alone explains all of it.
 
-    Parameters
-    ----------
-    signal : ndarray of float64, shape (columns,)
-        Mean grey level of each column.
-    scene
-        Its scheme, number of bits, switching frequency, exposure time and readout time are used.
-
-    Returns
-    -------
-    DecodeResult
-        With correlation and confidence, the folded signal and the best code's profile.
+    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its scheme, number of
+    bits, switching frequency, exposure time and readout time are used. The result holds correlation
+    and confidence, the folded signal and the best code's profile.
     """
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:
@@ -215,10 +207,7 @@ def _why_ambiguous(code: int, likely: IndexArray, scene: Scene) -> str | None:
 def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
     """Find the codes that correlate best with the signal over all phases, and their phases.
 
-    Returns
-    -------
-    codes, phases : ndarray of int64, shape (_LIKELY,) or fewer
-        A phase is the bin at which a code's packet starts.
+    Returns shape (_LIKELY,) or fewer; a phase is the bin at which a code's packet starts.
     """
     bins, period = len(signal), packet_length(templates.bits)
     about_mean = signal - signal.mean()
@@ -237,9 +226,7 @@ def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArra
 def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
     """Return the largest value of each sum of a row of one array and a row of the other.
 
-    Returns
-    -------
-    ndarray of float64, shape (rows of ``first``, rows of ``second``)
+    Returns shape (rows of first, rows of second).
     """
     columns, shape = first.shape[1], (len(first), len(second))
     # Neighbours in memory are different sums, which the processor adds several at a time.

@@ -52,18 +52,10 @@ class PayloadTemplates:
         Each payload is compared with the signal that has its own levels: one may light most chips
         and another one hardly any, so that no levels are those of all.
 
-        Parameters
-        ----------
-        rank : ndarray of int64, shape (bins,)
-            The place of each bin of the signal, folded over one period, in the order of its values.
-        count
-            How many payloads, or all if there are fewer.
-        sure
-            Correlation from which a payload is among them, however many there are.
-
-        Returns
-        -------
-        codes, phases : ndarray of int64, shape (count,) or more
+        ``rank``: shape (bins,); the place of each bin of the signal, folded over one period, in the
+        order of its values. ``count``: how many payloads, or all if there are fewer. ``sure``:
+        correlation from which a payload is among them, however many there are. Returns shape
+        (count,) or more.
         """
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)
@@ -84,12 +76,8 @@ class PayloadTemplates:
 def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
     """Make the forward model of every payload.
 
-    Parameters
-    ----------
-    scheme
-        The scheme, of at most :data:`MOST_BITS` bits.
-    exposure
-        The exposure time in chips, exactly.
+    ``scheme``: the scheme, of at most :data:`MOST_BITS` bits. ``exposure``: the exposure time in
+    chips, exactly.
     """
     codes = range(2**scheme.bits)
     response = np.fft.rfft(chip_response(scheme.length, exposure))

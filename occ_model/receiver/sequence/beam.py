@@ -22,10 +22,7 @@ def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics)
     A margin is that to the best way kept with the opposite chip, some memories later; where none
     is kept, that to the worst way kept.
 
-    Parameters
-    ----------
-    memory
-        Chips that an exposure reaches back to.
+    ``memory``: chips that an exposure reaches back to.
     """
     chip_after, place_after = _steps(words)
     reach = memory + 1

@@ -48,12 +48,7 @@ def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
     Where the trellis of the code itself would have too many states, only its longest run is
     kept, and where that has too many, the code: its best ways alone are followed.
 
-    Parameters
-    ----------
-    transmitter
-        Its scheme is used, not what it sends.
-    memory
-        Chips that a state holds.
+    ``transmitter``: its scheme is used, not what it sends. ``memory``: chips that a state holds.
     """
     if transmitter.pattern:
         return CodeWords(FREE_CHIPS)

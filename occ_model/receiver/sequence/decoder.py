@@ -55,19 +55,10 @@ _MAX_UNEXPLAINED = 0.05
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code from the chips whose exposures are most like the signal.
 
-    Parameters
-    ----------
-    signal : ndarray of float64, shape (columns,)
-        Mean grey level of each column.
-    scene
-        Its scheme, number of bits, switching frequency, exposure time, readout time, averaging,
-        gamma and enhancement are used.
-
-    Returns
-    -------
-    DecodeResult
-        With the chips, the light of each column beside that of the chips' model, and the
-        probability that each bit is right.
+    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its scheme, number of
+    bits, switching frequency, exposure time, readout time, averaging, gamma and enhancement are
+    used. The result holds the chips, the light of each column beside that of the chips' model, and
+    the probability that each bit is right.
     """
     result = DecodeResult("sequence", signal=signal, failure=why_flat(signal))
     if result.failure is not None:

@@ -37,19 +37,9 @@ class Timing:
 def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
     """Return the chip that each exposure ends in, and the fractions of that and the chips before.
 
-    Parameters
-    ----------
-    timing
-        Its exposure is used.
-    starts : ndarray of float64, any shape
-        Where the exposures start, in chips.
-
-    Returns
-    -------
-    last : ndarray of int64, shape as ``starts``
-        The chips.
-    shares : ndarray of float64, shape (..., memory + 1)
-        The fractions of the chip and of those before it, the latest first; their sum is 1.
+    ``starts``: where the exposures start, in chips. Returns ``last``, shape as starts; the chips.
+    Returns ``shares``, shape (..., memory + 1); the fractions of the chip and of those before it,
+    the latest first; their sum is 1.
     """
     ends = starts + timing.exposure
     last = np.floor(ends)
@@ -89,14 +79,9 @@ def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
 
     Between its first chips and its last ones all have the same share.
 
-    Returns
-    -------
-    chosen : ndarray of int64, shape (kinds,)
-        A chip of each kind.
-    one, other : ndarray of int64, shape (products,)
-        The kinds whose shares are multiplied.
-    sums : ndarray of int64, shape (features,)
-        The sum that is each feature: first those of a kind and the light, then those products.
+    Returns ``chosen``, shape (kinds,); a chip of each kind. Returns shape (products,); the kinds
+    whose shares are multiplied. Returns ``sums``, shape (features,); the sum that is each feature:
+    first those of a kind and the light, then those products.
     """
     kind = np.clip(np.arange(reach), None, 1)
     kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
@@ -113,12 +98,7 @@ def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
 def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
     """Gather rows by the chip that each of them ends in.
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (rows,)
-        The fraction of full light of each row.
-    timing
-        The timing.
+    ``light``: shape (rows,); the fraction of full light of each row.
     """
     last, shares = taps(timing, timing.starts(len(light)))
     first, reach = int(last[0]), shares.shape[1]

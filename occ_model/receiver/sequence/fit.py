@@ -100,7 +100,7 @@ class Rows:
 
 
 def lit_shares(chips: Chips, timing: Timing, rows: int) -> tuple[FloatArray, FloatArray]:
-    """Return the lit fraction of each row's exposure, and its slope over the phase, shape (rows,)."""
+    """Return the lit fraction of each row's exposure, and its derivative by the phase."""
     starts = timing.starts(rows)
     last, shares = taps(timing, starts)
     place = last[:, None] - np.arange(shares.shape[1]) - chips.first

@@ -30,10 +30,7 @@ def follow_timing(
 ) -> Timing:
     """Improve a timing whose time from row to row may be some percent off.
 
-    Parameters
-    ----------
-    timing
-        Its phase is not used.
+    ``timing``: its phase is not used.
     """
     count = len(rows.light)
     timing = find_phase(rows, timing, brightness, words)

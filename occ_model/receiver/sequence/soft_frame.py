@@ -36,12 +36,8 @@ class SoftFrame:
 def read_frame(ratios: FloatArray, scheme: Scheme, header: tuple[int, ...]) -> SoftFrame:
     """Read the likeliest frame.
 
-    Parameters
-    ----------
-    ratios : ndarray of float64, shape (chips,)
-        Log-likelihood ratio of each chip.
-    header
-        The chips at the start of every frame, as far as they are known.
+    ``ratios``: shape (chips,); log-likelihood ratio of each chip. ``header``: the chips at the
+    start of every frame, as far as they are known.
     """
     length = scheme.length
     if len(ratios) < length:
@@ -63,10 +59,8 @@ def read_frame(ratios: FloatArray, scheme: Scheme, header: tuple[int, ...]) -> S
 def likeliest_packet(folded: FloatArray, bits: int) -> SoftFrame:
     """Find the likeliest packet of the paper's scheme.
 
-    Parameters
-    ----------
-    folded : ndarray of float64, shape (chips of a packet,)
-        Log-likelihood ratio of each chip of a period, which starts anywhere.
+    ``folded``: shape (chips of a packet,); log-likelihood ratio of each chip of a period, which
+    starts anywhere.
     """
     length = packet_length(bits)
     rotated = folded[(np.arange(length)[:, None] + np.arange(length)) % length]
@@ -97,10 +91,7 @@ def _sureness(
 ) -> tuple[float, FloatArray | None]:
     """Return the probability that all bits are right, and that of each.
 
-    Parameters
-    ----------
-    ratios : ndarray of float64, shape (chips of a frame,)
-        Log-likelihood ratios from the start of the frame on.
+    ``ratios``: shape (chips of a frame,); log-likelihood ratios from the start of the frame on.
     """
     sent, code = scheme.encode(framed.bits), scheme.line_code
     right = probability(np.where(sent == 1, ratios, -ratios))

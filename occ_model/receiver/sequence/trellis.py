@@ -107,10 +107,7 @@ def most_states(words: tuple[Word, ...], memory: int) -> int:
 def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
     """Make the trellis of a code.
 
-    Parameters
-    ----------
-    memory
-        Chips that a state holds, one less than an exposure can touch.
+    ``memory``: chips that a state holds, one less than an exposure can touch.
     """
     steps = places_of(words)
     reached: set[tuple[int, tuple[int, ...]]] = {(place, ()) for place in range(len(steps))}

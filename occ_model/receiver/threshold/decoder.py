@@ -63,17 +63,9 @@ def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
     For a raw pattern, whose runs have no scale, and for other schemes than the paper's the length
     of a chip is known too.
 
-    Parameters
-    ----------
-    signal : ndarray of float64, shape (columns,)
-        Mean grey level of each column.
-    scene
-        Its transmitter says by which scheme how many bits are sent, or that no packets are.
-
-    Returns
-    -------
-    DecodeResult
-        With every step that was reached; the caller adds the region.
+    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its transmitter says by
+    which scheme how many bits are sent, or that no packets are. The result holds every step that
+    was reached; the caller adds the region.
     """
     result = _read(signal, scene)
     if result.failure is None or _knows_length(scene):

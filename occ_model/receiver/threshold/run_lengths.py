@@ -82,12 +82,8 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     A widening may exceed a chip. A single chip of the other kind then vanishes, but a packet
     without such chips can still be read.
 
-    Parameters
-    ----------
-    runs
-        Runs that are not cut off by the region's edges, of both kinds.
-    histograms
-        Their lengths, of zeros and of ones.
+    ``runs``: runs that are not cut off by the region's edges, of both kinds. ``histograms``: their
+    lengths, of zeros and of ones.
     """
     short_zero, short_one = (short_run(histogram) for histogram in histograms)
     longest_one = float(len(histograms[1].counts) - 1)
@@ -109,12 +105,8 @@ def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
     likelier. Where an enhancement has moved the threshold by more than half a chip, the runs of one
     pattern can equal those of another.
 
-    Parameters
-    ----------
-    runs
-        Runs that are not cut off by the region's edges, of both kinds.
-    nominal
-        Expected columns of a chip.
+    ``runs``: runs that are not cut off by the region's edges, of both kinds. ``nominal``: expected
+    columns of a chip.
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
     # A threshold is rarely far off the middle.

@@ -18,10 +18,7 @@ _SAMPLES = 65
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     """Return the shutter speeds without bars, and the scene at the shortest of them.
 
-    Parameters
-    ----------
-    exposure_error
-        Standard deviation of the scene's exposure time in s, for the present depth.
+    ``exposure_error``: standard deviation of the scene's exposure time in s, for the present depth.
     """
     over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
     repeats = frequency / over.period

@@ -32,10 +32,7 @@ _ERRORS = Fraction(1, 100)
 def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
     """Return the example as a request for one film.
 
-    Parameters
-    ----------
-    frames
-        Frames; the starts of frames within a packet repeat after 65.
+    ``frames``: frames; the starts of frames within a packet repeat after 65.
     """
     scene = scene_of_films(Scene()).replace(
         line_code="manchester", framing="paper", exposure_time=_EXPOSURE, iso=800.0

@@ -59,16 +59,9 @@ class TableText(Protocol[Point]):
 class ResultsFile(Generic[Point]):
     """A CSV file of one study, open and locked within its context.
 
-    Parameters
-    ----------
-    table
-        How the study is written.
-
-    Raises
-    ------
-    OutputError
-        On entering the context: the path is no regular file or cannot be written, another study is
-        using it, or it holds something else than this one. The file is left unchanged then.
+    ``table``: how the study is written. Raises OutputError: on entering the context: the path is no
+    regular file or cannot be written, another study is using it, or it holds something else than
+    this one. The file is left unchanged then.
     """
 
     def __init__(self, path: Path, table: TableText[Point]) -> None:

@@ -58,19 +58,8 @@ def sub_packets(bits: int) -> int:
 def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray, str | None]:
     """Read a single sub-packet.
 
-    Parameters
-    ----------
-    chips : ndarray of uint8
-        Its chips, from its preamble on.
-
-    Returns
-    -------
-    number : int
-        Which one it is, from 0.
-    bits : ndarray of uint8
-        Its part of the payload.
-    problem
-        None, or a sentence that says what is wrong with it.
+    ``chips``: its chips, from its preamble on. Returns ``number``, which one it is, from 0. Returns
+    ``bits``, its part of the payload. Returns None, or a sentence that says what is wrong with it.
     """
     preamble, division = own_preamble(form.line_code), _Division.of(form.bits)
     if not np.array_equal(chips[: len(preamble)], preamble):
@@ -89,11 +78,8 @@ def number_beside(
 ) -> tuple[int | None, int | None]:
     """Read the sub-packets' numbers after and before a preamble, as far as chips show them.
 
-    Returns
-    -------
-    after, before
-        The number of the sub-packet that the preamble starts, and of the one that it ends; None
-        where the chips do not show it.
+    Returns the number of the sub-packet that the preamble starts, and of the one that it ends; None
+    where the chips do not show it.
     """
     code, preamble = form.line_code, own_preamble(form.line_code)
     division = _Division.of(form.bits)

@@ -31,12 +31,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:
     """Read a payload of known length from the chips that follow a preamble.
 
-    Parameters
-    ----------
-    data : ndarray of uint8
-        The chips; those after the payload do not count.
-    level
-        The preamble's last chip.
+    ``data``: the chips; those after the payload do not count. ``level``: the preamble's last chip.
     """
     read = form.line_code.decode(data[: form.line_code.chips_for(form.bits)], level)
     bits, padding = read.bits[: form.bits], read.bits[form.bits :]

@@ -14,16 +14,8 @@ from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, no_who
 def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
     """Turn bits into chips.
 
-    Parameters
-    ----------
-    bits : array_like of int, shape (..., bits)
-        The bits, first sent first.
-    level
-        The chip before the first one.
-
-    Returns
-    -------
-    ndarray of uint8, shape (..., 2 x bits)
+    ``bits``: shape (..., bits); the bits, first sent first. ``level``: the chip before the first
+    one. Returns shape (..., 2 x bits).
     """
     # A bit 0 has two transitions and so leaves the level as it was; a bit 1 inverts it.
     after = np.bitwise_xor.accumulate(np.asarray(bits, dtype=np.uint8), axis=-1) ^ np.uint8(level)

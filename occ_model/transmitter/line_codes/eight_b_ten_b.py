@@ -61,12 +61,7 @@ def _chosen(word: str, disparity: int) -> str:
 def encode_byte(byte: int, disparity: int) -> tuple[str, int]:
     """Return the ten chips of a byte, and the running disparity after them.
 
-    Parameters
-    ----------
-    byte
-        From 0 to 255.
-    disparity
-        The running disparity before it, -1 or 1.
+    ``disparity``: the running disparity before it, -1 or 1.
     """
     low, high = byte & 31, byte >> 5
     six = _chosen(_SIX[low], disparity)

@@ -49,10 +49,8 @@ class DecoderProcess:
 
     A frame may be asked for ahead: it is decoded while the one before it is worked on.
 
-    Attributes
-    ----------
-    is_full
-        Whether the film ended, and a few more frames would not have fitted into the memory.
+    ``is_full``: whether the film ended, and a few more frames would not have fitted into the
+    memory.
     """
 
     def __init__(self) -> None:
@@ -71,10 +69,8 @@ class DecoderProcess:
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
         """Open a film; the one that was open is closed.
 
-        Raises
-        ------
-        VideoError
-            There is no film in the file, or one of too large frames: the end of a sentence.
+        Raises VideoError: there is no film in the file, or one of too large frames: the end of a
+        sentence.
         """
         self._forget()
         answer, _ = self._ask(
@@ -85,10 +81,7 @@ class DecoderProcess:
     def read(self) -> StoredFrame | None:
         """Return the next frame, None after the last; the one after it is asked for ahead.
 
-        Raises
-        ------
-        VideoError
-            It cannot be decoded: the end of a sentence.
+        Raises VideoError: it cannot be decoded: the end of a sentence.
         """
         if not self._ahead:
             self._send({"do": "read"})
@@ -123,10 +116,8 @@ class DecoderProcess:
 
         Raises as :meth:`read` does.
 
-        Parameters
-        ----------
-        index, time, within
-            Its number, its time and by how much that may differ, both in seconds.
+        ``index``, ``time``, ``within``: its number, its time and by how much that may differ, both
+        in seconds.
         """
         self._forget()
         return _frame(*self._ask({"do": "seek", "index": index, "time": time, "within": within}))

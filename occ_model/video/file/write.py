@@ -43,21 +43,10 @@ def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: s
 
     OpenCV tells of no error: its file's frames are counted before it takes the place of another.
 
-    Parameters
-    ----------
-    path
-        The file; its ending is one of :data:`FILM_ENDINGS`.
-    pictures
-        Arrays of uint8, all of one shape: (lines, columns), or (lines, columns, 3) with red, green
-        and blue. MP4 and MKV files have an even number of lines and of columns: a last odd one is
-        left out.
-    rate
-        Frames a second.
-
-    Returns
-    -------
-    int
-        How many frames were written.
+    ``path``: the file; its ending is one of :data:`FILM_ENDINGS`. ``pictures``: arrays of uint8,
+    all of one shape: (lines, columns), or (lines, columns, 3) with red, green and blue. MP4 and MKV
+    files have an even number of lines and of columns: a last odd one is left out. Returns how many
+    frames were written.
     """
     check_film_path(path, rate)
     name, ending = one_line(path.name), path.suffix.lower()

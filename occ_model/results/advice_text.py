@@ -89,7 +89,7 @@ def theory_text(parameter: str, theory: TheoryLimits) -> str:
 def two_packets_text(frequency: float) -> str:
     """Return the sentence on the frequency below which a decoder that needs two packets fails."""
     limit = HERTZ.format(frequency, _DIGITS)
-    return f"Below {limit} the picture does not hold the two packets that it needs."
+    return f"Below {limit} the picture does not hold the two packets that this decoder needs."
 
 
 def _counted(trial: Trial) -> str:

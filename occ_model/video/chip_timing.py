@@ -62,8 +62,7 @@ class ChipLattice:
     values: ByteArray  # Shape (chips,): the chips
 
     def lit(self, columns: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the lit fraction of each column's exposure, and the chips at its start and its
-        end.
+        """Return each column's lit fraction, and the chips at its exposure's start and end.
 
         Returns shape (columns,).
         """

@@ -22,10 +22,12 @@ _MIN_PERIODS = 3.0
 """Periods in a frame from which stripes repeat, and are not by chance alike twice."""
 
 _MAX_UNREPEATED = 0.1
-"""Fraction of the variance of stripes that no repeated wave explains, above which they are others."""
+"""Fraction of the variance of stripes that no repeated wave explains, above which they are
+others."""
 
 _MIN_CHANGE = 0.2
-"""Fraction of the brightest frames' light by which dark ones are darker where whole frames blink."""
+"""Fraction of the brightest frames' light by which dark ones are darker where whole frames
+blink."""
 
 _MOST = 0.9
 """Fraction of frames from which all are said to show the same."""

@@ -118,10 +118,10 @@ def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
 
 def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
     lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
-    assert "Below 3.468 kHz no two packets" in lines[3]
+    assert "Below 3.468 kHz the picture does not hold" in lines[3]
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
-    assert "from 1.17 ms what is lit throughout is white" in lines[7]
+    assert "from 1.17 ms on, columns lit throughout are white" in lines[7]
 
 
 def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) -> None:

@@ -135,7 +135,7 @@ def test_what_has_one_share_is_covered_wholly_or_not_at_all(blur: float, left: f
     # Upright edges: all rows are alike, also in the blurred rims.
     square = np.array([[left, -900.0], [left + 50, -900], [left + 50, 900], [left, 900]])
     parts = Coverage(square, ROWS, COLUMNS, blur).parts(range(ROWS))
-    assert {part.fraction for part in parts if isinstance(part.share, float)} <= {0.0, 1.0}
+    assert {part.fraction for part in parts if isinstance(part.fraction, float)} <= {0.0, 1.0}
 
 
 @pytest.mark.parametrize("blur", [0.2, 1.0, 5.0, 10.0, 100.0])

@@ -507,9 +507,9 @@ def test_the_command_answers_with_one_table_of_all_decoders(
         assert cells[1].strip() == "500 Hz (searched to)"
         assert re.fullmatch(r" ?1[34][.\d]* kHz", cells[2])
         assert " kHz to " in cells[3]
-    place = lines.index("  Below 3.468 kHz no two packets fit the picture, which it needs.")
+    place = lines.index("  Below 3.468 kHz the picture does not hold the two packets that this decoder needs.")
     assert place < lines.index("The matched decoder, switching frequency:")
-    assert lines[-1].endswith("; from 1.17 ms what is lit throughout is white.")
+    assert lines[-1].endswith("; from 1.17 ms on, columns lit throughout are white.")
 
 
 def test_a_search_that_is_refused_prints_no_table(capsys: pytest.CaptureFixture[str]) -> None:
@@ -524,7 +524,7 @@ def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[s
     assert main(["limits", "--decoder", "matched", "--images", "1", *dark]) == 1
     printed = capsys.readouterr().out
     assert "at no switching frequency from 500 Hz to 100 kHz" in printed
-    assert "there is no light that could saturate" in printed
+    assert "without light nothing saturates" in printed
 
 
 def test_the_bits_of_a_payload_are_counted_as_sent() -> None:

@@ -73,7 +73,7 @@ def test_progress_counts_pictures(tmp_path: Path) -> None:
         (("images/0.png", "../0.png"), "line 2: .* is outside the folder"),
         (("images/0.png", ""), "line 2: relative_path is missing"),
         (("images/0.png", "a\0b"), r"line 2: 'a\\x00b' cannot be the name of a file"),
-        (("images/0.png", "a" * 200_000), r"is no table: field larger than field limit \(131072\)"),
+        (("images/0.png", "a" * 200_000), r"not a table: field larger than field limit \(131072\)"),
         ((f",{TICK},", ",1e-320,"), r"line 2: times of \[.*\] s; allowed"),
     ],
 )

@@ -21,7 +21,8 @@ from occ_gui.accuracy.effect_table import EffectTable
 from occ_gui.accuracy.panels import Panel, Panels
 from occ_gui.accuracy.row_order import slowest_of
 from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
-from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results.accuracy import AccuracyPoint

@@ -10,7 +10,8 @@ from occ_gui.background.task import Task
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.snapshot import SimulationRequest, Snapshot
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.study.forecast import forecast

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 from occ_gui.background.task import Report
-from occ_gui.simulation.snapshot import SimulationRequest
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.effects.plan import plan_with
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.effect_costs import EffectDifference, MeasuredCosts, TimeShares

@@ -25,6 +25,7 @@ class AccuracyPane(Pane[AccuracyPart]):
         settings = scenes.settings
         self.made_of = dict.fromkeys(view.of_scene, of_snapshot)
         self.study = AccuracyController(scenes, settings, simulation, view)
+        self.measures = (self.study,)
         self._snapshot: Snapshot | None = None
         view.tolerance_edited.connect(settings.set_tolerance)
         view.observable_chosen.connect(settings.set_observable)
@@ -51,12 +52,3 @@ class AccuracyPane(Pane[AccuracyPart]):
         """Draw and measure while the pane is seen."""
         self.view.set_seen(seen)
         self.study.set_seen(seen)
-
-    @property
-    def is_measured(self) -> bool:
-        """Whether nothing is being measured or about to be."""
-        return self.study.is_idle
-
-    def stop(self) -> None:
-        """Stop measuring."""
-        self.study.stop()

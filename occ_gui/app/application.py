@@ -7,7 +7,6 @@ from PySide6.QtCore import QObject, QSettings
 
 from occ_gui.app.error_reports import ErrorReports
 from occ_gui.app.features import features, middle
-from occ_gui.app.kept_session import KeptSession
 from occ_gui.app.lessons_in_window import LessonsInWindow
 from occ_gui.app.photo_in_window import PhotoInWindow
 from occ_gui.app.scene_in_window import SceneInWindow
@@ -16,17 +15,17 @@ from occ_gui.app.story_wiring import connect_story
 from occ_gui.app.video_pane import VideoPane
 from occ_gui.app.view_options import ViewOptions
 from occ_gui.core.store import Store
-from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
+from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.slider_strip import SliderStrips
 from occ_gui.detection_map.wiring import Measuring
 from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController, sample_photos
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
+from occ_gui.files.session import Session
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
@@ -41,8 +40,6 @@ from occ_gui.window.main_window import MainWindow
 from occ_model.effects.registry import EFFECTS
 from occ_model.plugins import all_at_work
 from occ_model.scene.parameters import PARAMETERS
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 
 
 class Application(QObject):
@@ -50,23 +47,16 @@ class Application(QObject):
 
     Parameters
     ----------
-    scene
-        The first scene.
-    settings
-        The first settings of its simulation.
+    workspace
+        What is set at first.
     preferences
         The stored preferences; by default nothing is stored.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        settings: SimulationSettings = FIRST_SETTINGS,
-        preferences: QSettings | None = None,
-    ) -> None:
+    def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
         super().__init__()
-        workspace = Store(Workspace(scene, settings))
-        self.store = SceneStore(workspace, {e.name: e.label for e in EFFECTS})
+        store = Store(workspace)
+        self.store = SceneStore(store, {e.name: e.label for e in EFFECTS})
         self.settings = self.store.settings
         self.editor = SceneEditor(self.store)
         self.preferences = Preferences(preferences)
@@ -77,31 +67,30 @@ class Application(QObject):
         self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.board = Board()
-        self.shell = Shell(workspace, self.board)
+        self.shell = Shell(store, self.board)
         centre = middle(self)
         self.story: StoryView = self.view("story")
         self.window = MainWindow(
             self.controls, centre, self.story, undo_stack=self.store.undo_stack
         )
         self.messages = StatusMessages(self.window, self.controls)
-        self.photos = PhotoController(workspace, self.board)
+        self.photos = PhotoController(store, self.board)
         self.presets = PresetController(self.window, self.store)
         self.files = FileController(
             self.window, self.store, self.photos, self.preferences, self.present.ask
         )
         self.document = Document(self.window, self.store, self.files)
-        self.frame_rate = FrameRate(workspace)
         self.measuring = Measuring(self.store, self.slider_strips, self._has_picture)
         self.pins = PinController(self.store, self.present.is_present)
         self.lessons = LessonsInWindow(self.window, self.shell)
         self.video = VideoPane(
             self.window,
             self.shell,
-            workspace,
+            store,
             self.files.ask_for_film,
             self.files.ask_to_save_film,
         )
-        self.options = ViewOptions(self.window, workspace, self.preferences, self.editor.brightness)
+        self.options = ViewOptions(self.window, store, self.preferences, self.editor.brightness)
         self.error_reports = ErrorReports()
         self.photo = PhotoInWindow(self)
         for feature in features(self, self.photo):
@@ -114,9 +103,7 @@ class Application(QObject):
         self._offer_exports()
         connect_story(self)
         self.scene = SceneInWindow(self)
-        # Before the session is written.
-        self.window.closing.connect(self._begin_to_end)
-        self.kept = KeptSession(self)
+        self.session = Session(store, self._users_own)
         self._connect_parts()
 
     def _offer_exports(self) -> None:
@@ -132,12 +119,16 @@ class Application(QObject):
         for said in (
             self.presets.status_message, self.files.status_message, self.present.status_message,
             self.editor.brightness.status_message, self.shell.said, self.error_reports.reported,
+            self.session.status_message,
         ):  # fmt: skip
             said.connect(window.say)
         for noted in (self.lessons.noted, self.pins.status_message):
             noted.connect(self.messages.show_note)
         window.leave_messages_to(story.verdict.sentence, story.verdict.wrapped)
-        window.closing.connect(self.stop)
+        for end in (self._begin_to_end, self.session.end, self.stop):
+            window.closing.connect(end)
+        self.session.written.connect(self._keep_view)
+        self.photos.opened.connect(self.document.show_photo)
         window.dropped.connect(self.files.open_dropped)
         window.menus.show_samples(sample_photos(), self.files.open_sample)
         self.files.film_asked.connect(self.video.open)
@@ -147,6 +138,18 @@ class Application(QObject):
         story.verdict.lesson_wanted.connect(self._show_lesson)
         self.measuring.rate_changed.connect(story.verdict.show_rate)
         self._connect_strips()
+        entries = window.actions_by_name
+        entries["undo"].triggered.connect(self._say_undone)
+        entries["redo"].triggered.connect(self._say_redone)
+
+    def _say_undone(self) -> None:
+        # What has changed may be in another mode. In a menu, a doubled & is one.
+        step = self.store.undo_stack.redoText().replace("&&", "&")
+        self.messages.show_note(f"Undone: {step}.")
+
+    def _say_redone(self) -> None:
+        step = self.store.undo_stack.undoText().replace("&&", "&")
+        self.messages.show_note(f"Redone: {step}.")
 
     def _connect_strips(self) -> None:
         self.controls.add_foot(self.slider_strips.legend)
@@ -159,12 +162,12 @@ class Application(QObject):
     @property
     def is_idle(self) -> bool:
         """Whether all requested results are shown."""
-        parts = (self.simulation, self.outdated, self.pins, self.shell)
+        parts = (self.simulation.runner, self.outdated, self.pins, self.shell)
         return all(part.is_idle for part in parts)
 
     def _has_picture(self) -> bool:
         """Return whether the first picture is there, or there is none of this scene."""
-        return self.present.latest is not None or self.simulation.is_idle
+        return self.present.latest is not None or self.simulation.runner.is_idle
 
     @property
     def is_measured(self) -> bool:
@@ -189,6 +192,20 @@ class Application(QObject):
         """
         self.photo.open(path, match, front)
 
+    def resume(self, workspace: Workspace) -> None:
+        """Have what an earlier window has left, which is no step and stays behind."""
+        self.photo.stay_behind(workspace.photo.path)
+        self.store.store.put(workspace)
+
+    def _users_own(self) -> Workspace:
+        """Return what the user has set; what a lesson shows in its place is not kept."""
+        return self.lessons.users_own() or self.store.store.workspace
+
+    def _keep_view(self) -> None:
+        """Store how the window looks, unless a lesson has its own panes in it."""
+        if self.lessons.users_own() is None:
+            self.options.keep()
+
     def _animate(self, name: str) -> None:
         self.shell.pane("animation").ask(name)
 
@@ -203,7 +220,7 @@ class Application(QObject):
 
     def _begin_to_end(self) -> None:
         # What follows waits for work, and somebody may lose patience first.
-        self.kept.autosave.write()
+        self.session.write()
         for who in all_at_work():
             self.window.say(f"{who} is waited for.")
             self.window.repaint()
@@ -212,7 +229,7 @@ class Application(QObject):
 
     def stop(self) -> None:
         """Stop all work in the background."""
-        for part in (self.simulation, self.pins, self.shell, self.measuring):
+        for part in (self.simulation, self.pins.runner, self.shell, self.measuring):
             part.stop()
         self.error_reports.remove()
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, NoReturn
 import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_gui.app.system_libraries import missing_libraries, sentence_about
+from occ_gui.core.workspace import Workspace
 from occ_model.commands.options import (
     Parser,
     add_scene_options,
@@ -28,8 +29,6 @@ from occ_model.files.writing import write_whole
 from occ_model.plugins import all_at_work
 from occ_model.program import EXIT_MISUSE, run_program, say
 from occ_model.scene.from_text import DEFAULT_PRESET
-from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:
     from PySide6.QtCore import QSettings
@@ -157,7 +156,7 @@ def _size(text: str) -> tuple[int, int]:
 
 def _run(options: argparse.Namespace, begin: Start) -> int:
     _prepare(options)
-    qt, application = start(begin.scene, sys.argv[:1], begin.settings, begin.preferences)
+    qt, application = start(begin.first, sys.argv[:1], begin.preferences)
     if not (options.screenshot or options.size):
         from occ_gui.app.display import open_first
 
@@ -243,21 +242,18 @@ def _close_on_interrupt(application: "Application") -> None:
 
 
 def start(
-    scene: Scene,
+    workspace: Workspace,
     arguments: list[str],
-    settings: SimulationSettings | None = None,
     preferences: "QSettings | None" = None,
 ) -> "tuple[QApplication, Application]":
     """Create the application, with its window not shown yet.
 
     Parameters
     ----------
-    scene
-        The first scene.
+    workspace
+        What is set at first.
     arguments
         The command line for Qt.
-    settings
-        The first settings of the simulation; by default fast enough for sliders.
     preferences
         The stored preferences; by default nothing is stored.
     """
@@ -276,7 +272,6 @@ def start(
     from occ_gui.app.application import Application
     from occ_gui.app.error_reports import log_qt_messages
     from occ_gui.app.garbage_collection import GarbageCollector
-    from occ_gui.core.workspace import FIRST_SETTINGS
     from occ_gui.widgets.icons import PROGRAM
     from occ_gui.window.theme import show_theme
 
@@ -290,7 +285,7 @@ def start(
     log_qt_messages()
     show_theme(THEMES[0])  # before there are panes that would have to follow
     garbage = GarbageCollector(qt)
-    application = Application(scene, settings or FIRST_SETTINGS, preferences)
+    application = Application(workspace, preferences)
     garbage.spare()
     application.window.closing.connect(garbage.release)
     return qt, application

@@ -18,9 +18,6 @@ class LessonsInWindow(QObject):
     noted = Signal(str)
     """The outcome of an action, shown until the scene changes."""
 
-    begun = Signal()
-    """A lesson is about to replace what the user is working on."""
-
     columns_held = Signal(object)
     """How many columns a lesson keeps in view; None for as many as usual."""
 
@@ -40,7 +37,6 @@ class LessonsInWindow(QObject):
         pane.noted.connect(self.noted)
         lessons = pane.controller
         lessons.pane_wanted.connect(self._show_pane_of_step)
-        lessons.begun.connect(self.begun)
         lessons.columns_held.connect(self.columns_held)
         lessons.action_wanted.connect(self._do)
 

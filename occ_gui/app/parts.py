@@ -12,10 +12,10 @@ from occ_gui.files.document import Document
 from occ_gui.files.file_controller import FileController
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.preset_controller import PresetController
+from occ_gui.files.session import Session
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
@@ -46,7 +46,7 @@ class Parts(Protocol):
     presets: PresetController
     files: FileController
     document: Document
-    frame_rate: FrameRate
+    session: Session
     measuring: Measuring
     pins: PinController
     lessons: LessonsInWindow

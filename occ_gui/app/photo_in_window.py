@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 
 from occ_gui.app.parts import Parts
 from occ_gui.files.file_controller import sample_photos
-from occ_gui.values.photo_choice import MatchAsked, PhotoChoice
+from occ_gui.values.photo_choice import MatchAsked
 from occ_gui.window.menus import words_of
 
 if TYPE_CHECKING:
@@ -53,10 +53,9 @@ class PhotoInWindow(QObject):
         self._match_next, self._front_next = match, front
         self._parts.photos.open(path)
 
-    def resume(self, choice: PhotoChoice) -> None:
-        """Open the photo of the last session with what was set about it, and leave it behind."""
-        self._front_next = choice.path is None
-        self._parts.photos.edit(lambda _first: choice)
+    def stay_behind(self, path: Path | None) -> None:
+        """Do not bring the photo to the front that is about to be opened, if there is one."""
+        self._front_next = path is None
 
     def match(self) -> None:
         """Match the photo in front."""

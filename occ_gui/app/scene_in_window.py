@@ -44,7 +44,6 @@ class SceneInWindow(QObject):
         store.settings.changed.connect(self._show_settings)
         store.settings.refused.connect(messages.show_refusal)
         parts.presets.changed.connect(self._list_presets)
-        parts.lessons.begun.connect(parts.presets.keep_base)
         parts.preferences.changed.connect(self._list_recent)
 
     def _connect_simulation(self) -> None:
@@ -81,7 +80,7 @@ class SceneInWindow(QObject):
         parts = self._parts
         parts.messages.end_refusal()
         parts.controls.show_scene(scene)
-        parts.controls.show_preset(*parts.presets.follow(scene))
+        parts.controls.show_preset(*parts.presets.shown)
 
     def _show_settings(self, settings: SimulationSettings) -> None:
         parts = self._parts
@@ -97,7 +96,7 @@ class SceneInWindow(QObject):
     def _list_presets(self) -> None:
         presets, controls = self._parts.presets, self._parts.controls
         controls.list_presets(presets.titles, presets.unreadable, presets.own)
-        controls.show_preset(*presets.follow(self._parts.store.scene))
+        controls.show_preset(*presets.shown)
 
     def _list_recent(self) -> None:
         preferences, files = self._parts.preferences, self._parts.files

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from occ_model.effects.registry import NAMES
+from occ_gui.core.workspace import Workspace
+from occ_gui.values.photo_choice import PhotoChoice
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -14,8 +15,7 @@ if TYPE_CHECKING:
     from PySide6.QtCore import QSettings
 
     from occ_gui.app.application import Application
-    from occ_gui.files.session import SessionFile
-    from occ_gui.files.session_record import Session
+    from occ_gui.files.session_file import SessionFile
 
 
 _NAMES = ("occ-explorer", "occ-gui")
@@ -34,45 +34,47 @@ class Start:
 
     Parameters
     ----------
-    scene, settings
-        The first scene and the settings of its simulation.
-    scene_asked
+    workspace
+        What the command line asks for, or the last session has left.
+    is_scene_asked
         Whether the command line names a scene, which takes precedence over the last session's.
     preferences
         The stored preferences; None where nothing is stored.
-    session
-        The last session.
     session_file
         The file of this window's session; None where nothing is stored.
     fresh
         Whether nothing of the last session is to be restored.
     """
 
-    scene: Scene
-    settings: SimulationSettings
-    scene_asked: bool
-    preferences: "QSettings | None"
-    session: "Session"
-    session_file: "SessionFile | None"
-    fresh: bool
+    workspace: Workspace
+    is_scene_asked: bool
+    preferences: "QSettings | None" = None
+    session_file: "SessionFile | None" = None
+    fresh: bool = False
 
     @property
     def is_new(self) -> bool:
         """Whether neither the command line nor an earlier session says what to show."""
-        return not self.scene_asked and self.session.scene is None
+        is_left = self.session_file is not None and self.session_file.last is not None
+        return not self.is_scene_asked and (self.fresh or not is_left)
+
+    @property
+    def first(self) -> Workspace:
+        """What a window is made with: the rest comes when it has all that listens to it."""
+        begin = Workspace(self.workspace.scene, self.workspace.settings)
+        return self.workspace.step.laid_over(begin)
 
     def restore(self, application: "Application", with_photo: bool) -> None:
         """Restore the session in a window before it is shown, and store it from now on."""
         if self.session_file is None:
             return
         application.error_reports.install()
-        wins = self.scene_asked or self.fresh
-        application.kept.resume(self.session_file, self.session, wins, self.fresh)
-        store = application.store.store
-        if not wins:
-            store.put(replace(store.workspace, film=self.session.film))
-        if with_photo and not wins:
-            application.photo.resume(self.session.photo)
+        photo = self.workspace.photo if with_photo else PhotoChoice()
+        application.resume(replace(self.workspace, photo=photo))
+        if not self.fresh:
+            application.options.restore()
+        is_scene_asked = self.is_scene_asked or self.fresh
+        application.session.begin(self.session_file, is_scene_asked=is_scene_asked)
 
 
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
@@ -87,20 +89,17 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     own
         Whether the settings are the defaults, as the command line names none.
     """
-    from occ_gui.files.session import SessionFile, state_folder
-    from occ_gui.files.session_record import Session
-
     asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
+    first = Workspace(scene, settings)
     if options.screenshot:  # it does not depend on the last session
-        return Start(scene, settings, asked, None, Session(), None, fresh=True)
-    preferences = kept_settings()
-    session_file = SessionFile(state_folder(), NAMES)
-    session = Session() if options.fresh else session_file.last
-    if session.scene is not None and not asked:
-        scene = session.scene
-    if session.settings is not None and own:
-        settings = session.settings
-    return Start(scene, settings, asked, preferences, session, session_file, options.fresh)
+        return Start(first, asked, fresh=True)
+    from occ_gui.files.session import restored
+    from occ_gui.files.session_file import SessionFile, state_folder
+
+    file = SessionFile(state_folder())
+    if not options.fresh:
+        first = restored(file, first, is_scene_asked=asked, are_settings_asked=not own)
+    return Start(first, asked, kept_settings(), file, options.fresh)
 
 
 def kept_settings() -> "QSettings | None":
@@ -108,7 +107,7 @@ def kept_settings() -> "QSettings | None":
     from PySide6.QtCore import QSettings, QStandardPaths
 
     from occ_gui.files.kept_file import is_something_else, usable_settings_path
-    from occ_gui.files.session import STATE_FOLDER, state_folder
+    from occ_gui.files.session_file import STATE_FOLDER, state_folder
 
     is_named = bool(os.environ.get(STATE_FOLDER))
     if is_named:

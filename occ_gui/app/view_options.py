@@ -48,17 +48,18 @@ class ViewOptions(QObject):
         if (percent := recall(_TEXT)).isdecimal():
             self.text_size.choose(int(percent))
         store = self._store
+        # They stood here before they stood in the session; for one release.
         if (overlay := recall(_OVERLAY)) in MODES:
             store.put(replace(store.workspace, overlay=overlay))
         if (whose := recall(_PICTURE)) in PICTURES:
             store.put(replace(store.workspace, whose=whose))
+        for key in (_OVERLAY, _PICTURE):
+            self._preferences.keep(key, "")
         self.brightness.switch(recall(_HOLD) == _YES)
 
     def keep(self) -> None:
-        """Store layout and choices, which change without a signal of their own."""
+        """Store the layout, which changes without a signal of its own."""
         self.layout.keep()
-        self._preferences.keep(_OVERLAY, self._store.workspace.overlay)
-        self._preferences.keep(_PICTURE, self._store.workspace.whose)
 
     def choose_overlay(self, mode: str) -> None:
         """Show the photo beside the simulated picture or over it, by one of MODES."""

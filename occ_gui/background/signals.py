@@ -68,6 +68,9 @@ class JobChannel(QObject):
             self._requests.clear()
             self._queue.scheduler().cancel(self._number, self._next)
 
+    stop = cancel
+    """The processes end with the queue, which others use, too."""
+
     def _forget_before(self, run: int) -> None:
         for number in [number for number in self._requests if number < run]:
             del self._requests[number]

@@ -8,7 +8,6 @@ from PySide6.QtCore import QObject
 from occ_gui.background.signals import JobChannel
 from occ_gui.bench.bench_choice import BenchChoice
 from occ_gui.bench.bench_measurement import request_of, setting_of
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.parallel.job import Job, Stage
@@ -49,12 +48,11 @@ class BenchPane(Protocol):
 class BenchController(QObject):
     """Connects the stores, the job channel and the pane."""
 
-    def __init__(
-        self, scenes: SceneStore, frame_rate: FrameRate, channel: JobChannel, pane: BenchPane
-    ) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: BenchPane) -> None:
         super().__init__()
-        self._scenes, self._frame_rate = scenes, frame_rate
-        self._channel, self._pane = channel, pane
+        self._scenes = scenes
+        self._frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
+        self.channel, self._pane = channel, pane
         self._choice = BenchChoice()
         self._request: BenchRequest | None = None
         self._points: list[BenchPoint] = []
@@ -62,13 +60,8 @@ class BenchController(QObject):
         channel.finished.connect(self._finish)
         channel.failed.connect(pane.show_ended)
         scenes.changed.connect(self._mark)
-        frame_rate.changed.connect(self._show_frame_rate)
-        pane.show_frame_rate(frame_rate.value, "")
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether nothing is being measured."""
-        return self._channel.is_idle
+        self._frame_rate.changed.connect(self._show_frame_rate)
+        pane.show_frame_rate(self._frame_rate.value, "")
 
     @property
     def full(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
@@ -88,7 +81,7 @@ class BenchController(QObject):
 
     def start(self) -> None:
         """Measure what is chosen."""
-        self._channel.cancel()
+        self.channel.cancel()
         try:
             request = request_of(self._choice, self._scenes.scene)
             check_bench(request)
@@ -103,7 +96,7 @@ class BenchController(QObject):
         self._pane.show_progress(0, len(request.points))
         self._show_frame_rate()
         self._mark()
-        self._channel.put(request, lambda: self._stages(request))
+        self.channel.put(request, lambda: self._stages(request))
 
     @staticmethod
     def _stages(request: BenchRequest) -> Iterator[Stage]:
@@ -112,8 +105,8 @@ class BenchController(QObject):
 
     def cancel(self) -> None:
         """Stop measuring; the points that are known stay."""
-        if not self._channel.is_idle:
-            self._channel.cancel()
+        if not self.channel.is_idle:
+            self.channel.cancel()
             self._pane.show_ended("Cancelled: some points are missing.")
 
     def _take(
@@ -152,7 +145,3 @@ class BenchController(QObject):
             self._pane.show_outdated(True)
             return
         self._pane.show_outdated(setting_of(now) != setting_of(self._request))
-
-    def stop(self) -> None:
-        """Stop measuring, and show nothing any more."""
-        self._channel.cancel()

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from occ_gui.bench.figures import bench_figure
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Feature, Pane
 
@@ -13,17 +12,14 @@ if TYPE_CHECKING:
 
 
 def bench(
-    scenes: SceneStore,
-    frame_rate: FrameRate,
-    channel: "Callable[[], JobChannel]",
-    say: Callable[[str], None],
+    scenes: SceneStore, channel: "Callable[[], JobChannel]", say: Callable[[str], None]
 ) -> Feature[None]:
     """Declare the pane: a channel does its work, and what it refuses is said."""
 
     def make() -> Pane[None]:
         from occ_gui.bench.pane import BenchPane
 
-        pane = BenchPane(scenes, frame_rate, channel())
+        pane = BenchPane(scenes, channel())
         pane.view.refused.connect(say)
         return pane
 
@@ -32,5 +28,5 @@ def bench(
         title="Bench",
         help="sweeps.md#the-bench",
         make=make,
-        figures=(bench_figure(frame_rate),),
+        figures=(bench_figure(scenes.store),),
     )

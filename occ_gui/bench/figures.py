@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.core.store import Store
 from occ_gui.shell.figures import Draw, Figure, NothingToDraw
 from occ_gui.simulation.snapshot import Snapshot
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
 
 
-def bench_figure(frame_rate: FrameRate) -> Figure:
+def bench_figure(store: Store) -> Figure:
     """Declare the figure, which there is once all points are measured."""
 
     def ask(pane: "BenchPane | None", _shown: Snapshot) -> Draw:
@@ -20,7 +20,7 @@ def bench_figure(frame_rate: FrameRate) -> Figure:
             raise NothingToDraw(
                 "The bench is not complete: open its pane, measure and wait a moment."
             )
-        (measured, points), rate = there, frame_rate.value
+        (measured, points), rate = there, store.workspace.frame_rate
 
         def draw() -> "Drawing":
             from occ_model.figures.bench import bench_drawing

@@ -1,20 +1,23 @@
 """History: the steps that can be undone or redone, by what each of them changes."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from occ_gui.core.workspace import Step
+from occ_gui.values.room_choice import RoomChoice
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import PARAMETERS
 
 
 @dataclass(frozen=True, slots=True)
 class StepChange:
-    """One step: its title, the new values of what it changes, and the effects forced after it."""
+    """One step: its title, the scene's values that it changes, and the rest of what it led to."""
 
     title: str
     values: Mapping[str, ParameterValue]
     force: Mapping[str, bool]
+    room: RoomChoice = field(default_factory=RoomChoice)
+    preset: str = ""
 
     @classmethod
     def between(cls, title: str, before: Step, after: Step) -> "StepChange":
@@ -23,7 +26,7 @@ class StepChange:
         values = {
             name: new.value(name) for name in PARAMETERS if new.value(name) != old.value(name)
         }
-        return cls(title, values, after.force)
+        return cls(title, values, after.force, after.room, after.preset)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,4 +43,4 @@ class History:
         yield self.first
         for step in self.steps:
             scene = scene.replace(**step.values)
-            yield Step(scene, dict(step.force))
+            yield Step(scene, dict(step.force), step.room, step.preset)

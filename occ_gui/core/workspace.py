@@ -2,10 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Self
 
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.photo_choice import PhotoChoice
+from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.simulated import Pins
 from occ_model.results.frame import PICTURES
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.recording import FRAME_RATE
@@ -25,10 +28,13 @@ class Step:
 
     scene: Scene
     force: dict[str, bool]
+    room: RoomChoice = field(default_factory=RoomChoice)
+    preset: str = field(default="", compare=False)  # it follows from how the scene was changed
 
     def laid_over(self, workspace: "Workspace") -> "Workspace":
         """Give a workspace that has this part, and else is as before."""
-        return replace(workspace, scene=self.scene).with_force(self.force)
+        laid = replace(workspace, scene=self.scene, room=self.room, preset=self.preset)
+        return laid.with_force(self.force)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,11 +55,17 @@ class Workspace:
     """Whether profiles are shown after the receiver's enhancement."""
     photo: PhotoChoice = field(default_factory=PhotoChoice)
     film: FilmChoice = field(default_factory=FilmChoice)
+    room: RoomChoice = field(default_factory=RoomChoice)
+    pins: Pins = (None, None)
+    preset: str = ""
+    """The preset that the scene is, or was before some of its values were changed; or empty."""
+    scene_file: Path | None = None
+    """The file that the scene is saved to."""
 
     @property
     def step(self) -> Step:
         """The part that can be undone."""
-        return Step(self.scene, dict(self.settings.force))
+        return Step(self.scene, dict(self.settings.force), self.room, self.preset)
 
     def with_force(self, force: Mapping[str, bool]) -> Self:
         """Give a workspace in which exactly these effects are switched by hand."""

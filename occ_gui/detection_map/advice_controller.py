@@ -100,7 +100,7 @@ class AdvisorController(QObject):
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
-        self._queue, self._channel, self._pane = queue, channel, pane
+        self._queue, self.channel, self._pane = queue, channel, pane
         self._with_image_effects = True
         self._advised: AdviceRequest | None = None
         self._counted = 0
@@ -112,11 +112,6 @@ class AdvisorController(QObject):
         channel.failed.connect(self._end)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether nothing is being searched."""
-        return self._channel.is_idle
 
     def use_image_effects(self, wanted: bool) -> None:
         """Simulate rows of the picture where the scene needs them, or leave such effects out."""
@@ -139,13 +134,13 @@ class AdvisorController(QObject):
         self._counted = self._count()
         without = () if self._with_image_effects else left_out(request.scene, request.settings)
         self._pane.show_advice_begun(without)
-        self._channel.put(request, partial(request.stages, rank))
+        self.channel.put(request, partial(request.stages, rank))
         self._look.start()
 
     def cancel(self) -> None:
         """Stop the search."""
-        if not self._channel.is_idle:
-            self._channel.cancel()
+        if not self.channel.is_idle:
+            self.channel.cancel()
             self._end("Cancelled.")
 
     def take_there(self, name: str, value: float, decoder: str) -> None:
@@ -157,6 +152,9 @@ class AdvisorController(QObject):
         return sum(self._queue.counted(counter) for counter, _ in enumerate(DECODERS, 1))
 
     def _show_progress(self) -> None:
+        if self.channel.is_idle:
+            self._look.stop()
+            return
         share = (self._count() - self._counted) / (_USUAL * len(DECODERS))
         self._pane.show_advice_progress(min(share, 0.99))
 
@@ -168,8 +166,8 @@ class AdvisorController(QObject):
         request = self._request()
         if self._advised is None:
             return
-        if not self._channel.is_idle and request != self._advised:
-            self._channel.cancel()
+        if not self.channel.is_idle and request != self._advised:
+            self.channel.cancel()
             self._end("The scene has changed; ask again.")
         reachable = frozenset(
             name for name in SEARCHED if self._advised.along(name) == request.along(name)
@@ -180,5 +178,4 @@ class AdvisorController(QObject):
         self._end("")
 
     def _end(self, sentence: str) -> None:
-        self._look.stop()
         self._pane.show_advice_ended(sentence)

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from occ_gui.scene.frame_rate import FrameRate
+from occ_gui.core.store import Store
 from occ_gui.shell.figures import Draw, Figure, NothingToDraw
 from occ_gui.simulation.snapshot import Snapshot
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from occ_model.figures.drawing import Drawing
 
 
-def map_figure(frame_rate: FrameRate) -> Figure:
+def map_figure(store: Store) -> Figure:
     """Declare the figure, which there is once all points of the map are known."""
 
     def ask(pane: "MapPane | None", _shown: Snapshot) -> Draw:
@@ -22,7 +22,8 @@ def map_figure(frame_rate: FrameRate) -> Figure:
             )
         from occ_gui.detection_map.sweep_table import table_of
 
-        table, what = table_of(*there, frame_rate.value), frame_rate.shown
+        workspace = store.workspace
+        table, what = table_of(*there, workspace.frame_rate), workspace.shown
 
         def draw() -> "Drawing":
             from occ_model.figures.sweep import sweep_drawing

@@ -14,7 +14,6 @@ from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_stages
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
 from occ_gui.detection_map.worker import UNSEEN, left_out
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.arrays import FloatArray
@@ -105,14 +104,12 @@ class DetectionMapController(QObject):
         settings: SettingsStore,
         channel: JobChannel,
         pane: MapPane,
-        frame_rate: FrameRate,
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings
-        self._channel, self._pane = channel, pane
-        self._frame_rate = frame_rate
-        self._frame_rate.changed.connect(self._show_bits)
-        self._frame_rate.shown_changed.connect(self._show_bits)
+        self.channel, self._pane = channel, pane
+        bits = scenes.store.select(lambda workspace: (workspace.shown, workspace.frame_rate))
+        bits.changed.connect(self._show_bits)
         self._axes = FIRST_AXES
         self._with_image_effects = True
         self._seen = False
@@ -127,11 +124,6 @@ class DetectionMapController(QObject):
         channel.status_message.connect(pane.show_failure)
         for store in (scenes, settings):
             store.changed.connect(self._move_on)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether all that is measured is shown."""
-        return self._channel.is_idle
 
     @property
     def is_first_answer_awaited(self) -> bool:
@@ -203,7 +195,7 @@ class DetectionMapController(QObject):
         self._awaited = request if held is None else None
         found_slow = partial(self._wait_no_more, request)
         stages = partial(request.stages, known.images.copy(), known.theory is None, found_slow)
-        self._channel.put(request, stages)
+        self.channel.put(request, stages)
 
     def _empty(self, request: MapRequest) -> RateMap:
         x, y = request.x, request.y
@@ -238,8 +230,8 @@ class DetectionMapController(QObject):
         self._pane.show_map(self.map)
         self._show_progress()
 
-    def _show_bits(self) -> None:
-        self._pane.show_bits(self._frame_rate.shown, self._frame_rate.value)
+    def _show_bits(self, bits: tuple[Shown, float]) -> None:
+        self._pane.show_bits(*bits)
 
     def _show_age(self) -> None:
         self._pane.show_age(0.0 if self._shown is None else self._ages.age(self._shown))
@@ -258,7 +250,7 @@ class DetectionMapController(QObject):
         self._pane.show_failure(sentence)
 
     def _stop(self) -> None:
-        self._channel.cancel()
+        self.channel.cancel()
         self._asked = self._awaited = None
 
     def point_at(self, place: tuple[int, int] | None) -> None:
@@ -283,7 +275,7 @@ class DetectionMapController(QObject):
                 shown.x_values[x], shown.y_values[y], counts, sent,
                 int(shown.images[x, y]), shown.notes.get(index, ""),
                 tuple(int(count) for count in shown.whole[x, y]),
-                float(shown.most_bits(self._frame_rate.value)[x, y]),
+                float(shown.most_bits(self._scenes.store.workspace.frame_rate)[x, y]),
             )
         )  # fmt: skip
 

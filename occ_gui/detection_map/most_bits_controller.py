@@ -9,7 +9,6 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.advice_worker import carry_most
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.receiver import decoders
@@ -68,14 +67,12 @@ class MostBitsController(QObject):
     def __init__(
         self,
         scenes: SceneStore,
-        frame_rate: FrameRate,
         queue: WorkQueue,
         channel: JobChannel,
         pane: MostBitsPane,
     ) -> None:
         super().__init__()
-        self._scenes, self._frame_rate = scenes, frame_rate
-        self._queue, self._channel, self._pane = queue, channel, pane
+        self._scenes, self._queue, self.channel, self._pane = scenes, queue, channel, pane
         self._asked: MostBitsRequest | None = None
         self._done = self._counted = 0
         self._look = QTimer(self)
@@ -85,29 +82,26 @@ class MostBitsController(QObject):
         channel.finished.connect(lambda _request: self._end(""))
         channel.failed.connect(self._end)
         scenes.changed.connect(self._move_on)
+        frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)
         frame_rate.changed.connect(self._move_on)
 
-    @property
-    def is_idle(self) -> bool:
-        """Whether nothing is being searched."""
-        return self._channel.is_idle
-
     def _request(self) -> MostBitsRequest:
-        return MostBitsRequest(unvaried(self._scenes.scene), self._frame_rate.value)
+        workspace = self._scenes.store.workspace
+        return MostBitsRequest(unvaried(workspace.scene), workspace.frame_rate)
 
     def start(self) -> None:
         """Search at the exposure and the distance of the current scene."""
         request = self._asked = self._request()
         self._done, self._counted = 0, self._queue.counted(_COUNTER)
         self._pane.show_begun()
-        self._channel.put(request, request.stages)
+        self.channel.put(request, request.stages)
         self._show_tried()
         self._look.start()
 
     def cancel(self) -> None:
         """Stop the search; what was found so far stays."""
-        if not self._channel.is_idle:
-            self._channel.cancel()
+        if not self.channel.is_idle:
+            self.channel.cancel()
             self._end("cancelled")
 
     def go(self, found: MostBits) -> None:
@@ -118,7 +112,9 @@ class MostBitsController(QObject):
             self.went.emit(found.decoder)
 
     def _show_tried(self) -> None:
-        if self._done < len(DECODERS):
+        if self.channel.is_idle:
+            self._look.stop()
+        elif self._done < len(DECODERS):
             tried = self._queue.counted(_COUNTER) - self._counted
             self._pane.show_tried(DECODERS[self._done], tried)
 
@@ -131,11 +127,10 @@ class MostBitsController(QObject):
         if self._asked is None:
             return
         outdated = self._request() != self._asked
-        if outdated and not self._channel.is_idle:
-            self._channel.cancel()
+        if outdated and not self.channel.is_idle:
+            self.channel.cancel()
             self._end("the scene has changed")
         self._pane.show_outdated(outdated)
 
     def _end(self, sentence: str) -> None:
-        self._look.stop()
         self._pane.show_ended(sentence)

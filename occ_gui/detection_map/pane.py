@@ -1,5 +1,7 @@
 """The pane of map, limits and advice, with what measures for it."""
 
+from dataclasses import replace
+
 from PySide6.QtCore import Signal
 
 from occ_gui.detection_map.advice_controller import AdvisorController
@@ -7,7 +9,6 @@ from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.most_bits_controller import MostBitsController
 from occ_gui.detection_map.wiring import Measuring
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
@@ -19,24 +20,26 @@ class MapPane(Pane[None]):
     went = Signal(str)
     """The user has gone to a limit of this decoder."""
 
-    def __init__(self, scenes: SceneStore, frame_rate: FrameRate, measuring: Measuring) -> None:
+    def __init__(self, scenes: SceneStore, measuring: Measuring) -> None:
         view = MapView(QUICK_DECODERS, tuple(DECODERS))
         super().__init__(view)
         self.view = view
-        settings, queue = scenes.settings, measuring.queue
-        self.map = DetectionMapController(scenes, settings, measuring.for_map, view, frame_rate)
+        store, settings, queue = scenes.store, scenes.settings, measuring.queue
+        self.map = DetectionMapController(scenes, settings, measuring.for_map, view)
         self.advisor = AdvisorController(scenes, settings, queue, measuring.for_advice, view.advice)
-        self.most_bits = MostBitsController(
-            scenes, frame_rate, queue, measuring.for_most, view.most_bits
-        )
+        self.most_bits = MostBitsController(scenes, queue, measuring.for_most, view.most_bits)
+        self.measures = (measuring.for_map, measuring.for_advice, measuring.for_most)
         view.axes_chosen.connect(self.map.choose_axes)
         view.picked.connect(self.map.go_to)
         view.pointed.connect(self.map.point_at)
-        view.shown_chosen.connect(frame_rate.show)
-        view.frame_rate_edited.connect(frame_rate.change)
-        frame_rate.changed.connect(view.advice.use_frame_rate)
-        view.advice.use_frame_rate(frame_rate.value)  # it may have been changed in another pane
-        view.show_bits(frame_rate.shown, frame_rate.value)
+        view.shown_chosen.connect(lambda what: store.put(replace(store.workspace, shown=what)))
+        view.frame_rate_edited.connect(
+            lambda rate: store.put(replace(store.workspace, frame_rate=rate))
+        )
+        rate = store.select(lambda workspace: workspace.frame_rate)
+        rate.changed.connect(view.advice.use_frame_rate)
+        view.advice.use_frame_rate(rate.value)  # it may have been changed in another pane
+        view.show_bits(store.workspace.shown, rate.value)
         view.image_effects_switched.connect(self.map.use_image_effects)
         view.image_effects_switched.connect(self.advisor.use_image_effects)
         view.advice.asked.connect(self.advisor.start)
@@ -52,13 +55,3 @@ class MapPane(Pane[None]):
     def set_seen(self, seen: bool) -> None:
         """Measure the map while the pane is seen."""
         self.map.set_seen(seen)
-
-    @property
-    def is_measured(self) -> bool:
-        """Whether all that is asked for is measured; nobody waits for it as for a picture."""
-        return self.map.is_idle and self.advisor.is_idle and self.most_bits.is_idle
-
-    def stop(self) -> None:
-        """Stop the searches, which would look for progress in a pane that is gone."""
-        for searcher in (self.advisor, self.most_bits):
-            searcher.cancel()

@@ -1,17 +1,16 @@
 """Preset controller: load, save and delete presets of the program and of the user."""
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QInputDialog, QLineEdit, QMessageBox, QWidget
 
-from occ_gui.core.store import MOST_STEPS
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
-from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.preset_file import Preset
 from occ_model.scene.presets import (
     all_presets,
@@ -24,14 +23,6 @@ from occ_model.scene.scene import Scene
 
 if TYPE_CHECKING:
     from occ_gui.photo.match_controller import MatchController
-
-_MOST_OF_A_CHANGE = 2
-"""Parameters that one change of the user has at most: the exposure and, held by it, the ISO."""
-
-
-def _differences(one: Scene, other: Scene) -> int:
-    """Count the parameters in which two scenes differ."""
-    return sum(one.value(name) != other.value(name) for name in PARAMETERS)
 
 
 class PresetController(QObject):
@@ -48,12 +39,10 @@ class PresetController(QObject):
         self._window = window
         self._store = store
         self._own: tuple[str, ...] = ()
-        self._followed: Scene | None = None
-        self._base: str | None = None
-        self._bases: dict[Scene, str] = {}
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
         self._read()
+        store.changed.connect(self._name)
 
     @property
     def titles(self) -> list[tuple[str, str]]:
@@ -70,54 +59,22 @@ class PresetController(QObject):
         """Names of the user's presets."""
         return self._own
 
-    def name_of(self, scene: Scene) -> str | None:
-        """Return the name of the preset that equals a scene, None if there is none."""
-        return next((p.name for p in self._presets if p.scene == scene), None)
+    def name_of(self, scene: Scene) -> str:
+        """Return the name of the preset that equals a scene, empty if there is none."""
+        return next((p.name for p in self._presets if p.scene == scene), "")
 
-    def follow(self, scene: Scene) -> tuple[str | None, str | None]:
-        """Follow the scene from change to change.
+    @property
+    def shown(self) -> tuple[str, str]:
+        """The preset that the scene is, and in place of it the one that it was changed from."""
+        named, scene = self._store.store.workspace.preset, self._store.scene
+        is_same = any(p.name == named and p.scene == scene for p in self._presets)
+        return (named, "") if is_same else ("", named)
 
-        Returns
-        -------
-        name
-            The preset that it equals, None if there is none.
-        changed
-            In that case the preset that it was before some of its values were changed, one or a
-            few at a time. None where a whole other scene has come meanwhile, until that of before
-            comes back: by undo, or at the end of a lesson.
-        """
-        name, last = self.name_of(scene), self._followed
-        is_other = last is None or _differences(last, scene) > _MOST_OF_A_CHANGE
-        if name is not None or is_other:
-            self.keep_base()
-        self._followed = scene
-        if name is not None:
-            self._base = name
-            return name, None
-        self._base = self._bases.get(scene, None if is_other else self._base)
-        return None, self._base
-
-    def keep_base(self) -> None:
-        """Keep which preset the present scene was, for when it comes back as a whole."""
-        if self._followed is None or self._base is None:
-            return
-        self._bases.pop(self._followed, None)  # so that it is the newest
-        self._bases[self._followed] = self._base
-        if len(self._bases) > MOST_STEPS:
-            del self._bases[next(iter(self._bases))]
-
-    def base_of(self, scene: Scene) -> str:
-        """Return the preset that the present or an earlier scene was; empty where none is known."""
-        base = self._base if scene == self._followed else self._bases.get(scene)
-        return base or ""
-
-    def resume(self, scene: Scene, base: str) -> None:
-        """Have a scene of an earlier window be what a preset was changed to."""
-        if base:
-            self._followed, self._base = scene, base
-            self.keep_base()
-            self._followed = None  # so that the present scene is looked for among the kept ones
-            self.changed.emit()
+    def _name(self) -> None:
+        """Note the preset that the scene has become, in whichever way."""
+        store = self._store.store
+        if name := self.name_of(self._store.scene):
+            store.put(replace(store.workspace, preset=name))
 
     def load(self, name: str) -> None:
         """Load the scene of a preset, as one step that can be undone."""
@@ -191,3 +148,4 @@ class PresetController(QObject):
         self._unreadable = {
             name: one_line(reason, LONGEST) for name, reason in unreadable_presets().items()
         }
+        self._name()

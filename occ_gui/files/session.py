@@ -1,131 +1,122 @@
-"""Session file: what a window is working on, in one file that the window keeps locked."""
+"""Session: writes what the user has set at most a second after every change, and restores it."""
 
-import json
-import os
-from collections.abc import Collection
-from contextlib import suppress
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
+from dataclasses import replace
 
-from PySide6.QtCore import QLockFile
+from PySide6.QtCore import QObject, QTimer, Signal
 
-from occ_gui.files.kept_file import LARGEST, is_something_else
-from occ_gui.files.session_record import Session, record_of, session_in
-from occ_model.errors import OccError, OutputError
-from occ_model.files.reading import read_text
-from occ_model.files.writing import make_folder, write_whole
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import Workspace
+from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session_record import Kept
+from occ_model.errors import OccError
 
-STATE_FOLDER = "OCC_STATE"
-"""The environment variable that names another folder for the files that the program keeps."""
-
-_FORMAT = 1
-
-_MOST_WINDOWS = 8
-"""Windows that can be open at a time, each with its own session file."""
+LONGEST_WAIT_MS = 1000
+"""Longest time from a change to its writing; later changes within it are written with it."""
 
 
-def state_folder() -> Path:
-    """Return the folder of the files that the program keeps, which may not exist yet."""
-    folder = os.environ.get(STATE_FOLDER)
-    if folder:
-        return Path(folder)
-    # Not needed where the folder is named.
-    from platformdirs import user_state_path
+def restored(
+    file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
+) -> Workspace:
+    """Give the workspace that a window begins with: that of the last session.
 
-    return user_state_path("occ-explorer", appauthor=False)
+    Parameters
+    ----------
+    first
+        What the command line asks for. A scene or settings that it names win.
+    """
+    last = file.last
+    if last is None:
+        return first
+    # Of a window that crashed comes all that is no step; its scene comes as one.
+    workspace = last.workspace.step.laid_over((file.crashed or last).workspace)
+    if is_scene_asked:
+        workspace = replace(
+            workspace, scene=first.scene, preset="", scene_file=None, photo=first.photo,
+            film=first.film,
+        )  # fmt: skip
+    return replace(workspace, settings=first.settings) if are_settings_asked else workspace
 
 
-class SessionFile:
-    """The session file of one window, locked while the window is open.
+class Session(QObject):
+    """Keeps the workspace of a window in a file; before :meth:`begin` it writes nothing.
 
-    A file that says it is in use, but is not locked, belongs to a window that crashed.
+    Parameters
+    ----------
+    own
+        Gives what the user has set, which is no lesson's.
     """
 
-    def __init__(self, folder: Path, effects: Collection[str]) -> None:
-        self._folder, self._effects = folder, effects
-        self._lock: QLockFile | None = None
-        self._path: Path | None = None
-        self.crashed: Session | None = None
-        """The session of a window that crashed; it has a scene."""
-        self.last = Session()
-        """The session that was written last, whichever window wrote it."""
-        # If the folder cannot be made, the first writing reports it.
-        with suppress(OccError):
-            make_folder(folder)
-            self._open()
+    status_message = Signal(str)
+    """What has been restored, or why the session cannot be written; the latter is not repeated."""
 
-    def _paths(self) -> list[Path]:
-        numbers = range(1, _MOST_WINDOWS + 1)
-        return [self._folder / f"session-{number}.json" for number in numbers]
+    written = Signal()
+    """The session is on the disk."""
 
-    def _open(self) -> None:
-        """Lock a file that no other window uses, preferably that of a window that crashed."""
-        paths = self._paths()
-        records = {path: _record_in(path) for path in paths}
-        readable = [path for path in paths if records[path] is not None]
-        if readable:
-            newest = max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))
-            self.last = session_in(records[newest], self._effects)
-        for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
-            if is_something_else(path.with_suffix(".lock")):  # QLockFile would block on a pipe
-                continue
-            lock = QLockFile(str(path.with_suffix(".lock")))
-            lock.setStaleLockTime(0)  # never stale by age, only if its process has ended
-            if not lock.tryLock(0):
-                continue
-            self._lock, self._path = lock, path
-            self._recover(path)
+    def __init__(self, store: Store, own: Callable[[], Workspace]) -> None:
+        super().__init__()
+        self._store, self._own = store, own
+        self._file: SessionFile | None = None
+        self._has_failed = False
+        # Started by the first change only: if each change restarted it, it would never run out
+        # while a slider keeps moving.
+        self._timer = QTimer(self, singleShot=True)
+        self._timer.setInterval(LONGEST_WAIT_MS)
+        self._timer.timeout.connect(self.write)
+
+    def begin(self, file: SessionFile, *, is_scene_asked: bool) -> None:
+        """Bring back the steps of a crash, and write to the file from now on."""
+        self._file = file
+        if file.crashed is not None:
+            self._bring_back(file.crashed, is_scene_asked=is_scene_asked)
+        self._store.select(lambda workspace: workspace).changed.connect(self._note_change)
+        self._note_change()
+
+    def _bring_back(self, left: Kept, *, is_scene_asked: bool) -> None:
+        """Put the scene of a crash with the steps that led to it, or as a step if it is old."""
+        store, asked = self._store, self._store.workspace.step
+        crashed = left.workspace.step
+        store.put(crashed.laid_over(store.workspace), "restoring of the last session")
+        if left.history is not None and (is_scene_asked or crashed == asked):
+            store.resume(left.history)
+        message = "The last session did not come to its end: its scene is restored."
+        if is_scene_asked and crashed != asked:
+            store.put(asked.laid_over(store.workspace), "opening of what was asked for")
+            message = "The last session did not come to its end; Undo brings its scene back."
+        self.status_message.emit(message)
+
+    @property
+    def is_due(self) -> bool:
+        """Whether something has changed that is not written yet."""
+        return self._timer.isActive()
+
+    def _note_change(self) -> None:
+        if self._file is not None and not self.is_due:
+            self._timer.start()
+
+    def write(self) -> None:
+        """Write the session now."""
+        own = self._own()
+        self._write(Kept(own, self._store.history(own.step)), in_use=True)
+
+    def end(self) -> None:
+        """Write the session for the last time, and release its file."""
+        self._write(Kept(self._own()), in_use=False)
+        if self._file is not None:
+            self._file.close()
+            self._file = None
+
+    def _write(self, kept: Kept, *, in_use: bool) -> None:
+        self._timer.stop()
+        if self._file is None:
             return
-
-    def _recover(self, path: Path) -> None:
-        """Take over a file: restore the session of a crash, and put damaged content aside."""
-        record = _record_in(path)  # now that no other window can write it
-        session = session_in(record, self._effects)
-        if _is_in_use(record) and session.scene is not None:
-            self.crashed = session
-        if os.path.lexists(path) and session.scene is None:
-            with suppress(OSError):
-                path.replace(path.with_suffix(".unreadable"))
-
-    def write(self, session: Session, in_use: bool) -> None:
-        if self._path is None:
-            raise OutputError(f"there is no free session file in {self._folder}.")
-        record = {
-            "format": _FORMAT,
-            # Which session was written last is counted: clocks can be put back.
-            "count": 1 + max(_count_in(_record_in(path)) for path in self._paths()),
-            "in_use": in_use,
-            **record_of(session),
-        }
-        write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))
-
-    def close(self) -> None:
-        """Release the file for other windows."""
-        self._path = None
-        if self._lock is not None:
-            self._lock.unlock()
-
-
-def _record_in(path: Path) -> dict[str, Any] | None:
-    """Read a session file; None where there is none or it is damaged."""
-    try:
-        record = json.loads(read_text(path, LARGEST))
-    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
-        return None
-    return record if isinstance(record, dict) and record.get("format") == _FORMAT else None
-
-
-def _is_in_use(record: dict[str, Any] | None) -> bool:
-    return record is not None and record.get("in_use") is True
-
-
-def _count_in(record: dict[str, Any] | None) -> int:
-    count = None if record is None else record.get("count")
-    return count if type(count) is int and count > 0 else 0
-
-
-def _time_of(path: Path) -> int:
-    try:
-        return path.stat().st_mtime_ns
-    except OSError:  # another window has just replaced it
-        return 0
+        try:
+            self._file.write(kept, in_use)
+        except OccError as error:
+            if not self._has_failed:
+                self._has_failed = True
+                reason = str(error).rstrip(".")
+                self.status_message.emit(f"The scene is not kept over a crash: {reason}.")
+            return
+        self._has_failed = False
+        self.written.emit()

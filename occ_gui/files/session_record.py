@@ -1,26 +1,33 @@
 """Record of a session: what a window is working on, as a table of plain values and back.
 
-Parts that cannot be read are left out: a window starts whatever its file contains.
+Parts that cannot be read are as at first: a window starts whatever its file contains.
 """
 
 import json
-from collections.abc import Collection, Mapping
-from dataclasses import asdict, dataclass, field, replace
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from occ_gui.core.step_history import History, StepChange
-from occ_gui.core.workspace import Step
+from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
 from occ_gui.files.preferences import text_of
-from occ_gui.simulation.snapshot import Pins, SimulationRequest
 from occ_gui.values.film_choice import FRAMES, FilmChoice
 from occ_gui.values.match_choice import KNOWN, SENT, MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
+from occ_gui.values.placement import MODES
+from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
+from occ_model.effects.registry import NAMES
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
+from occ_model.receiver.decoders import DECODERS
 from occ_model.results.decoding import Region
+from occ_model.results.frame import PICTURES
+from occ_model.results.sweep_request import SHOWN
 from occ_model.scene.argument_checks import check_seed
 from occ_model.scene.parameters import quantity
-from occ_model.scene.recording import DECLARED
+from occ_model.scene.recording import DECLARED, FRAME_RATE
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import (
     NOISE_SOURCES,
@@ -33,41 +40,44 @@ from occ_model.scene.square_wave import SQUARE_FREQUENCY
 _MOST_OF_HISTORY = 1_000_000
 """Characters of the steps in a record; the oldest ones are left out of longer ones."""
 
+_VIEW: Mapping[str, tuple[object, ...]] = {
+    "decoder": tuple(DECODERS),
+    "whose": PICTURES,
+    "overlay": MODES,
+    "is_enhanced": (False, True),
+    "shown": SHOWN,
+}
+"""What is chosen of how results are shown, and what each of it can be."""
+
 
 @dataclass(frozen=True, slots=True)
-class Session:
-    """What a window is working on, as far as it is known.
+class Kept:
+    """What a window is working on, and the steps that led to it.
 
-    Parameters
-    ----------
-    preset
-        The preset that the scene is, or was before some of its values were changed.
-    history
-        The steps that can be undone, which a window that has come to its end does not leave.
+    A window that has come to its end leaves no steps.
     """
 
-    scene: Scene | None = None
-    settings: SimulationSettings | None = None
-    scene_file: Path | None = None
-    photo: PhotoChoice = field(default_factory=PhotoChoice)
-    film: FilmChoice = field(default_factory=FilmChoice)
-    preset: str = ""
-    pins: Pins = (None, None)
+    workspace: Workspace
     history: History | None = None
 
 
-def record_of(session: Session) -> dict[str, Any]:
-    """Write a session as plain values."""
-    scene, settings = session.scene, session.settings
+def record_of(kept: Kept) -> dict[str, Any]:
+    """Write what is kept as plain values."""
+    workspace, history = kept.workspace, kept.history
     return {
-        "scene": "" if scene is None else scene.to_toml(),
-        "settings": None if settings is None else asdict(settings),
-        "scene_file": _text(session.scene_file),
-        "photo": _photo_record(session.photo),
-        "film": _film_record(session.film),
-        "preset": session.preset,
-        "pins": [None if pin is None else _pin_record(pin) for pin in session.pins],
-        "history": None if session.history is None else _history_record(session.history),
+        "scene": workspace.scene.to_toml(),
+        "settings": asdict(workspace.settings),
+        "scene_file": _text(workspace.scene_file),
+        "photo": _photo_record(workspace.photo),
+        "film": _film_record(workspace.film),
+        "room": _room_record(workspace.room, RoomChoice()),
+        "preset": workspace.preset,
+        "pins": [None if pin is None else _pin_record(pin) for pin in workspace.pins],
+        "view": {
+            "frame_rate": workspace.frame_rate,
+            **{name: getattr(workspace, name) for name in _VIEW},
+        },
+        "history": None if history is None else _history_record(history),
     }
 
 
@@ -89,16 +99,42 @@ def _film_record(film: FilmChoice) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _pin_record(pin: SimulationRequest) -> dict[str, Any]:
+def _room_record(choice: RoomChoice, former: RoomChoice) -> dict[str, Any]:
+    """Write a choice; of a room that differs in its camera alone, only the camera."""
+    room, other = choice.room, former.room
+    is_known = room is None or (
+        other is not None and (room.lamps, room.scene) == (other.lamps, other.scene)
+    )
     return {
-        "scene": pin.scene.to_toml(),
-        "settings": asdict(pin.settings),
-        "decoders": list(pin.more),
+        "name": choice.name,
+        "camera": None if room is None else asdict(room.camera),
+        "room": None if room is None or is_known else room.to_toml(),
+        "photo": _text(choice.photo),
+        "focal_length": choice.focal_length,
+    }
+
+
+def _pin_record(pin: PinnedScene) -> dict[str, Any]:
+    return {
+        "scene": pin.request.scene.to_toml(),
+        "settings": asdict(pin.request.settings),
+        "decoders": list(pin.request.more),
+        "preset": pin.preset,
     }
 
 
 def _history_record(history: History) -> dict[str, Any] | None:
-    steps = [[step.title, step.values, step.force] for step in history.steps]
+    rooms = [history.first.room, *(step.room for step in history.steps)]
+    steps = [
+        [
+            step.title,
+            step.values,
+            step.force,
+            step.preset,
+            None if step.room == before else _room_record(step.room, before),
+        ]
+        for step, before in zip(history.steps, rooms, strict=False)
+    ]
     sizes, first = [len(json.dumps(step)) for step in steps], 0
     while sum(sizes[first:]) > _MOST_OF_HISTORY:
         first += 1
@@ -108,26 +144,42 @@ def _history_record(history: History) -> dict[str, Any] | None:
     return {
         "scene": state.scene.to_toml(),
         "force": state.force,
+        "preset": state.preset,
+        "room": _room_record(state.room, RoomChoice()),
         "steps": steps[first:],
         "done": history.done - first,
     }
 
 
-def session_in(record: Mapping[str, Any] | None, effects: Collection[str]) -> Session:
-    """Read a session; effects of the settings that are not among these are left out."""
-    if record is None:
-        return Session()
-    preset = record.get("preset")
-    return Session(
-        scene=_scene(record.get("scene")),
-        settings=_settings(record.get("settings"), effects),
-        scene_file=_file(record.get("scene_file")),
+def kept_in(record: Mapping[str, Any] | None) -> Kept | None:
+    """Read what was kept; None without a scene that can be read."""
+    scene = None if record is None else _scene(record.get("scene"))
+    if record is None or scene is None:
+        return None
+    workspace = Workspace(
+        scene,
+        _settings(record.get("settings")) or FIRST_SETTINGS,
         photo=_photo(record.get("photo"), record.get("region")),
         film=_film(record.get("film")),
-        preset=preset if isinstance(preset, str) else "",
-        pins=_pins(record.get("pins"), effects),
-        history=_history(record.get("history")),
+        room=_room(record.get("room"), RoomChoice()),
+        pins=_pins(record.get("pins")),
+        preset=_preset(record.get("preset")),
+        scene_file=_file(record.get("scene_file")),
     )
+    return Kept(_with_view(workspace, record.get("view")), _history(record.get("history")))
+
+
+def _with_view(workspace: Workspace, values: Any) -> Workspace:
+    if not isinstance(values, dict):
+        return workspace
+    chosen: dict[str, Any] = {
+        name: known[known.index(values[name])]  # True, where there is a 1
+        for name, known in _VIEW.items()
+        if values.get(name) in known
+    }
+    with suppress(Exception):  # the window starts whatever the file contains
+        chosen["frame_rate"] = FRAME_RATE.check(values["frame_rate"])
+    return replace(workspace, **chosen)
 
 
 def _photo(values: Any, region: Any) -> PhotoChoice:
@@ -165,33 +217,63 @@ def _film(values: Any) -> FilmChoice:
     return replace(film, axis=axis, frames=frames, recording=recording) if is_known else film
 
 
-def _pins(values: Any, effects: Collection[str]) -> Pins:
+def _room(values: Any, former: RoomChoice) -> RoomChoice:
+    """Return what was set about rooms; a room that is not written is the former one."""
+    try:
+        length, photo = values["focal_length"], _file(values["photo"])
+        if length is not None:
+            length = quantity("equivalent_focal_length").check(length)
+        if values["camera"] is None:
+            return RoomChoice(photo=photo, focal_length=length)
+        # Not at the start of a window that has shown no room.
+        from occ_model.room.room import Place, Room
+
+        known = former.room if values["room"] is None else Room.from_toml(values["room"])
+        room = known.replace(camera=Place(**values["camera"]))  # type: ignore[union-attr]  # as any
+        return RoomChoice(str(values["name"]), room, photo, length)
+    except Exception:  # noqa: BLE001 - the window starts whatever the file contains
+        return RoomChoice()
+
+
+def _preset(name: Any) -> str:
+    return name if isinstance(name, str) else ""
+
+
+def _pins(values: Any) -> Pins:
     if not isinstance(values, list) or len(values) != 2:
         return None, None
-    a, b = (_pin(value, effects) for value in values)
+    a, b = (_pin(value) for value in values)
     return a, b
 
 
-def _pin(values: Any, effects: Collection[str]) -> SimulationRequest | None:
+def _pin(values: Any) -> PinnedScene | None:
     if not isinstance(values, dict):
         return None
-    scene = _scene(values.get("scene"))
-    settings = _settings(values.get("settings"), effects)
+    scene, settings = _scene(values.get("scene")), _settings(values.get("settings"))
     more = values.get("decoders")
     if scene is None or settings is None or not isinstance(more, list):
         return None
-    return SimulationRequest(scene, settings, more=tuple(map(str, more)))
+    request = SimulationRequest(scene, settings, more=tuple(map(str, more)))
+    return PinnedScene(request, _preset(values.get("preset")))
 
 
 def _history(values: Any) -> History | None:
-    """Return the steps if each of them leads to a scene."""
+    """Return the steps if each of them leads to a scene; the former format knows no rooms."""
     try:
-        steps = tuple(
-            StepChange(str(title), dict(changed), _force(force))
-            for title, changed, force in values["steps"]
+        first = Step(
+            Scene.from_toml(values["scene"]),
+            _force(values["force"]),
+            _room(values.get("room"), RoomChoice()),
+            _preset(values.get("preset")),
         )
-        first = Step(Scene.from_toml(values["scene"]), _force(values["force"]))
-        history = History(first, steps, int(values["done"]))
+        steps, room = list[StepChange](), first.room
+        for title, changed, force, *more in values["steps"]:
+            preset, there = more or ("", None)
+            room = room if there is None else _room(there, room)
+            steps.append(
+                StepChange(str(title), dict(changed), _force(force), room, _preset(preset))
+            )
+        history = History(first, tuple(steps), int(values["done"]))
         states = [*history.states()]
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains
         return None
@@ -212,13 +294,13 @@ def _scene(text: object) -> Scene | None:
         return None
 
 
-def _settings(values: Any, effects: Collection[str]) -> SimulationSettings | None:
+def _settings(values: Any) -> SimulationSettings | None:
     try:
         force = _force(values["force"])
         settings = SimulationSettings(
             tolerance=TOLERANCE.check(values["tolerance"]),
             observable=values["observable"],
-            force={name: on for name, on in force.items() if name in effects},
+            force={name: on for name, on in force.items() if name in NAMES},
             noise=values["noise"],
             seed=values["seed"],
         )

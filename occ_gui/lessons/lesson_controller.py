@@ -40,9 +40,6 @@ class LessonController(QObject):
     status_message = Signal(str)
     """The reason why a step is incomplete."""
 
-    begun = Signal()
-    """A lesson is about to replace what the user is working on."""
-
     pane_wanted = Signal(str)
     """The name of the pane that a step refers to; empty for none."""
 
@@ -175,11 +172,11 @@ class LessonController(QObject):
             return None
         # A photo that was opened or matched meanwhile stays, and so does all that no step sets.
         photo = present.photo if is_own(present.photo) else user.photo
-        return replace(present, scene=user.scene, settings=user.settings, photo=photo)
+        own = replace(present, scene=user.scene, settings=user.settings, preset=user.preset)
+        return replace(own, photo=photo)
 
     def _begin(self) -> None:
         if self._user is None:
-            self.begun.emit()
             self._user = self._store.workspace
             self._first = self._user.photo.path
 
@@ -217,7 +214,7 @@ class LessonController(QObject):
         title = f"step {place + 1} of “{lesson.title}”"
         photo = self._photo_of(step, user.photo)
         # With the first settings: not with the tolerance of the step before.
-        workspace = replace(user, scene=step.scene, settings=FIRST_SETTINGS, photo=photo)
+        workspace = replace(user, scene=step.scene, settings=FIRST_SETTINGS, photo=photo, preset="")
         self._store.put(workspace, title, new_gesture())
         packet = QUANTITIES["packet-columns"].compute(step.scene, "")
         self.columns_held.emit(PACKETS_IN_VIEW * packet)

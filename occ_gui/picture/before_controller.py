@@ -26,7 +26,7 @@ class BeforeController(QObject):
 
     def __init__(self, store: Store, panes: Sequence[BeforePane]) -> None:
         super().__init__()
-        self._panes = panes
+        self._store, self._panes = store, panes
         self._wanted: Scene | None = None
         self._shown: Snapshot | None = None
         self.before: Snapshot | None = None
@@ -43,6 +43,9 @@ class BeforeController(QObject):
             self._wanted = None
 
     def _begin_step(self, left: Workspace) -> None:
+        now = self._store.workspace
+        if (left.scene, left.settings) == (now.scene, now.settings):
+            return  # a step that leaves the picture as it is
         self._wanted = left.scene
         if self._shown is not None:
             self._show(self._shown)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -13,7 +14,8 @@ from occ_gui.scene.gesture import new_gesture
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.jobs import snapshot_of
-from occ_gui.simulation.snapshot import Pins, SimulationRequest, Snapshot
+from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.simulated import PinnedScene, Pins, SimulationRequest
 from occ_model.errors import OccError, one_line
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.parameter_kinds import Parameter, ParameterValue, distinguished
@@ -52,81 +54,97 @@ class PinController(QObject):
         super().__init__()
         self._is_present = is_present
         self._waiting = ""
-        self._scenes = scenes
+        self._scenes, self._store = scenes, scenes.store
         self._snapshot: Snapshot | None = None
+        self._found: dict[str, Pin] = {}
+        self._may_simulate = False
         self.pinned = Pinned()
-        self._restored: dict[str, SimulationRequest] = {}
-        self._runner: Task[dict[str, SimulationRequest], None] | None = None
+        self.runner: Task[dict[str, SimulationRequest], None] = Task(
+            _simulate_all, "comparison", impatient=True
+        )
+        self.runner.reported.connect(self._take)
+        self.runner.finished.connect(self._forget_missing)
+        self.runner.failed.connect(self._forget_missing)
+        self._store.select(lambda workspace: workspace.pins).changed.connect(self._on_pins)
 
     @property
-    def kept(self) -> Pins:
-        """What is pinned as A and as B, also while its picture is still being simulated."""
-        a, b = (
-            self._restored.get(name) if pin is None else pin.request
-            for name, pin in zip(_NAMES, (self.pinned.a, self.pinned.b), strict=True)
-        )
-        return a, b
+    def _kept(self) -> dict[str, PinnedScene]:
+        """What is pinned, by the names A and B."""
+        pins = zip(_NAMES, self._store.workspace.pins, strict=True)
+        return {name: pin for name, pin in pins if pin is not None}
+
+    @property
+    def _missing(self) -> dict[str, SimulationRequest]:
+        """What an earlier window had pinned, and is not simulated yet."""
+        return {name: pin.request for name, pin in self._kept.items() if name not in self._found}
 
     @property
     def is_idle(self) -> bool:
         """Whether all that is pinned can be compared."""
-        return not self._restored
+        return not self._missing
 
-    def restore(self, pins: Pins) -> None:
-        """Pin what an earlier window had pinned, once the first picture is there."""
-        kept = zip(_NAMES, pins, strict=True)
-        self._restored = {name: pin for name, pin in kept if pin is not None}
+    def _keep(self, name: str, pin: PinnedScene | None) -> None:
+        workspace = self._store.workspace
+        a, b = workspace.pins
+        pins = (pin, b) if name == "A" else (a, pin)
+        self._store.put(replace(workspace, pins=pins))
 
-    def _begin_restoring(self) -> None:
-        if not self._restored or self._runner is not None:
-            return
-        self._runner = runner = Task(_simulate_all, "comparison", impatient=True)
-        runner.reported.connect(self._take_restored)
-        runner.finished.connect(self._end_restoring)
-        runner.failed.connect(self._end_restoring)
-        runner.ask(dict(self._restored))
+    def _on_pins(self, _pins: Pins) -> None:
+        kept = self._kept
+        self._found = {
+            name: pin
+            for name, pin in self._found.items()
+            if name in kept and kept[name].request == pin.request
+        }
+        self._compare()
+        self._simulate()
 
-    def _take_restored(self, result: tuple[str, Snapshot]) -> None:
+    def _simulate(self) -> None:
+        """Simulate what is missing, once the first picture is there."""
+        if self._missing and self._may_simulate and self.runner.is_idle:
+            self.runner.ask(self._missing)
+
+    def _take(self, result: tuple[str, Snapshot]) -> None:
         name, snapshot = result
-        if self._restored.pop(name, None) is not None:
-            self._put_one(name, self._pin_of(snapshot))
+        if self._missing.get(name) == snapshot.request:
+            self._found[name] = self._pin_of(snapshot)
+            self._compare()
 
-    def _end_restoring(self, _result: object) -> None:
-        self._restored.clear()
-
-    def stop(self) -> None:
-        """Stop what restores the pins of an earlier window."""
-        if self._runner is not None:
-            self._runner.stop()
+    def _forget_missing(self, _result: object) -> None:
+        for name in self._missing:
+            self._keep(name, None)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         """Keep these results for the next pin, or for the one that waits for them."""
-        self._snapshot = snapshot
-        self._begin_restoring()
+        self._snapshot, self._may_simulate = snapshot, True
+        self._simulate()
         if self._waiting and self._is_present(snapshot):
             self.pin(self._waiting)
 
     def give_up(self) -> None:
         """Pin nothing any more: the present scene has no picture."""
-        self._begin_restoring()
+        self._may_simulate = True
+        self._simulate()
         if self._waiting:
             name, self._waiting = self._waiting, ""
             self.status_message.emit(f"{name} is not pinned: this scene has no picture.")
 
     def pin(self, name: str) -> None:
         """Keep the current state as A or as B."""
-        if self._snapshot is None:
+        snapshot = self._snapshot
+        if snapshot is None:
             self.status_message.emit("There is no picture to pin yet.")
             return
-        if not self._is_present(self._snapshot):
+        if not self._is_present(snapshot):
             self._waiting = name
             self.status_message.emit(f"{name} is pinned as soon as this scene is computed.")
             return
         self._waiting = ""
-        self._restored.pop(name, None)
-        self._put_one(name, self._pin_of(self._snapshot))
+        self._found[name] = self._pin_of(snapshot)
+        self._keep(name, PinnedScene(snapshot.request, self._store.workspace.preset))
+        self._compare()
         told = "Pinned the current state as {name}."
-        if self.pinned.a is None or self.pinned.b is None:
+        if len(self._found) < len(_NAMES):
             told = "Pinned the current state as {name}: change it, and pin {other}, too."
         else:
             self.both_pinned.emit()
@@ -135,24 +153,21 @@ class PinController(QObject):
 
     def clear(self) -> None:
         """Forget both."""
-        self._restored.clear()
-        self._put(None, None)
+        self._store.put(replace(self._store.workspace, pins=(None, None)))
         self.status_message.emit("Nothing is pinned any more.")
 
     def go_to(self, name: str) -> None:
         """Replace the scene by that of A or of B, as one step."""
-        pin = self.kept[_NAMES.index(name)]
+        pin = self._kept.get(name)
         if pin is None:
             self.status_message.emit(f"Nothing is pinned as {name} yet.")
             return
+        scene, force = pin.request.scene, pin.request.settings.force
         title = f"return to {name}"
-        self._scenes.put(pin.scene, title, new_gesture(), force=pin.settings.force)
+        self._scenes.put(scene, title, new_gesture(), force=force, preset=pin.preset)
 
-    def _put_one(self, name: str, pin: Pin) -> None:
-        a, b = self.pinned.a, self.pinned.b
-        self._put(*((pin, b) if name == "A" else (a, pin)))
-
-    def _put(self, a: Pin | None, b: Pin | None) -> None:
+    def _compare(self) -> None:
+        a, b = (self._found.get(name) for name in _NAMES)
         inputs: tuple[ComparedRow, ...] = ()
         outputs: tuple[ComparedRow, ...] = ()
         if a is not None and b is not None:

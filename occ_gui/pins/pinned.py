@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from occ_gui.simulation.snapshot import SimulationRequest
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings

@@ -2,32 +2,35 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QFileDialog
 
 from occ_gui.background.task import Reporter, Task
+from occ_gui.core.store import NO_GESTURE, Store
 from occ_gui.room.jobs import FloorMap, Look, ShownRoom, map_room, plan_of, show_room
 from occ_gui.room.room_view import RoomView
+from occ_gui.scene.gesture import Gestures
 from occ_gui.shell.feature import Pane
+from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.errors import OccError
-from occ_model.room.room import Room
+from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.room.view import aimed_at
 
 _LEAST = QSize(360, 180)
-_FIRST = "office"
 
 
-class RoomPane(Pane[None]):
-    """Shows a room from a place that the user drags."""
+class RoomPane(Pane[RoomChoice]):
+    """Shows a room from a place that the user drags; one drag is one step."""
 
-    def __init__(self) -> None:
+    def __init__(self, store: Store) -> None:
         self.view = RoomView(rooms())
         super().__init__(ScrollPane(self.view, _LEAST))
-        self.room = load_room(_FIRST)
-        self.look = Look(self.room)
+        self._store = store
+        self.look: Look | None = None
         """What is shown, or looked at."""
         self.shown: ShownRoom | None = None
         """The last picture of the present place, once it is read."""
@@ -42,54 +45,73 @@ class RoomPane(Pane[None]):
         self.tasks = (self._look, self._map)
         self._mapped: Room | None = None
         """The room whose map is shown or measured."""
-        self.view.room_chosen.connect(lambda name: self.take(load_room(name)))
+        self._lengths = Gestures()
+        self.view.room_chosen.connect(lambda name: self.take(name, load_room(name)))
         self.view.file_asked.connect(self._ask_for_file)
         self.view.photo_asked.connect(self._ask_for_photo)
-        self.view.photo_closed.connect(lambda: self.move(self.room))
+        self.view.photo_closed.connect(self._close_photo)
         self.view.focal_length_given.connect(self._with_focal_length)
         self.view.map_asked.connect(self._measure)
-        self.view.plan.camera_moved.connect(lambda x, y: self.move(self.room.replace(x=x, y=y)))
+        self.view.plan.camera_moved.connect(self._move)
         self.view.plan.aim_moved.connect(self._aim)
-        self.view.rooms.setCurrentText(_FIRST)
-        self.take(self.room)
 
-    def take(self, room: Room) -> None:
-        """Show another room; a photo that is shown is read as one of it."""
-        self._show_room(replace(self.look, room=room), is_new=True)
+    @property
+    def room(self) -> Room:
+        """The room that is shown, with its camera where the user has put it."""
+        room = self._store.workspace.room.room
+        return load_room(FIRST_ROOM) if room is None else room
 
-    def move(self, room: Room) -> None:
-        """Show the room from another place: no photo."""
-        self._show_room(Look(room), is_new=False)
-
-    def open_photo(self, path: Path) -> None:
-        """Show a photo of the room, and where it was taken."""
-        self._show_room(Look(self.room, path), is_new=False)
-
-    def _with_focal_length(self, focal_length: float) -> None:
-        self._show_room(replace(self.look, focal_length=focal_length), is_new=False)
-
-    def open(self, path: Path) -> None:
-        """Show the room of a file; a sentence says why it cannot be read."""
-        try:
-            self.take(load_room(path))
-        except OccError as error:
-            self.view.show_failure(str(error))
-        else:
-            self.view.show_file(path.name)
-
-    def _aim(self, x: float, y: float) -> None:
-        height = plan_of(self.room).height
-        self.move(self.room.replace(camera=aimed_at(self.room.camera, x, y, height)))
-
-    def _show_room(self, look: Look, *, is_new: bool) -> None:
-        room = look.room
-        self.look, self.room, self.shown = look, room, None
+    def show_part(self, part: RoomChoice) -> None:
+        """Look at a room from its camera's place, or at a photo of it."""
+        room, last = self.room, self.look
+        self.look, self.shown = Look(room, part.photo, part.focal_length), None
+        is_new = last is None or room.lamps != last.room.lamps
+        self.view.show_name(part.name)
         self.view.show_plan(room, plan_of(room), is_new=is_new)
         if self._mapped is not None and not _have_one_map(room, self._mapped):
             self._map.cancel()
             self._mapped = None
             self.view.show_map(None)
-        self._look.ask(look)
+        self._look.ask(self.look)
+
+    def _edit(self, title: str, gesture: int = NO_GESTURE, **changes: Any) -> None:
+        workspace = self._store.workspace
+        room = replace(workspace.room, **changes)
+        self._store.put(replace(workspace, room=room), title, gesture)
+
+    def take(self, name: str, room: Room) -> None:
+        """Show another room; a photo that is shown is read as one of it."""
+        self._edit(f"room {name}", name=name, room=room)
+
+    def _move(self, x: float, y: float, gesture: int) -> None:
+        self._look_from(replace(self.room.camera, x=x, y=y), "move of the camera", gesture)
+
+    def _aim(self, x: float, y: float, gesture: int) -> None:
+        camera = aimed_at(self.room.camera, x, y, plan_of(self.room).height)
+        self._look_from(camera, "turn of the camera", gesture)
+
+    def _look_from(self, camera: Place, title: str, gesture: int) -> None:
+        """Show what the camera sees from a place: no photo."""
+        room = self.room.replace(camera=camera)
+        self._edit(title, gesture, room=room, photo=None, focal_length=None)
+
+    def open_photo(self, path: Path) -> None:
+        """Show a photo of the room, and where it was taken."""
+        self._edit(f"photo {path.name}", photo=path, focal_length=None)
+
+    def _close_photo(self) -> None:
+        self._edit("closing of the photo", photo=None, focal_length=None)
+
+    def _with_focal_length(self, focal_length: float) -> None:
+        self._edit("focal length of the photo", self._lengths.of_change(),
+                   focal_length=focal_length)  # fmt: skip
+
+    def open(self, path: Path) -> None:
+        """Show the room of a file; a sentence says why it cannot be read."""
+        try:
+            self.take(path.name, load_room(path))
+        except OccError as error:
+            self.view.show_failure(str(error))
 
     def _measure(self) -> None:
         self._mapped = self.room

@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtCore import QPointF, Qt, Signal, SignalInstance
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.room.jobs import FloorMap, RoomPlan
+from occ_gui.scene.gesture import Gestures
 from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
@@ -31,11 +32,11 @@ _DASHES = Qt.PenStyle.DashLine
 class PlanPlot(QWidget):
     """The room from above."""
 
-    camera_moved = Signal(float, float)
-    """The user has dragged the camera: x and y in metres."""
+    camera_moved = Signal(float, float, int)
+    """The user drags the camera: x and y in metres, and the gesture."""
 
-    aim_moved = Signal(float, float)
-    """The user has dragged the middle of what the camera sees."""
+    aim_moved = Signal(float, float, int)
+    """The user drags the middle of what the camera sees."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -51,15 +52,23 @@ class PlanPlot(QWidget):
         self.found = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
         self.camera = pg.TargetItem((0.0, 0.0), size=14, symbol="o", pen=pg.mkPen(PHOTO, width=2))
         self.aim = pg.TargetItem((0.0, 0.0), size=12, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
-        for target, moved in ((self.camera, self.camera_moved), (self.aim, self.aim_moved)):
-            self.plot.addItem(target)
-            target.sigPositionChanged.connect(
-                lambda item, moved=moved: moved.emit(float(item.pos().x()), float(item.pos().y()))
-            )
+        self._follow(self.camera, self.camera_moved)
+        self._follow(self.aim, self.aim_moved)
         self.plot.dress_with(self._dress)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.plot)
+
+    def _follow(self, target: pg.TargetItem, moved: SignalInstance) -> None:
+        self.plot.addItem(target)
+        gestures = Gestures()
+
+        def tell(item: pg.TargetItem) -> None:
+            gesture = gestures.of_change(held=item.moving)
+            moved.emit(float(item.pos().x()), float(item.pos().y()), gesture)
+
+        target.sigPositionChanged.connect(tell)
+        target.sigPositionChangeFinished.connect(gestures.end)
 
     def _dress(self, palette: QPalette) -> None:
         for name in self.names:

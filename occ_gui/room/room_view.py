@@ -110,10 +110,10 @@ class RoomView(QWidget):
         for label in (legend, self.floor):
             layout.addWidget(label)
 
-    def show_file(self, name: str) -> None:
-        """Name the file of the room in place of a room of the program."""
+    def show_name(self, name: str) -> None:
+        """Name the room, which may be a file in place of one of the program."""
         self.rooms.setPlaceholderText(one_line(name))
-        self.rooms.setCurrentIndex(-1)
+        self.rooms.setCurrentIndex(self.rooms.findText(name))
 
     def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
         """Show where lamps and camera are; what the last picture told is out of date."""

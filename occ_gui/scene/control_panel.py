@@ -219,15 +219,15 @@ class ControlPanel(QWidget):
             fields.update(panel.rows)
         return fields
 
-    def show_preset(self, name: str | None, changed: str | None = None) -> None:
+    def show_preset(self, name: str, changed: str = "") -> None:
         """Show which preset the scene equals, or which one it was before it was changed."""
         text = "Choose a preset"
-        place = -1 if changed is None else self.preset.findData(changed)
+        place = self.preset.findData(changed) if changed else -1
         if place >= 0:
             text = f"{self.preset.itemText(place)}, changed"
         if text != self.preset.placeholderText():
             self.preset.setPlaceholderText(text)
-        self.preset.setCurrentIndex(-1 if name is None else self.preset.findData(name))
+        self.preset.setCurrentIndex(self.preset.findData(name) if name else -1)
 
 
 def _connect(fields: Iterable[CodeEntry | ParameterRow], editor: SceneEditor) -> None:

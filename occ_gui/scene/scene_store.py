@@ -14,6 +14,9 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.refusal import refusal_of
 from occ_model.scene.scene import Scene
 
+_MOST_OF_A_CHANGE = 2
+"""Parameters that one change of the user has at most: the exposure and, held by it, the ISO."""
+
 
 class SceneStore(QObject):
     """The scene of a workspace, and the edits of it."""
@@ -49,8 +52,7 @@ class SceneStore(QObject):
             self.refused_for.emit(sentence, tuple(at_fault or changes))
             return
         labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
-        workspace = replace(self.store.workspace, scene=scene)
-        self.store.put(workspace, f"change of {labels}", gesture)
+        self.put(scene, f"change of {labels}", gesture)
 
     def force(self, effect: str, included: bool | None) -> None:
         """Switch an effect on or off, or leave it to the plan (None)."""
@@ -71,9 +73,17 @@ class SceneStore(QObject):
         title: str,
         gesture: int = NO_GESTURE,
         force: Mapping[str, bool] | None = None,
+        preset: str = "",
     ) -> None:
-        """Replace the whole scene as one step, and the effects forced by hand if they are given."""
-        workspace = replace(self.store.workspace, scene=scene)
+        """Replace the whole scene as one step, and the effects forced by hand if they are given.
+
+        The preset is what a whole other scene was changed from; one that is changed a little keeps
+        its own.
+        """
+        workspace, last = self.store.workspace, self.scene
+        changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
+        preset = preset or (workspace.preset if changed <= _MOST_OF_A_CHANGE else "")
+        workspace = replace(workspace, scene=scene, preset=preset)
         if force is not None:
             workspace = workspace.with_force(force)
         self.store.put(workspace, title, gesture)

@@ -26,6 +26,17 @@ class VerdictView(Protocol):
         """Say of which values of a slider that runs verdict and picture are; empty for none."""
 
 
+class Work(Protocol):
+    """What goes on in the background."""
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing comes any more."""
+
+    def stop(self) -> None:
+        """End it."""
+
+
 class Service(QObject):
     """What is made of a feature when it is first wanted: what carries out its commands."""
 
@@ -35,6 +46,9 @@ class Service(QObject):
     tasks: tuple[Task[Any, Any], ...] = ()
     """The work that is waited for, and that ends with it."""
 
+    measures: tuple[Work, ...] = ()
+    """What measures, for which nobody waits as for a picture; it ends with it, too."""
+
     @property
     def is_idle(self) -> bool:
         """Whether nothing is at work."""
@@ -42,13 +56,13 @@ class Service(QObject):
 
     @property
     def is_measured(self) -> bool:
-        """Whether all is measured that nobody waits for as for a picture."""
-        return True
+        """Whether all is measured."""
+        return all(work.is_idle for work in self.measures)
 
     def stop(self) -> None:
         """End all work; nothing is shown any more."""
-        for task in self.tasks:
-            task.stop()
+        for work in (*self.tasks, *self.measures):
+            work.stop()
 
 
 class Pane(Service, Generic[Part]):

@@ -8,7 +8,8 @@ from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import Selection
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
+from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.plan import Decision
 
 if TYPE_CHECKING:  # a window without a photo or film starts without them

@@ -37,13 +37,8 @@ from occ_gui.simulation.jobs import (
     snapshot_of,
 )
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import (
-    LEAST_DRAFT_STEP,
-    SOURCES,
-    Reading,
-    SimulationRequest,
-    Snapshot,
-)
+from occ_gui.simulation.snapshot import SOURCES, Reading, Snapshot
+from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -139,11 +134,6 @@ class SimulationController(QObject):
         self.ages = ResultAges(self._request())
         # Only the picture: the panes are not there yet, and it is not late at the start.
         self.runner.ask(self.ages.present)
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether all results of the present scene are shown."""
-        return self.runner.is_idle
 
     def show_in(self, views: Sequence[SnapshotView], readers: Sequence[ReadingView] = ()) -> None:
         """Set the panes that show the results; none arrives before the event loop runs."""

@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP
+from occ_gui.values.simulated import LEAST_DRAFT_STEP
 
 LONGEST = 0.016
 """Seconds that a draft and its reading may take: the window needs as long to show them."""

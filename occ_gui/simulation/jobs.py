@@ -6,7 +6,8 @@ from time import perf_counter
 from typing import TypedDict
 
 import occ_model as occ
-from occ_gui.simulation.snapshot import Reading, SimulationRequest, Snapshot
+from occ_gui.simulation.snapshot import Reading, Snapshot
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.effects.plan import called_for_by_signal
 from occ_model.errors import PluginError

@@ -6,7 +6,8 @@ from typing import Self
 import cv2
 import numpy as np
 
-from occ_gui.simulation.snapshot import Reading, SimulationRequest
+from occ_gui.simulation.snapshot import Reading
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.frame import Frame
 

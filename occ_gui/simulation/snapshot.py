@@ -1,45 +1,20 @@
-"""Results of one scene: what is read of it, early or from its picture, and the request for it."""
+"""Results of one scene: what is read of it, early or from its picture."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
-from occ_model.results.frame import PICTURES, Frame
+from occ_model.results.frame import Frame
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
-
-LEAST_DRAFT_STEP = 4
-"""Rows of the picture that a row of a draft stands for at least: fewer are no sooner there."""
 
 Source: TypeAlias = Literal["profile", "draft", "picture"]
 """What a reading was read from."""
 
 SOURCES: tuple[Source, ...] = ("profile", "draft", "picture")
 """The sources, the surest last."""
-
-
-@dataclass(frozen=True, slots=True)
-class SimulationRequest:
-    """A scene to be simulated.
-
-    Parameters
-    ----------
-    draft_step
-        A draft shows one of so many rows of the picture.
-    """
-
-    scene: Scene
-    settings: SimulationSettings
-    # Neither changes the results.
-    whose: str = field(default=PICTURES[0], compare=False)
-    draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
-    more: tuple[str, ...] = field(default=(), compare=False)
-
-
-Pins: TypeAlias = tuple[SimulationRequest | None, SimulationRequest | None]
-"""What is pinned as A and as B; None for nothing."""
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)

@@ -5,11 +5,12 @@ import sys
 
 import occ_model as occ
 from occ_gui.app.command_line import start
+from occ_gui.core.workspace import Workspace
 
 
 def main() -> None:
     """End once the picture pane has painted a frame; what it says is read a little later."""
-    qt, application = start(occ.load_preset("phone-68us"), sys.argv[:1])
+    qt, application = start(Workspace(occ.load_preset("phone-68us")), sys.argv[:1])
     # Only now, as in the program: PySide reads the source of what is imported after it.
     from PySide6.QtCore import QEventLoop
 

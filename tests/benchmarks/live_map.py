@@ -103,8 +103,9 @@ def main() -> None:
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
     import occ_model as occ
     from occ_gui.app.command_line import start, wait_until_shown
+    from occ_gui.core.workspace import Workspace
 
-    _, application = start(occ.load_preset(options.preset), ["live_map"])
+    _, application = start(Workspace(occ.load_preset(options.preset)), ["live_map"])
     application.window.show()
     application.window.bring_to_front(options.dock)
     wait_until_shown(application, measured=True)

@@ -22,6 +22,7 @@ from PySide6.QtCore import QEventLoop, QObject, Qt, QTimer
 
 import occ_model as occ
 from occ_gui.app.command_line import start
+from occ_gui.core.workspace import Workspace
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
 from occ_model.scene.scene import Scene
@@ -66,7 +67,9 @@ class Window(QObject):
         super().__init__()
         preset, settings = CASES[case]
         # As the program starts: its time slices of threads, and when it collects garbage.
-        self._qt, self.application = start(occ.load_preset(preset), sys.argv[:1], settings)
+        self._qt, self.application = start(
+            Workspace(occ.load_preset(preset), settings), sys.argv[:1]
+        )
         self.painted = Painted()
         self._waiting: list[tuple[str, Scene]] = []
         self.application.simulation.picture_ready.connect(self._on_picture)

@@ -53,8 +53,9 @@ def main() -> None:
     os.environ["QT_QPA_PLATFORM"] = "offscreen"
     import occ_model as occ
     from occ_gui.app.command_line import start, wait_until_shown
+    from occ_gui.core.workspace import Workspace
 
-    _, application = start(occ.load_preset(options.preset), ["stall"])
+    _, application = start(Workspace(occ.load_preset(options.preset)), ["stall"])
     application.window.resize(1600, 1000)
     application.window.show()
     wait_until_shown(application, measured=True)
@@ -94,7 +95,7 @@ def _watch(application: "Application", seconds: float) -> _Found:
     start = perf_counter()
 
     def move() -> None:
-        found.mapping.append(not application.shell.pane("map").map.is_idle)
+        found.mapping.append(not application.shell.pane("map").map.channel.is_idle)
         found.studying.append(not application.shell.pane("accuracy").study.runner.is_idle)
         past = perf_counter() - start
         cycle, place = divmod(past, _CYCLE_S)

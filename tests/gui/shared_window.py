@@ -30,11 +30,12 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import THEMES
-from occ_gui.core.workspace import FIRST_SETTINGS
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.placement import MODES as OVERLAYS
+from occ_gui.values.room_choice import RoomChoice
 from occ_gui.window.modes.mode import MODES
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
@@ -60,7 +61,7 @@ _SETTLED_MS = 100
 
 def new_window(qtbot: QtBot, scene: Scene) -> Application:
     """Show a whole application that has come to rest."""
-    application = Application(scene)
+    application = Application(Workspace(scene))
     application.window.show()
     qtbot.waitUntil(lambda: application.is_idle)
     return application
@@ -233,10 +234,10 @@ class SharedWindow:
         kept.pins.clear()
         kept.preferences.clear()
         first = replace(kept.store.store.workspace, scene=scene, settings=FIRST_SETTINGS)
-        first = replace(first, photo=PhotoChoice(), film=FilmChoice())
+        first = replace(first, photo=PhotoChoice(), film=FilmChoice(), room=RoomChoice())
+        first = replace(first, preset="", scene_file=None)
         kept.store.store.put(first, "first scene")
         kept.store.undo_stack.clear()
-        kept.document.path = None
         kept.document.show_photo(None)  # writes the title
         if kept.options.theme.theme != THEMES[0]:
             kept.options.theme.choose(THEMES[0])

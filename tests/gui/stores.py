@@ -1,5 +1,8 @@
 """Stores for tests of what stands between them and a pane."""
 
+from dataclasses import replace
+from typing import Any
+
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
@@ -11,3 +14,8 @@ def store_of(scene: Scene | None = None) -> SceneStore:
     """Make a store of a scene, with the first settings."""
     workspace = Workspace(Scene() if scene is None else scene)
     return SceneStore(Store(workspace), {effect.name: effect.label for effect in EFFECTS})
+
+
+def show(store: Store, **changes: Any) -> None:
+    """Choose what panes show."""
+    store.put(replace(store.workspace, **changes))

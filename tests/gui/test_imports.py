@@ -35,6 +35,7 @@ MAY_COMPUTE = (
     "measurement",
     "pane",
     "photo_work",
+    "record",
     "report",
     "schedule",
     "sweep_table",

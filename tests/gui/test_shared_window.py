@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from gui.shared_window import SharedWindow
+from gui.stores import show
 from PySide6.QtWidgets import QTabWidget
 from pytestqt.qtbot import QtBot
 
@@ -35,7 +36,7 @@ UNDONE: dict[str, Change] = {
     "sentence": lambda at: at.window.say("something"),
     "readout": lambda at: at.window.pointed.set_full_text("something"),
     "measuring": lambda at: at.window.actions_by_name["measure"].trigger(),
-    "scene file": lambda at: at.document.resume(Path("some.toml"), None),
+    "scene file": lambda at: show(at.store.store, scene_file=Path("some.toml")),
     "several photos": lambda at: at.photo._show_several([Path("a.png"), Path("b.png")]),
 }
 

@@ -19,7 +19,7 @@ from occ_gui.accuracy.cost_measurement import CostMeasurement, Measured, SceneCo
 from occ_gui.background.task import Superseded
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.simulation.controller import SimulationController
-from occ_gui.simulation.snapshot import SimulationRequest
+from occ_gui.values.simulated import SimulationRequest
 from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.scene.scene import Scene

@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
 from occ_gui.scene import gesture
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.scene import Scene
@@ -135,7 +136,7 @@ def test_about_tells_the_version(
 
 
 def open_and_close(qtbot: QtBot, scene: Scene) -> None:
-    application = Application(scene)
+    application = Application(Workspace(scene))
     application.window.show()
     for pane in application.window.docks:  # some are made when they are first seen
         application.window.bring_to_front(pane)

@@ -17,6 +17,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
+from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.help.pages import docs_folder, heading_id
@@ -292,7 +293,7 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
         return QSettings(str(tmp_path / "settings.ini"), QSettings.Format.IniFormat)
 
     kept = settings()
-    application = Application(small_scene, preferences=kept)
+    application = Application(Workspace(small_scene), kept)
     application.window.show()
     strips = application.slider_strips.strips.values()
     assert all(strip.isVisible() for strip in strips)

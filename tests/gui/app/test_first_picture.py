@@ -8,8 +8,9 @@ START = """
 import sys
 import occ_model as occ
 from occ_gui.app.command_line import start
+from occ_gui.core.workspace import Workspace
 
-qt, application = start(occ.load_preset("phone-68us").replace(rows=200), ["occ-gui"])
+qt, application = start(Workspace(occ.load_preset("phone-68us").replace(rows=200)), ["occ-gui"])
 pictures = []
 application.simulation.picture_ready.connect(pictures.append)
 application.window.show()

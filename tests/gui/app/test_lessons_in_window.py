@@ -11,11 +11,9 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.files.file_controller import sample_photos
-from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session
+from occ_gui.files.session_file import SessionFile
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.window.main_window import MainWindow
-from occ_model.effects.registry import NAMES
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
@@ -202,8 +200,8 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     photo_file: Path,
     tmp_path: Path,
 ) -> None:
-    autosave = application.kept.autosave
-    autosave.resume(SessionFile(tmp_path, NAMES), Session(), scene_wins=True)
+    session = application.session
+    session.begin(SessionFile(tmp_path), is_scene_asked=True)
     application.settings.set_tolerance(7.0)
     application.open_photo(photo_file)
     user.wait_until_idle()
@@ -212,7 +210,7 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     user.wait_until_idle()
     assert application.store.scene != before.scene
     assert application.photos.path != photo_file
-    autosave.write()
+    session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert record["in_use"]
     assert Scene.from_toml(record["scene"]) == before.scene
@@ -221,10 +219,10 @@ def test_a_crash_during_a_lesson_leaves_the_users_own_state(
     guide.step.all.click()
     user.wait_until_idle()
     application.store.change(distance=2.0)
-    autosave.write()
+    session.write()
     record = json.loads((tmp_path / "session-1.json").read_text(encoding="utf-8"))
     assert Scene.from_toml(record["scene"]).pose.distance == 2.0
-    autosave.end()
+    session.end()
 
 
 def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
@@ -235,8 +233,8 @@ def test_a_window_closed_during_a_lesson_keeps_the_users_scene(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     written: list[Scene] = []
-    autosave = application.kept.autosave
-    monkeypatch.setattr(autosave, "end", lambda: written.append(application.store.scene))
+    session = application.session
+    monkeypatch.setattr(session, "end", lambda: written.append(application.store.scene))
     guide.list.choices[0].click()
     user.wait_until_idle()
     assert application.store.scene != small_scene

@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
 from occ_gui.files import file_controller
 from occ_model.scene.scene import Scene
 
@@ -65,7 +66,7 @@ def test_what_was_opened_is_listed_at_the_next_start(
     scene.write_text(small_scene.to_toml(), encoding="utf-8")
     listed = []
     for _ in range(2):
-        application = Application(small_scene, preferences=settings)
+        application = Application(Workspace(small_scene), settings)
         qtbot.addWidget(application.window)
         listed.append(entries(application.window.menus.recent)[:1])
         application.files.open_scene(scene)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from gui.stores import show
 from gui.user import User
 from PIL import Image
 from PySide6.QtCore import Qt
@@ -15,7 +16,6 @@ from PySide6.QtWidgets import QApplication, QLabel, QMenu, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.document import Document
 from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
@@ -109,8 +109,7 @@ def test_no_name_of_a_file_and_no_note_in_it_becomes_a_mark(
 
 
 def test_a_scene_files_name_does_not_mark_a_change(application: Application) -> None:
-    document: Document = application.document
-    document.resume(Path("/a[*]b.toml"), application.store.scene)
+    show(application.store.store, scene_file=Path("/a[*]b.toml"))
     assert application.window.windowTitle().startswith("a[*][*]b.toml[*]")
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
 from gui.pane_bench import PaneBench
-from gui.stores import store_of
+from gui.stores import show, store_of
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -24,7 +24,6 @@ from occ_gui.bench.bench_table import cell_text
 from occ_gui.bench.bench_view import BenchView
 from occ_gui.bench.feature import bench
 from occ_gui.detection_map.slider_strip_controller import RANKS
-from occ_gui.scene.frame_rate import FrameRate
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Job, JobResult, Stage
 from occ_model.results.bench import BenchPoint, BenchRequest
@@ -44,13 +43,10 @@ class Measuring:
 
     def __init__(self, qtbot: QtBot, scene: Scene, workers: InlineWorkers) -> None:
         self.scenes = store_of(scene)
-        self.frame_rate = FrameRate(self.scenes.store)
         self.queue = WorkQueue(1, lambda: workers)
         self.pane = BenchView(("threshold",), ("threshold",))
         qtbot.addWidget(self.pane)
-        self.controller = BenchController(
-            self.scenes, self.frame_rate, self.queue.channels[0], self.pane
-        )
+        self.controller = BenchController(self.scenes, self.queue.channels[0], self.pane)
         self.pane.asked.connect(self.controller.start)
         self.pane.cancelled.connect(self.controller.cancel)
         self._qtbot = qtbot
@@ -66,7 +62,7 @@ class Measuring:
     def measure(self, whose: str = PUBLISHED) -> None:
         self.controller.choose(BenchChoice(whose, ("threshold",), 64))
         self.pane.measure.click()
-        self._qtbot.waitUntil(lambda: self.controller.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.channel.is_idle)
 
 
 @pytest.fixture
@@ -151,7 +147,7 @@ def test_a_cancelled_bench_keeps_its_points_and_is_not_whole(
     assert "1 of 15" in measuring.said()
     measuring.pane.work.cancel.click()
     assert measuring.said().startswith("Cancelled")
-    assert measuring.controller.is_idle
+    assert measuring.controller.channel.is_idle
     assert measuring.controller.full is None
     assert measuring.cell(0).startswith("0 (")
     assert measuring.pane.measure.isEnabled()
@@ -162,9 +158,9 @@ def test_more_pictures_than_are_read_out_are_refused_in_a_sentence(measuring: Me
     measuring.measure()
     measuring.pane.what.show_key(BITS)
     measuring.pane._show_what()
-    measuring.frame_rate.change(60.0)
+    show(measuring.scenes.store, frame_rate=60.0)
     assert "frames_a_second is 60.0; allowed: above 0 to 36" in measuring.said()
-    measuring.frame_rate.change(15.0)
+    show(measuring.scenes.store, frame_rate=15.0)
     assert "frames_a_second" not in measuring.said()
     assert measuring.cell(0).startswith(f"{256 * 15:,}")
 
@@ -186,8 +182,8 @@ def test_the_bench_is_exported_with_its_own_setting(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:  # fmt: skip
     panes, queue = PaneBench(qtbot, small_scene), WorkQueue(1, lambda: inline_workers)
-    rate, say, path = FrameRate(panes.store), panes.said.append, tmp_path / "bench.csv"
-    panes.shell.add(bench(panes.scenes, rate, lambda: queue.channels[0], say), panes.window)
+    say, path = panes.said.append, tmp_path / "bench.csv"
+    panes.shell.add(bench(panes.scenes, lambda: queue.channels[0], say), panes.window)
     panes.simulate()
     assert "not complete" in panes.export("bench", path)
     panes.see("bench")
@@ -258,7 +254,7 @@ def test_a_measurement_that_somebody_waits_for_goes_before_the_map(measuring: Me
 
 def stages_of(measuring: Measuring) -> list[Stage]:
     put: list[Stage] = []
-    channel = measuring.controller._channel
+    channel = measuring.controller.channel
 
     def note(_request: object, stages: Callable[[], Iterable[Stage]]) -> None:
         put.extend(stages())

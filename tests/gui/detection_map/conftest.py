@@ -13,7 +13,6 @@ from occ_gui.detection_map import wiring
 from occ_gui.detection_map.feature import detection_map
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.detection_map.pane import MapPane
-from occ_gui.scene.frame_rate import FrameRate
 from occ_model.scene.scene import Scene
 
 
@@ -24,8 +23,7 @@ class MapBench(PaneBench):
         super().__init__(qtbot, scene)
         self.workers: Any = LazyWorkers()
         monkeypatch.setattr(wiring, "new_workers", lambda: self.workers)
-        self.frame_rate = FrameRate(self.store)
-        feature = detection_map(self.scenes, self.frame_rate, self.measuring, self.choose_decoder)
+        feature = detection_map(self.scenes, self.measuring, self.choose_decoder)
         self.shell.add(feature, self.window)
 
     @property

@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
-from gui.stores import store_of
+from gui.stores import show, store_of
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -18,7 +18,6 @@ from occ_gui.detection_map import map_schedule
 from occ_gui.detection_map.map_controller import DetectionMapController
 from occ_gui.detection_map.rate_map import PointFacts, RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
-from occ_gui.scene.frame_rate import FrameRate
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
@@ -97,11 +96,10 @@ class Bench:
             self.settings,
             self.queue.channels[0],
             self.pane,
-            FrameRate(self.scenes.store),
         )
 
     def wait_until_idle(self) -> RateMap:
-        self._qtbot.waitUntil(lambda: self.controller.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.channel.is_idle)
         assert self.controller.map is not None
         return self.controller.map
 
@@ -381,9 +379,9 @@ def test_the_pane_follows_what_is_shown_and_the_pictures_a_second(
     bench_of: Callable[..., Bench],
 ) -> None:
     bench = bench_of()
-    bench.controller._frame_rate.show("bits")
+    show(bench.scenes.store, shown="bits")
     assert bench.pane.bits[0] == "bits"
-    bench.controller._frame_rate.change(12.0)
+    show(bench.scenes.store, frame_rate=12.0)
     assert bench.pane.bits == ("bits", 12.0)
 
 

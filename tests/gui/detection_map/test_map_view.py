@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from gui.detection_map.conftest import MapBench
+from gui.stores import show
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import (
@@ -310,8 +311,8 @@ def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:
 def test_a_pane_that_is_made_late_shows_the_rate_that_was_chosen_meanwhile(
     map_bench: MapBench,
 ) -> None:
-    map_bench.frame_rate.change(24.0)
-    map_bench.frame_rate.show("bits")
+    show(map_bench.store, frame_rate=24.0)
+    show(map_bench.store, shown="bits")
     assert (map_bench.view.frame_rate.value(), map_bench.view.shown.key()) == (24.0, "bits")
 
 

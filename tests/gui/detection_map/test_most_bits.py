@@ -5,14 +5,13 @@ from types import SimpleNamespace
 
 import pytest
 from gui.conftest import InlineWorkers, LazyWorkers
-from gui.stores import store_of
+from gui.stores import show, store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import advice_worker
 from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.detection_map.most_bits_controller import MostBitsController
-from occ_gui.scene.frame_rate import FrameRate
 from occ_model.results.most_bits import MostBits
 from occ_model.scene.scene import Scene
 from occ_model.study.most_bits import DECODERS, VARIED, unvaried
@@ -97,13 +96,10 @@ class Bench:
 
     def __init__(self, scene: Scene, card: MostBitsCard, workers: InlineWorkers) -> None:
         self.scenes = store_of(scene)
-        self.frame_rate = FrameRate(self.scenes.store)
         self.card, self.workers = card, workers
         self.queue = WorkQueue(1, lambda: workers)
         (channel,) = self.queue.channels
-        self.controller = MostBitsController(
-            self.scenes, self.frame_rate, self.queue, channel, card
-        )
+        self.controller = MostBitsController(self.scenes, self.queue, channel, card)
         card.asked.connect(self.controller.start)
         card.cancelled.connect(self.controller.cancel)
         card.chosen.connect(self.controller.go)
@@ -133,7 +129,7 @@ def test_go_makes_the_scene_what_was_found_in_one_step(bench: Bench, qtbot: QtBo
     bench.controller.went.connect(told.append)
     before = bench.scenes.scene
     bench.card.search.click()
-    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
     assert len(bench.workers.jobs) == len(DECODERS)
     bench.card.go.click()
     scene = bench.scenes.scene
@@ -151,7 +147,7 @@ def test_a_look_after_the_last_decoder_finds_nothing_more_to_count(
     bench: Bench, qtbot: QtBot
 ) -> None:
     bench.card.search.click()
-    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
     shown = bench.card.text.toolTip()
     with qtbot.captureExceptions() as raised:
         bench.controller._look.timeout.emit()
@@ -164,11 +160,11 @@ def test_another_exposure_distance_or_frame_rate_makes_it_outdated(
     bench: Bench, qtbot: QtBot, changed: str
 ) -> None:
     bench.card.search.click()
-    qtbot.waitUntil(lambda: bench.controller.is_idle)
+    qtbot.waitUntil(lambda: bench.controller.channel.is_idle)
     if changed == "distance":
         bench.scenes.change(distance=1.7)
     else:
-        bench.frame_rate.change(24.0)
+        show(bench.scenes.store, frame_rate=24.0)
     assert not bench.card.go.isEnabled()
 
 
@@ -192,8 +188,8 @@ def test_a_search_is_cancelled_by_the_user_or_by_another_scene(
     bench = Bench(small_scene, card, LazyWorkers())
     for end in (card.cancel.click, lambda: bench.scenes.change(distance=1.7)):
         card.search.click()
-        assert not bench.controller.is_idle
+        assert not bench.controller.channel.is_idle
         end()
-        assert bench.controller.is_idle
+        assert bench.controller.channel.is_idle
         assert "Search" in buttons(card)
     bench.queue.stop()

@@ -30,7 +30,6 @@ from occ_gui.photo.feature import photo
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.picture.feature import picture
 from occ_gui.profile.feature import profile
-from occ_gui.scene.frame_rate import FrameRate
 from occ_gui.values.placement import MODES
 from occ_model.figures import drawing
 from occ_model.results.accuracy import AccuracyPoint
@@ -64,7 +63,7 @@ class Bench(PaneBench):
         self.profile = self.add(profile(store, board, str)).view
         for feature in (
             decoding(store), accuracy(scenes, self.simulation), bands(scenes),
-            detection_map(scenes, FrameRate(store), self.measuring, self.said.append),
+            detection_map(scenes, self.measuring, self.said.append),
             photo(scenes, self.photos, lambda: image, board),
         ):  # fmt: skip
             self.shell.add(feature, self.window)

@@ -18,14 +18,14 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
 from occ_gui.app.start import kept_settings
+from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
 from occ_gui.files.kept_file import LARGEST, MOST_NAMES, usable_settings_path
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session
+from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session_record import Kept
 from occ_gui.lessons.answers import LessonAnswers
 from occ_gui.lessons.lesson_controller import LessonController
 from occ_gui.lessons.lesson_view import LessonView
-from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
@@ -80,15 +80,15 @@ def left_behind(folder: Path, **record: object) -> None:
 @pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
 def test_a_damaged_scene_in_the_session_is_left_out(tmp_path: Path, text: str) -> None:
     left_behind(tmp_path, in_use=False, scene=text)
-    file = SessionFile(tmp_path, NAMES)
-    assert (file.last, file.crashed) == (Session(), None)
+    file = SessionFile(tmp_path)
+    assert (file.last, file.crashed) == (None, None)
     file.close()
 
 
 @pytest.mark.parametrize("text", DAMAGED_SETTINGS.values(), ids=DAMAGED_SETTINGS)
 def test_damaged_settings_in_the_session_are_left_out(tmp_path: Path, text: str) -> None:
-    file = SessionFile(tmp_path, NAMES)
-    file.write(Session(Scene(), SimulationSettings()), in_use=False)
+    file = SessionFile(tmp_path)
+    file.write(Kept(Workspace(Scene(), SimulationSettings())), in_use=False)
     file.close()
     path = tmp_path / "session-1.json"
     whole = path.read_text("ascii")
@@ -96,19 +96,21 @@ def test_damaged_settings_in_the_session_are_left_out(tmp_path: Path, text: str)
         r'("settings": \{[^}]*\}[^}]*)\}', lambda found: f"{found[1]}, {text}}}", whole
     )
     assert damaged != whole
-    file = SessionFile(tmp_path, NAMES)
-    assert file.last.settings == SimulationSettings()
+    file = SessionFile(tmp_path)
+    assert file.last is not None
+    assert file.last.workspace.settings == SimulationSettings()
     file.close()
     path.write_text(damaged, "ascii")
-    file = SessionFile(tmp_path, NAMES)
-    assert file.last.settings is None
+    file = SessionFile(tmp_path)
+    assert file.last is not None
+    assert file.last.workspace.settings == FIRST_SETTINGS
     file.close()
 
 
 @pytest.mark.parametrize("text", DAMAGED_SCENES.values(), ids=DAMAGED_SCENES)
 def test_a_damaged_scene_of_a_crash_is_kept_aside(tmp_path: Path, qtbot: QtBot, text: str) -> None:
     left_behind(tmp_path, in_use=True, scene=text)
-    file = SessionFile(tmp_path, NAMES)
+    file = SessionFile(tmp_path)
     assert file.crashed is None
     assert (tmp_path / "session-1.unreadable").exists()
     file.close()

@@ -8,6 +8,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,15 +18,22 @@ from gui.user import User
 from PySide6.QtCore import QEvent, QSettings, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
+from small_rooms import small_room
 
 from occ_gui.app.application import Application
-from occ_gui.files import autosave
-from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session, record_of, session_in
+from occ_gui.app.start import Start
+from occ_gui.core.step_history import History, StepChange
+from occ_gui.core.store import Store
+from occ_gui.core.workspace import FIRST_SETTINGS, Step, Workspace
+from occ_gui.files import session as session_module
+from occ_gui.files.session import Session, restored
+from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session_record import Kept, kept_in, record_of
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
-from occ_model.effects.registry import NAMES
+from occ_gui.values.room_choice import RoomChoice
+from occ_gui.values.simulated import PinnedScene, SimulationRequest
 from occ_model.results.decoding import Region
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
@@ -33,7 +41,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
 
-Start = Callable[..., Any]
+Starting = Callable[..., Any]
 
 
 @pytest.fixture
@@ -42,18 +50,18 @@ def kept(tmp_path: Path) -> QSettings:
 
 
 @pytest.fixture
-def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> Start:
+def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> Starting:
     """Start a window as the command line does, and end it after."""
 
     @contextmanager
     def begin(asked: Scene | None = None, fresh: bool = False) -> Iterator[Application]:
-        file = SessionFile(tmp_path / "state", NAMES)
-        session = Session() if fresh else file.last
-        scene = asked or session.scene or small_scene
-        application = Application(scene, session.settings or SimulationSettings(), kept)
-        wins = asked is not None or fresh
-        application.kept.resume(file, session, wins, fresh)
-        application.photo.resume(session.photo)
+        file = SessionFile(tmp_path / "state")
+        first, is_asked = Workspace(asked or small_scene), asked is not None
+        if not fresh:
+            first = restored(file, first, is_scene_asked=is_asked, are_settings_asked=False)
+        begin = Start(first, is_asked, kept, file, fresh)
+        application = Application(begin.first, kept)
+        begin.restore(application, with_photo=True)
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)
         try:
@@ -67,8 +75,8 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path, kept: QSettings) -> 
     return begin
 
 
-def test_what_is_set_about_photo_and_film_is_there_again(tmp_path: Path) -> None:
-    here = Path(__file__)
+def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
+    here, scene = Path(__file__), Scene().replace(iso=321.0)
     photo = PhotoChoice(
         here, PhotoReading("lines", "green"), parts={PhotoFrame(here): Region(1, 20, 3, 40)},
         form=MatchChoice("square", 750.0, "switching_frequency", fit_gamma=True),
@@ -78,11 +86,100 @@ def test_what_is_set_about_photo_and_film_is_there_again(tmp_path: Path) -> None
         frame_rate=24.0, frame_jitter=1e-5, camera_drift=1e-5, transmitter_drift=-1e-5
     )
     film = FilmChoice(here, "lines", recording=recording, frames=7)
-    file = SessionFile(tmp_path, ())
-    file.write(Session(photo=photo, film=film), in_use=False)
+    settings = SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
+    pin = PinnedScene(SimulationRequest(scene, settings, more=("sequence",)), "phone-68us")
+    workspace = Workspace(
+        scene, settings, 24.0, "bits", "matched", "receiver", "split", is_enhanced=True,
+        photo=photo, film=film, room=RoomChoice("my.toml", small_room(), here, 0.031),
+        pins=(None, pin), preset="tablet-61us", scene_file=here,
+    )  # fmt: skip
+    first = Workspace(Scene())
+    same = [each.name for each in fields(first)
+            if getattr(first, each.name) == getattr(workspace, each.name)]  # fmt: skip
+    assert not same
+    file = SessionFile(tmp_path)
+    file.write(Kept(workspace), in_use=False)
     file.close()
-    again = SessionFile(tmp_path, ())
-    assert (again.last.photo, again.last.film) == (photo, film)
+    again = SessionFile(tmp_path)
+    assert again.last == Kept(workspace)
+    kept = again.last.workspace.pins[1]
+    assert kept is not None
+    assert kept.request.more == pin.request.more  # by which pins are not told apart
+    again.close()
+
+
+def test_a_file_of_the_former_format_is_read() -> None:
+    scene, pinned = Scene().replace(iso=321.0), Scene().replace(iso=99.0)
+    settings = {"tolerance": 2.0, "observable": "signal", "force": {"jpeg": True}, "noise": "exact",
+                "seed": 7}  # fmt: skip
+    record = {
+        "scene": scene.to_toml(), "settings": settings, "scene_file": __file__,
+        "photo": {"path": __file__}, "film": {"path": __file__}, "preset": "phone-68us",
+        "pins": [{"scene": pinned.to_toml(), "settings": settings, "decoders": []}, None],
+        "history": {"scene": pinned.to_toml(), "force": {}, "done": 1,
+                    "steps": [["change", {"iso": 321.0}, {"jpeg": True}]]},
+    }  # fmt: skip
+    here, known = Path(__file__), SimulationSettings(2.0, "signal", {"jpeg": True}, "exact", 7)
+    workspace = Workspace(
+        scene, known, photo=PhotoChoice(here), film=FilmChoice(here), preset="phone-68us",
+        pins=(PinnedScene(SimulationRequest(pinned, known)), None), scene_file=here,
+    )  # fmt: skip
+    step = StepChange("change", {"iso": 321.0}, {"jpeg": True})
+    assert kept_in(record) == Kept(workspace, History(Step(pinned, {}), (step,), done=1))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("camera", {"x": "far"}),
+        ("camera", [1]),
+        ("room", "lamps = 3"),
+        ("room", None),
+        ("focal_length", -1.0),
+        ("photo", "/nowhere/room.jpg"),
+    ],
+)
+def test_what_cannot_be_of_a_room_is_as_at_first(name: str, value: object) -> None:
+    choice = RoomChoice("my.toml", small_room(), Path(__file__), 0.031)
+    record = record_of(Kept(Workspace(Scene(), room=choice)))
+    record["room"][name] = value
+    kept = kept_in(record)
+    assert kept is not None
+    left = replace(choice, photo=None) if name == "photo" else RoomChoice()
+    assert kept.workspace.room == left
+
+
+def test_a_room_outlives_a_kill_with_the_steps_of_its_camera(qapp: object, tmp_path: Path) -> None:
+    first, file = Workspace(Scene(), frame_rate=24.0), SessionFile(tmp_path)
+    store = Store(first)
+    session = Session(store, lambda: store.workspace)
+    session.begin(file, is_scene_asked=False)
+    seen = [store.workspace.room]
+    for gesture, x in enumerate((0.1, 0.2, 0.3)):
+        room = RoomChoice("my.toml", small_room().replace(x=x))
+        for each in (replace(room, photo=tmp_path), room):  # one gesture, one step
+            store.put(replace(store.workspace, room=each), "move", gesture)
+        seen.append(room)
+    scene = first.scene.replace(iso=321.0)
+    store.put(replace(store.workspace, scene=scene), "iso")
+    session.write()
+    file.close()  # with its process: nothing is written any more
+
+    again = SessionFile(tmp_path)
+    begun = restored(again, Workspace(Scene()), is_scene_asked=False, are_settings_asked=False)
+    assert begun == store.workspace
+    later = Store(begun)
+    Session(later, lambda: later.workspace).begin(again, is_scene_asked=False)
+    assert later.undo_stack.count() == 4
+    later.undo_stack.undo()
+    assert later.workspace == replace(store.workspace, scene=first.scene)
+    found = []
+    for _ in range(3):
+        found.append(later.workspace.room)
+        later.undo_stack.undo()
+    assert [*found, later.workspace.room] == seen[::-1]
+    later.undo_stack.redo()
+    assert later.workspace.room == seen[1]
     again.close()
 
 
@@ -100,13 +197,14 @@ def test_what_is_set_about_photo_and_film_is_there_again(tmp_path: Path) -> None
 def test_what_cannot_be_set_about_a_photo_is_as_at_first(
     part: str, name: str, value: object
 ) -> None:
-    record = record_of(Session(photo=PhotoChoice(Path(__file__), certain={"readout_time": 8e-6})))
+    photo = PhotoChoice(Path(__file__), certain={"readout_time": 8e-6})
+    record = record_of(Kept(Workspace(Scene(), photo=photo)))
     record["photo"][part][name] = value
-    assert session_in(record, ()).photo == PhotoChoice(Path(__file__))
+    assert kept_in(record) == Kept(Workspace(Scene(), photo=PhotoChoice(Path(__file__))))
 
 
 def test_scene_settings_photo_and_options_are_there_again(
-    start: Start, photo_file: Path, qtbot: QtBot
+    start: Starting, photo_file: Path, qtbot: QtBot
 ) -> None:
     with start() as application:
         application.store.change(iso=321.0)
@@ -135,7 +233,7 @@ def test_scene_settings_photo_and_options_are_there_again(
         application.options.theme.choose("system")
 
 
-def test_the_layout_is_there_again_and_can_be_reset(start: Start, qtbot: QtBot) -> None:
+def test_the_layout_is_there_again_and_can_be_reset(start: Starting, qtbot: QtBot) -> None:
     with start() as application:
         window = application.window
         first = window.saveState()
@@ -157,7 +255,7 @@ def test_the_layout_is_there_again_and_can_be_reset(start: Start, qtbot: QtBot) 
         assert not application.window.docks["controls"].isHidden()
 
 
-def test_a_layout_of_other_panes_is_left_alone(start: Start, kept: QSettings) -> None:
+def test_a_layout_of_other_panes_is_left_alone(start: Starting, kept: QSettings) -> None:
     with start() as application:
         application.window.docks["controls"].hide()
         application.window.modes.version += 1
@@ -170,7 +268,7 @@ RUBBISH = ("", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000)
 
 @pytest.mark.whole
 def test_rubbish_in_what_was_kept_is_left_out(
-    start: Start, kept: QSettings, tmp_path: Path, small_scene: Scene
+    start: Starting, kept: QSettings, tmp_path: Path, small_scene: Scene
 ) -> None:
     with start() as application:
         application.store.change(iso=321.0)
@@ -180,7 +278,7 @@ def test_rubbish_in_what_was_kept_is_left_out(
         (tmp_path / "state" / "session-1.json").write_text(rubbish, encoding="utf-8")
         with start() as application:
             assert application.store.scene == small_scene, rubbish
-            assert application.settings.settings == SimulationSettings(), rubbish
+            assert application.settings.settings == FIRST_SETTINGS, rubbish
             assert application.options.theme.theme == "system", rubbish
             application.store.change(iso=321.0)
 
@@ -195,27 +293,26 @@ def test_rubbish_in_what_was_kept_is_left_out(
         '{"tolerance": 1, "observable": [], "force": {}, "noise": {}, "seed": 1}',
     ],
 )
-def test_settings_that_cannot_be_are_left_out(tmp_path: Path, text: str) -> None:
-    record = {"format": 1, "in_use": False, "settings": json.loads(text)}
-    (tmp_path / "session-1.json").write_text(json.dumps(record), encoding="utf-8")
-    assert SessionFile(tmp_path, NAMES).last.settings is None
+def test_settings_that_cannot_be_are_left_out(text: str) -> None:
+    record = {"scene": Scene().to_toml(), "settings": json.loads(text)}
+    assert kept_in(record) == Kept(Workspace(Scene()))
 
 
 def test_a_settings_file_that_is_no_settings_file_is_left_out(tmp_path: Path) -> None:
     (tmp_path / "session-1.json").write_bytes(os.urandom(4000))
-    assert SessionFile(tmp_path, NAMES).last == Session()
+    assert SessionFile(tmp_path).last is None
 
 
 def test_a_session_of_the_older_form_is_left_alone(tmp_path: Path, small_scene: Scene) -> None:
     old = tmp_path / "scene-1.toml"
     old.write_text(small_scene.to_toml(), encoding="utf-8")
-    file = SessionFile(tmp_path, NAMES)
-    assert (file.last, file.crashed) == (Session(), None)
+    file = SessionFile(tmp_path)
+    assert (file.last, file.crashed) == (None, None)
     file.close()
     assert list(tmp_path.iterdir()) == [old]
 
 
-def test_a_scene_that_is_asked_for_wins(start: Start, small_scene: Scene) -> None:
+def test_a_scene_that_is_asked_for_wins(start: Starting, small_scene: Scene) -> None:
     with start() as application:
         application.store.change(iso=321.0)
     asked = small_scene.replace(iso=99.0)
@@ -225,13 +322,13 @@ def test_a_scene_that_is_asked_for_wins(start: Start, small_scene: Scene) -> Non
 
 def crash(folder: Path, scene: Scene) -> None:
     """Leave behind what a window leaves that does not come to its end."""
-    file = SessionFile(folder, NAMES)
-    file.write(Session(scene, SimulationSettings(tolerance=7.0)), in_use=True)
+    file = SessionFile(folder)
+    file.write(Kept(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
     file.close()
 
 
 def test_the_scene_and_settings_of_a_crash_are_restored_once(
-    start: Start, tmp_path: Path, small_scene: Scene
+    start: Starting, tmp_path: Path, small_scene: Scene
 ) -> None:
     lost = small_scene.replace(iso=777.0)
     crash(tmp_path / "state", lost)
@@ -239,16 +336,16 @@ def test_the_scene_and_settings_of_a_crash_are_restored_once(
         assert application.store.scene == lost
         assert application.settings.settings.tolerance == 7.0
         assert "is restored" in application.window.statusBar().currentMessage()
-    assert SessionFile(tmp_path / "state", NAMES).crashed is None
+    assert SessionFile(tmp_path / "state").crashed is None
 
 
 def test_the_scene_of_a_crash_is_restored_as_a_step(
-    start: Start, tmp_path: Path, small_scene: Scene
+    start: Starting, tmp_path: Path, small_scene: Scene
 ) -> None:
     lost, later = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
-    other = SessionFile(tmp_path / "state", NAMES)  # of a window that outlives the other one
+    other = SessionFile(tmp_path / "state")  # of a window that outlives the other one
     crash(tmp_path / "state", lost)
-    other.write(Session(later), in_use=False)
+    other.write(Kept(Workspace(later)), in_use=False)
     other.close()
     with start() as application:
         assert application.store.scene == lost
@@ -259,7 +356,7 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
 
 @pytest.mark.parametrize("fresh", [False, True])
 def test_undo_restores_the_crashs_scene_behind_a_requested_one(
-    start: Start, tmp_path: Path, small_scene: Scene, fresh: bool
+    start: Starting, tmp_path: Path, small_scene: Scene, fresh: bool
 ) -> None:
     lost, asked = small_scene.replace(iso=777.0), small_scene.replace(iso=99.0)
     crash(tmp_path / "state", lost)
@@ -269,7 +366,7 @@ def test_undo_restores_the_crashs_scene_behind_a_requested_one(
         assert application.store.scene == lost
 
 
-def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Start, tmp_path: Path) -> None:
+def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Starting, tmp_path: Path) -> None:
     (tmp_path / "state").mkdir()
     left = json.dumps({"format": 1, "in_use": True, "scene": "format = 99\n"})
     (tmp_path / "state" / "session-1.json").write_text(left, encoding="utf-8")
@@ -279,13 +376,12 @@ def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Start, tmp_path: Pa
 
 
 def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
-    start: Start, tmp_path: Path, small_scene: Scene
+    start: Starting, tmp_path: Path, small_scene: Scene
 ) -> None:
     folder = tmp_path / "state"
-    first, second = SessionFile(folder, NAMES), SessionFile(folder, NAMES)
-    first.write(Session(small_scene.replace(iso=99.0)), in_use=False)
-    second.write(Session(small_scene.replace(iso=101.0)), in_use=False)
-    first.write(Session(small_scene.replace(iso=103.0)), in_use=False)
+    first, second = SessionFile(folder), SessionFile(folder)
+    for file, iso in ((first, 99.0), (second, 101.0), (first, 103.0)):
+        file.write(Kept(Workspace(small_scene.replace(iso=iso))), in_use=False)
     for file in (first, second):
         file.close()
     in_a_year = time.time() + 365 * 86400
@@ -300,7 +396,7 @@ def kill(
     qtbot: QtBot, application: Application, folder: Path, kept: QSettings
 ) -> Callable[[], None]:
     """Note what a window has stored; what is returned puts it back, as if it had not ended."""
-    qtbot.waitUntil(lambda: application.is_idle and not application.kept.autosave.is_due)
+    qtbot.waitUntil(lambda: application.is_idle and not application.session.is_due)
     files = {path: path.read_bytes() for path in folder.glob("*.json")}
     values = {key: kept.value(key) for key in kept.allKeys()}
 
@@ -331,9 +427,9 @@ def undo_texts(application: Application) -> list[str]:
 
 
 def test_nothing_of_a_killed_window_is_lost(
-    start: Start, tmp_path: Path, kept: QSettings, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    start: Starting, tmp_path: Path, kept: QSettings, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(autosave, "LONGEST_WAIT_MS", 20)
+    monkeypatch.setattr(session_module, "LONGEST_WAIT_MS", 20)
     with start() as application:
         user, stack = User(qtbot, application), application.store.undo_stack
         application.presets.load("tablet-61us")

@@ -1,5 +1,6 @@
 """What of a photo is matched: a lamp chosen by a click or a row, or a rectangle drawn by hand."""
 
+from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
 
@@ -12,15 +13,16 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session, session_in
+from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session_record import Kept, kept_in
 from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.lamp_outlines import LampOutlines
 from occ_gui.photo.part_edits import PartEdits
-from occ_gui.values.photo_choice import PhotoFrame
+from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
+from occ_model.scene.scene import Scene
 
 
 def lamp_at(region: Region, modulated: bool = True, periods: float = 6.0) -> Lamp:
@@ -221,16 +223,24 @@ def test_a_region_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
 def test_the_session_keeps_the_region(
     region: Region | None, tmp_path: Path, bench: Bench, photo: Photo
 ) -> None:
-    file = SessionFile(tmp_path, ())
+    file = SessionFile(tmp_path)
     bench.choose(parts={} if region is None else {PhotoFrame(photo.path): region})
-    file.write(Session(photo=bench.choice), in_use=False)
+    file.write(Kept(bench.store.workspace), in_use=False)
     file.close()
-    again = SessionFile(tmp_path, ())
-    kept = again.last.photo
+    again = SessionFile(tmp_path)
+    assert again.last is not None
+    kept = again.last.workspace.photo
     assert kept.rectangle == region
     again.close()
     bench.choose(parts=kept.parts)
     assert bench.parts.part == region
+
+
+def photo_in(record: Mapping[str, object]) -> PhotoChoice:
+    """Read what a session that has a scene says of photos."""
+    kept = kept_in({"scene": Scene().to_toml(), **record})
+    assert kept is not None
+    return kept.workspace.photo
 
 
 @pytest.mark.parametrize("damaged", ["x", {"first_row": 1}, [1, 2, 3, 4], 7])
@@ -240,14 +250,14 @@ def test_a_damaged_region_is_left_out(damaged: object, form: str, photo: Photo) 
     record = {"photo": path, "region": damaged}
     if form == "present":
         record = {"photo": {"path": path, "region": damaged}}
-    found = session_in(record, ()).photo
+    found = photo_in(record)
     assert found.path == photo.path
     assert found.rectangle is None
 
 
 def test_a_region_of_the_former_format_is_read(photo: Photo) -> None:
     record = {"photo": str(photo.path), "region": asdict(Region(1, 2, 3, 4))}
-    found = session_in(record, ()).photo
+    found = photo_in(record)
     assert found.rectangle == Region(1, 2, 3, 4)
 
 

@@ -2,38 +2,127 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.pane_bench import PaneBench
 from PIL import Image
+from pyqtgraph import PlotWidget, TargetItem
+from PySide6.QtCore import QPoint, QPointF, Qt
 from pytestqt.qtbot import QtBot
 from small_rooms import small_room
 
 import occ_model as occ
 from occ_gui.room import jobs
-from occ_gui.room import pane as room_pane
+from occ_gui.room.feature import room
 from occ_gui.room.jobs import map_room, plan_of
 from occ_gui.room.pane import RoomPane
+from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
 from occ_model.figures.drawing import house_style
 from occ_model.figures.room import room_drawing
 from occ_model.photo.reading.exif import EQUIVALENT_FOCAL_LENGTH
 from occ_model.room.room import Place
+from occ_model.room.rooms import load_room
 from occ_model.room.view import aim_of, aimed_at, rotation
+from occ_model.scene.scene import Scene
 
 ROOM = small_room(turned=0.0, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
 
 
 @pytest.fixture
-def pane(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[RoomPane]:
-    monkeypatch.setattr(room_pane, "load_room", lambda _: ROOM)
-    pane = RoomPane()
-    qtbot.addWidget(pane.widget)
-    pane.widget.resize(900, 600)
-    pane.widget.show()
+def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[PaneBench]:
+    bench = PaneBench(qtbot, small_scene)
+    workspace = replace(bench.store.workspace, room=RoomChoice("mine", ROOM))
+    bench.store.put(workspace)
+    bench.store.undo_stack.clear()
+    bench.window.resize(900, 600)
+    yield bench
+    bench.shell.stop()
+
+
+@pytest.fixture
+def pane(bench: PaneBench, qtbot: QtBot) -> RoomPane:
+    pane: RoomPane = bench.add(room(bench.store))
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
-    yield pane
-    pane.stop()
+    return pane
+
+
+def drag(qtbot: QtBot, view: PlotWidget, item: TargetItem, *way: tuple[float, float]) -> None:
+    """Drag what stands in a plan along some places, each in metres."""
+    port, box = view.viewport(), view.getViewBox()
+
+    def place(x: float, y: float) -> QPoint:
+        return view.mapFromScene(box.mapViewToScene(QPointF(x, y)))
+
+    qtbot.mousePress(port, Qt.MouseButton.LeftButton, pos=place(item.pos().x(), item.pos().y()))
+    for at in way:
+        qtbot.mouseMove(port, place(*at))
+        qtbot.wait(20)  # the plot leaves out what comes sooner
+    qtbot.mouseRelease(port, Qt.MouseButton.LeftButton, pos=place(*way[-1]))
+
+
+def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
+    bench: PaneBench, pane: RoomPane, qtbot: QtBot
+) -> None:
+    plan, stack = pane.view.plan, bench.store.undo_stack
+    aside = ROOM.replace(camera=aimed_at(ROOM.camera, 0.2, 0.2, plan_of(ROOM).height))
+    bench.store.put(replace(bench.store.workspace, room=RoomChoice("mine", aside)))
+    stack.clear()
+    for _ in range(2):
+        x, y = plan.camera.pos().x(), plan.camera.pos().y()
+        drag(qtbot, plan.plot, plan.camera, (x - 0.1, y), (x - 0.2, y + 0.1), (x - 0.2, y + 0.2))
+        assert (pane.room.camera.x, pane.room.camera.y) == pytest.approx((x - 0.2, y + 0.2), 0.1)
+    drag(qtbot, plan.plot, plan.aim, (0.7, 0.7), (0.9, 0.9))
+    titles = [stack.text(place) for place in range(stack.count())]
+    assert titles == ["move of the camera", "move of the camera", "turn of the camera"]
+    turned = pane.room.camera
+    for _ in range(3):
+        stack.undo()
+    assert bench.store.workspace.room == RoomChoice("mine", aside)
+    assert (plan.camera.pos().x(), plan.camera.pos().y()) == (0.6, 0.6)
+    qtbot.waitUntil(lambda: pane.shown is not None)
+    assert pane.shown is not None
+    assert pane.shown.room == aside
+    for _ in range(3):
+        stack.redo()
+    assert pane.room.camera == turned
+
+
+def test_what_is_undone_while_the_pane_is_hidden_is_no_figure_any_more(
+    bench: PaneBench, pane: RoomPane, qtbot: QtBot
+) -> None:
+    pane.view.plan.camera.setPos(0.3, 0.5)
+    qtbot.waitUntil(lambda: pane.shown is not None)
+    bench.see("room", seen=False)
+    bench.store.undo_stack.undo()
+    assert pane.shown is None
+    qtbot.waitUntil(lambda: pane.shown is not None)
+    assert pane.shown is not None
+    assert pane.shown.room == ROOM
+
+
+def test_rooms_files_and_photos_are_steps(
+    bench: PaneBench, pane: RoomPane, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "other.toml"
+    path.write_text(ROOM.with_sent(code=900).to_toml(), encoding="utf-8")
+    pane.open(path)
+    pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    for value in (26.25, 26.5):  # as by the arrows of the field
+        pane.view.focal_length.setValue(value)
+    stack = bench.store.undo_stack
+    titles = [stack.text(place) for place in range(stack.count())]
+    assert titles == ["room other.toml", "photo room.jpg", "focal length of the photo"]
+    stack.undo()
+    assert bench.store.workspace.room.focal_length is None
+    stack.undo()
+    assert bench.store.workspace.room.photo is None
+    qtbot.waitUntil(lambda: pane.is_idle and not pane.view.close_photo.isVisible())
+    stack.undo()
+    assert pane.view.rooms.placeholderText() == "mine"
 
 
 def test_the_place_is_told_with_its_errors_and_the_lamps_have_names(pane: RoomPane) -> None:
@@ -82,18 +171,27 @@ def test_a_camera_is_aimed_at_a_point_by_turning_it(seed: int) -> None:
 
 
 def test_a_file_is_named_in_place_of_the_room_and_one_that_is_no_room_is_told(
-    pane: RoomPane, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    pane: RoomPane, tmp_path: Path
 ) -> None:
-    monkeypatch.undo()
-    room = pane.room
+    rooms = pane.view.rooms
+    rooms.textActivated.emit("corridor")
+    assert (rooms.currentText(), pane.room) == ("corridor", load_room("corridor"))
     pane.open(tmp_path / "none.toml")
     assert "none.toml" in pane.view.headline.text()
-    assert (pane.room is room, pane.view.rooms.currentText()) == (True, "office")
+    assert (rooms.currentText(), pane.room) == ("corridor", load_room("corridor"))
     path = tmp_path / "mine.toml"
-    path.write_text(room.to_toml(), encoding="utf-8")
+    path.write_text(ROOM.to_toml(), encoding="utf-8")
     pane.open(path)
-    assert pane.room == room
-    assert (pane.view.rooms.currentText(), pane.view.rooms.placeholderText()) == ("", "mine.toml")
+    assert pane.room == ROOM
+    assert (rooms.currentText(), rooms.placeholderText()) == ("", "mine.toml")
+
+
+def test_the_first_room_is_one_of_the_program(bench: PaneBench) -> None:
+    bench.store.put(replace(bench.store.workspace, room=RoomChoice()))
+    pane: RoomPane = bench.add(room(bench.store), seen=False)
+    pane.stop()
+    assert pane.view.rooms.currentText() == FIRST_ROOM
+    assert pane.room == load_room(FIRST_ROOM)
 
 
 def test_the_map_is_that_of_the_study(
@@ -183,11 +281,11 @@ def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
     pane.open_photo(_photo(tmp_path / "room.jpg"))
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
     assert "the photo has no EXIF data of it" in pane.view.sentences.text()
-    other = ROOM.with_sent(code=900)
-    pane.take(other)
+    pane.take("other", ROOM.with_sent(code=900))
     qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
     assert pane.view.headline.text() == "The place is not told"
     pane.view.plan.camera.setPos(0.3, 0.5)
+    assert pane.look is not None
     assert pane.look.photo is None
 
 

@@ -125,7 +125,7 @@ def test_choosing_a_preset_tells_its_name(panel: ControlPanel, qtbot: QtBot) -> 
 def test_the_preset_shown_is_the_scenes_or_none(panel: ControlPanel) -> None:
     panel.show_preset("large")
     assert panel.preset.currentData() == "large"
-    panel.show_preset(None)
+    panel.show_preset("")
     assert panel.preset.currentIndex() == -1
     assert panel.preset.placeholderText()
 
@@ -152,10 +152,10 @@ def test_presets_of_the_program_are_listed_by_their_titles(panel: ControlPanel) 
 
 def test_a_preset_that_was_changed_is_named_so(panel: ControlPanel) -> None:
     panel.list_presets([("phone-68us", "Phone, 68 µs")])
-    panel.show_preset(None, "phone-68us")
+    panel.show_preset("", "phone-68us")
     assert panel.preset.currentIndex() == -1
     assert panel.preset.placeholderText() == "Phone, 68 µs, changed"
-    panel.show_preset(None)
+    panel.show_preset("")
     assert panel.preset.placeholderText() == "Choose a preset"
 
 

@@ -36,7 +36,7 @@ class Bench:
         self._qtbot = qtbot
 
     def wait_until_idle(self) -> None:
-        self._qtbot.waitUntil(lambda: self.controller.is_idle)
+        self._qtbot.waitUntil(lambda: self.controller.runner.is_idle)
 
     @property
     def scenes(self) -> list[Scene]:

@@ -3,7 +3,7 @@
 import pytest
 
 from occ_gui.simulation.draft_rows import LEAST_ROWS, LONGEST, THINNEST, DraftRows
-from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP
+from occ_gui.values.simulated import LEAST_DRAFT_STEP
 
 ROWS = 4608
 

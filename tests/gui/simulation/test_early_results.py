@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import LEAST_DRAFT_STEP, SimulationRequest
+from occ_gui.values.simulated import LEAST_DRAFT_STEP, SimulationRequest
 from occ_model.effects import plan
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.plan import plan_of

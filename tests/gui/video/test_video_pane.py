@@ -13,8 +13,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session
+from occ_gui.files.session_file import SessionFile
 from occ_gui.values.film_choice import FilmChoice
 from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.marks import MarkState
@@ -138,15 +137,17 @@ def test_what_is_no_film_is_a_sentence_and_the_film_stays(
 def test_the_session_keeps_the_film(
     application: Application, user: User, film_file: Path, tmp_path: Path
 ) -> None:
-    file = SessionFile(tmp_path / "state", ())
-    application.kept.autosave.resume(file, Session(), scene_wins=True)
+    file = SessionFile(tmp_path / "state")
+    application.session.begin(file, is_scene_asked=True)
     application.video.open(film_file)
     user.wait_until_idle()
-    application.kept.autosave.write()
+    application.session.write()
     record = json.loads((tmp_path / "state" / "session-1.json").read_text())
     assert record["film"]["path"] == str(film_file)
-    application.kept.autosave.end()
-    assert SessionFile(tmp_path / "state", ()).last.film.path == film_file
+    application.session.end()
+    last = SessionFile(tmp_path / "state").last
+    assert last is not None
+    assert last.workspace.film.path == film_file
 
 
 @pytest.mark.own_window

@@ -1,5 +1,6 @@
 """Three doors lead a new user into the program, once and whenever they are asked for."""
 
+from pathlib import Path
 from typing import Any, cast
 
 import pytest
@@ -9,14 +10,15 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.start import Start
+from occ_gui.core.workspace import Workspace
 from occ_gui.files.preferences import Preferences
-from occ_gui.files.session_record import Session
+from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session_record import Kept
 from occ_gui.welcome.door import Door
 from occ_gui.welcome.feature import welcome
 from occ_gui.welcome.welcome import Welcome
 from occ_gui.welcome.welcome_dialog import WelcomeDialog
 from occ_model.scene.scene import Scene
-from occ_model.scene.simulation_settings import SimulationSettings
 
 
 @pytest.fixture
@@ -40,14 +42,15 @@ def test_the_page_comes_by_itself_only_once(qtbot: QtBot, small_scene: Scene) ->
     assert page.dialog is None
 
 
-@pytest.mark.parametrize(("asked", "scene", "is_new"), [(False, None, True), (True, None, False)])
-def test_a_start_that_names_a_scene_is_no_first_one(
-    asked: bool, scene: Scene | None, is_new: bool
-) -> None:
-    start = Start(Scene(), SimulationSettings(), asked, None, Session(scene), None, fresh=False)
-    assert start.is_new == is_new
-    later = Start(Scene(), SimulationSettings(), asked, None, Session(Scene()), None, fresh=False)
-    assert not later.is_new
+@pytest.mark.parametrize("asked", [False, True])
+def test_a_start_that_names_a_scene_is_no_first_one(asked: bool, tmp_path: Path) -> None:
+    file, workspace = SessionFile(tmp_path), Workspace(Scene())
+    assert Start(workspace, asked, session_file=file).is_new != asked
+    file.write(Kept(workspace), in_use=False)
+    file.close()
+    again = SessionFile(tmp_path)
+    assert not Start(workspace, asked, session_file=again).is_new
+    again.close()
 
 
 def test_each_door_says_what_is_behind_it(doors: WelcomeDialog) -> None:

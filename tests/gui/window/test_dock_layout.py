@@ -28,6 +28,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
 from occ_gui.detection_map.rate_map import RateMap, lattice
 from occ_gui.values.placement import MODES
 from occ_gui.window.modes.mode import MODES as WINDOW_MODES
@@ -351,7 +352,7 @@ def test_the_window_opens_at_1280_by_800(application: Application) -> None:
 def test_the_window_opens_at_the_requested_size_for_any_scene(
     qtbot: QtBot, small_scene: Scene, changes: dict[str, float]
 ) -> None:
-    fresh = Application(small_scene.replace(**changes))
+    fresh = Application(Workspace(small_scene.replace(**changes)))
     fresh.window.resize(LEAST)
     fresh.window.show()
     qtbot.waitUntil(lambda: fresh.is_idle)

@@ -14,6 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.app import command_line
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
 from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
 from occ_model.files.resources import resource_names
 from occ_model.scene.scene import Scene
@@ -217,7 +218,7 @@ def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path) -> Start:
     @contextmanager
     def begin() -> Iterator[Application]:
         kept = QSettings(str(tmp_path / "kept.ini"), QSettings.Format.IniFormat)
-        application = Application(small_scene, preferences=kept)
+        application = Application(Workspace(small_scene), kept)
         application.options.layout.restore()
         application.window.show()
         qtbot.waitUntil(lambda: application.is_idle)

@@ -38,10 +38,11 @@ from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 import occ_model as occ
 from occ_gui.app.application import Application
+from occ_gui.core.workspace import Workspace
 
 def main():
     program = QApplication([])
-    application = Application(occ.load_preset("phone-68us").replace(rows=100))
+    application = Application(Workspace(occ.load_preset("phone-68us").replace(rows=100)))
     application.window.show()
     for dock in application.window.docks.values():
         dock.show()

@@ -2,6 +2,7 @@
 
 import base64
 import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from random import Random
@@ -14,13 +15,12 @@ import numpy as np
 from hard_cases.attack import chance as made
 from hard_cases.attack.doors.typed import check_scene
 from hard_cases.attack.promise import Door
-from occ_model.effects.registry import NAMES
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 if TYPE_CHECKING:  # Qt is slow to import, and only the doors of the window need it
-    from occ_gui.files.session_record import Session
+    from occ_gui.files.session_record import Kept
 
 SESSION, SETTINGS = "session-1.json", "settings.ini"
 _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
@@ -30,23 +30,34 @@ _LAYOUT = re.compile(r"(?<==)[A-Za-z0-9+/]{80,}=*")
 def session_text() -> str:
     """A whole session file."""
     from occ_gui.core.step_history import History, StepChange
-    from occ_gui.core.workspace import Step
-    from occ_gui.files.session import SessionFile
-    from occ_gui.files.session_record import Session
-    from occ_gui.simulation.snapshot import SimulationRequest
+    from occ_gui.core.workspace import Step, Workspace
+    from occ_gui.files.session_file import SessionFile
+    from occ_gui.files.session_record import Kept
     from occ_gui.values.film_choice import FilmChoice
     from occ_gui.values.match_choice import MatchChoice
     from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
+    from occ_gui.values.room_choice import RoomChoice
+    from occ_gui.values.simulated import PinnedScene, SimulationRequest
+    from occ_model.room.rooms import load_room
     from occ_model.scene.recording import Recording
 
     settings = SimulationSettings(tolerance=0.5, force={"vignetting": False}, seed=3)
     with TemporaryDirectory() as folder:
-        file = SessionFile(Path(folder), NAMES)
+        file = SessionFile(Path(folder))
         path, form = Path(__file__), MatchChoice("square", 500.0, "switching_frequency")
-        steps = (StepChange("change", {"iso": 200.0}, {}), StepChange("switch", {}, {"jpeg": True}))
-        session = Session(
+        room = load_room("hall").replace(x=1.0, y=-2.0)
+        there = RoomChoice("hall", room, path, 0.026)
+        moved = replace(there, room=room.replace(y=1.0), photo=None)
+        steps = (
+            StepChange("change", {"iso": 200.0}, {}),
+            StepChange("room", {}, {"jpeg": True}, there, "phone-68us"),
+            StepChange("move", {}, {"jpeg": True}, moved),
+        )
+        workspace = Workspace(
             Scene(),
             settings,
+            decoder="matched",
+            frame_rate=24.0,
             scene_file=path,
             photo=PhotoChoice(
                 path,
@@ -56,40 +67,42 @@ def session_text() -> str:
                 certain={"readout_time": 8e-6},
             ),
             film=FilmChoice(path, "lines", recording=Recording(frame_rate=24.0), frames=9),
+            room=there,
             preset="phone-68us",
-            pins=(SimulationRequest(Scene(), settings, more=("sequence",)), None),
-            history=History(Step(Scene(), {}), steps, done=1),
+            pins=(PinnedScene(SimulationRequest(Scene(), settings, more=("sequence",))), None),
         )
+        session = Kept(workspace, History(Step(Scene(), {}), steps, done=1))
         file.write(session, in_use=True)
         file.close()
         return Path(folder, SESSION).read_text("ascii")
 
 
-def _check_session(session: "Session") -> None:
+def _check_session(session: "Kept | None") -> None:
     """See that a session can be written, and is the same again when it is read."""
-    from occ_gui.files.session import SessionFile
+    from occ_gui.files.session_file import SessionFile
 
-    if session.scene is not None:
-        check_scene(session.scene)
+    if session is None:
+        return
+    check_scene(session.workspace.scene)
     with TemporaryDirectory() as folder:
-        file = SessionFile(Path(folder), NAMES)
+        file = SessionFile(Path(folder))
         file.write(session, in_use=False)
         file.close()
-        again = SessionFile(Path(folder), NAMES)
+        again = SessionFile(Path(folder))
         assert again.last == session, (again.last, session)
         again.close()
 
 
 def _session(chance: Random, folder: Path) -> list[str]:
-    from occ_gui.files.session import SessionFile
+    from occ_gui.files.session_file import SessionFile
 
     text = made.damaged(chance, session_text())
     (folder / SESSION).write_bytes(made.encoded(chance, text))
-    file = SessionFile(folder, NAMES)
+    file = SessionFile(folder)
     _check_session(file.last)
-    if file.crashed is not None:
-        _check_session(file.crashed)
-    file.write(file.last, in_use=True)
+    _check_session(file.crashed)
+    if file.last is not None:
+        file.write(file.last, in_use=True)
     file.close()
     return []
 

@@ -72,7 +72,7 @@ def _window(folder: Path) -> Iterator[_Opened]:
         options = _parser().parse_args(["--set", "rows=20"])
         settings = simulation_settings_of(options)
         begin = start_of(options, scene_of(options), settings, own=True)
-        application = Application(begin.scene, begin.settings, begin.preferences)
+        application = Application(begin.first, begin.preferences)
         opened = _Opened(application)
         application.window.statusBar().messageChanged.connect(opened.said.append)
         application.error_reports.reported.connect(opened.faults.append)

@@ -11,29 +11,26 @@ from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files import autosave as autosave_module
-from occ_gui.files.autosave import Autosave
-from occ_gui.files.session import SessionFile
-from occ_gui.files.session_record import Session
+from occ_gui.core.workspace import Workspace
+from occ_gui.files import session as session_module
+from occ_gui.files.session import Session
+from occ_gui.files.session_file import SessionFile
+from occ_gui.files.session_record import Kept
 from occ_gui.scene.scene_store import SceneStore
-from occ_model.effects.registry import NAMES
 from occ_model.scene.scene import Scene
 
-Begin = Callable[[Path], Autosave]
+Begin = Callable[[Path], Session]
 
 
 @pytest.fixture
 def begin(application: Application) -> Begin:
     """Write the session of a window into a folder from now on."""
 
-    def resume(folder: Path) -> Autosave:
-        autosave = Autosave(
-            application.store,
-            application.document,
-            application.kept.session,
-        )
-        autosave.resume(SessionFile(folder, NAMES), Session(), scene_wins=True)
-        return autosave
+    def resume(folder: Path) -> Session:
+        store = application.store.store
+        session = Session(store, lambda: store.workspace)
+        session.begin(SessionFile(folder), is_scene_asked=True)
+        return session
 
     return resume
 
@@ -46,26 +43,26 @@ def scenes_in(folder: Path) -> list[Scene]:
 
 
 def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path) -> None:
-    first, second = SessionFile(tmp_path, NAMES), SessionFile(tmp_path, NAMES)
+    first, second = SessionFile(tmp_path), SessionFile(tmp_path)
     for file in (first, second):
-        file.write(Session(Scene()), in_use=True)
-    third = SessionFile(tmp_path, NAMES)
+        file.write(Kept(Workspace(Scene())), in_use=True)
+    third = SessionFile(tmp_path)
     assert {path.name for path in tmp_path.glob("*.json")} == {"session-1.json", "session-2.json"}
     assert [file.crashed for file in (first, second, third)] == [None] * 3
     for file in (first, second):
-        file.write(Session(Scene()), in_use=False)
+        file.write(Kept(Workspace(Scene())), in_use=False)
         file.close()
     third.close()
-    assert SessionFile(tmp_path, NAMES).crashed is None
+    assert SessionFile(tmp_path).crashed is None
     assert not list(tmp_path.glob("*.toml"))
 
 
 def test_a_full_disk_is_reported_once_each_time_it_fills(
     begin: Begin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    autosave = begin(tmp_path)
+    session = begin(tmp_path)
     messages: list[str] = []
-    autosave.status_message.connect(messages.append)
+    session.status_message.connect(messages.append)
     write = Path.write_bytes
 
     def full(path: Path, content: bytes) -> int:
@@ -75,43 +72,44 @@ def test_a_full_disk_is_reported_once_each_time_it_fills(
     for _ in range(2):
         with monkeypatch.context() as patched:
             patched.setattr(Path, "write_bytes", full)
-            autosave.write()
-            autosave.write()
-        autosave.write()
+            session.write()
+            session.write()
+        session.write()
     assert len(messages) == 2
     assert "No space left on device" in messages[0]
-    autosave.end()
+    session.end()
 
 
 def test_a_folder_that_cannot_be_made_is_reported(begin: Begin, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
-    autosave = begin(tmp_path / "file" / "folder")
+    session = begin(tmp_path / "file" / "folder")
     messages: list[str] = []
-    autosave.status_message.connect(messages.append)
-    autosave.write()
+    session.status_message.connect(messages.append)
+    session.write()
     assert len(messages) == 1
-    autosave.end()
+    session.end()
 
 
 def test_the_scene_is_written_a_moment_after_it_was_changed(
     begin: Begin, application: Application, tmp_path: Path, qtbot: QtBot
 ) -> None:
-    autosave, store = begin(tmp_path), application.store
+    session, store = begin(tmp_path), application.store
     store.change(iso=321.0)
     store.change(iso=322.0)
     assert scenes_in(tmp_path) == []
     qtbot.waitUntil(lambda: scenes_in(tmp_path) == [store.scene])
-    autosave.end()
+    session.end()
 
 
 def test_the_settings_are_written_in_the_same_file_as_the_scene(
     begin: Begin, application: Application, tmp_path: Path
 ) -> None:
-    autosave = begin(tmp_path)
+    session = begin(tmp_path)
     application.settings.set_tolerance(3.5)
-    autosave.end()
-    last = SessionFile(tmp_path, NAMES).last
-    assert (last.scene, last.settings) == (application.store.scene, application.settings.settings)
+    session.end()
+    last = SessionFile(tmp_path).last
+    assert last is not None
+    assert last.workspace == application.store.store.workspace
     assert [path.name for path in tmp_path.glob("*.json")] == ["session-1.json"]
 
 
@@ -134,8 +132,8 @@ def test_a_scene_that_never_rests_is_written_all_the_same(
     monkeypatch: pytest.MonkeyPatch,
     qtbot: QtBot,
 ) -> None:
-    monkeypatch.setattr(autosave_module, "LONGEST_WAIT_MS", 100)
-    autosave = begin(tmp_path)
+    monkeypatch.setattr(session_module, "LONGEST_WAIT_MS", 100)
+    session = begin(tmp_path)
     written: set[float] = set()
 
     def is_written_twice() -> bool:
@@ -144,4 +142,4 @@ def test_a_scene_that_never_rests_is_written_all_the_same(
 
     with scene_in_motion(application.store):
         qtbot.waitUntil(is_written_twice)
-    autosave.end()
+    session.end()

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QEvent, QTimer, Signal
+from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
@@ -127,7 +127,7 @@ class LimitCard(QFrame):
         self._decoder = decoder
         self._destination: float | None = None
         self._is_outdated = False
-        self.name = ElidedLabel(decoder)
+        self.name = ElidedLabel(decoder, Qt.TextElideMode.ElideRight)
         self.value = QLabel()
         self.range = ElidedLabel()
         self.range.setAccessibleName(f"Frequencies read, {decoder}")

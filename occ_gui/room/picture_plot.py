@@ -9,6 +9,9 @@ from occ_gui.room.jobs import ShownRoom
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 
+_NAME = 0.025
+"""Share of the picture's height that half a name takes."""
+
 
 class PicturePlot(QWidget):
     """The picture, outlines of what was found in it, and names."""
@@ -29,6 +32,7 @@ class PicturePlot(QWidget):
     def show_room(self, shown: ShownRoom) -> None:
         """Show a picture; its lamps have names once it is read."""
         rows, columns = shown.image.shape
+        margin = _NAME * rows
         self.image.setImage(shown.picture, levels=(0, 255))
         self.image.setRect(QRectF(-0.5, -0.5, columns, rows))
         self.plot.setXRange(0, columns, padding=0)
@@ -41,7 +45,9 @@ class PicturePlot(QWidget):
             closed = np.vstack([read.hull, read.hull[:1]])
             outline = pg.PlotCurveItem(closed[:, 0], closed[:, 1], pen=thin(colour))
             name = pg.TextItem(read.name or "?", color="w", fill=colour, anchor=(0.5, 0.5))
-            name.setPos(*read.hull.mean(axis=0).tolist())
+            # Of a lamp at the edge too, the whole name is seen.
+            middle = np.clip(read.hull.mean(axis=0), margin, (columns - margin, rows - margin))
+            name.setPos(*middle.tolist())
             for item in (outline, name):
                 self.plot.addItem(item, ignoreBounds=True)
                 self._over.append(item)

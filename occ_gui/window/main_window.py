@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -80,6 +80,7 @@ class MainWindow(QMainWindow):
         self.reading, self.filming, self.pointed = line.reading, line.filming, line.pointed
         self.show_timing = self._status_line.show_timing
         self.show_plan_change = self._status_line.show_plan_change
+        self.modes.changed.connect(lambda mode: line.tell_times("controls" in MODES[mode].panes))
         self.resize(_FIRST_SIZE)
 
     def _dock(self, name: str, title: str, content: QWidget) -> Dock:
@@ -97,7 +98,6 @@ class MainWindow(QMainWindow):
         """Add a pane, and its entry in the view menu, before the window is shown."""
         dock = self._dock(name, title, content)
         self.docks[name] = dock
-        leave_drops_to_window(dock)
         self.menus.add_dock(dock)
         return dock
 
@@ -113,6 +113,8 @@ class MainWindow(QMainWindow):
     def _raise(self, name: str) -> None:
         dock = self.docks[name]
         is_new = dock.isHidden()
+        # Qt would widen the window for what the middle needed before its page was changed.
+        QApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         dock.show()
         # A window that has just been shown arranges its docks once more, in another order.
         QTimer.singleShot(0, dock, lambda: self._give_place(dock, is_new))

@@ -30,7 +30,8 @@ class StatusLine(QStatusBar):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._message = self._plan_change = ""
+        self._message = self._plan_change = self._times = ""
+        self._are_told = True
         self._others: list[QLabel] = []
         self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -81,9 +82,13 @@ class StatusLine(QStatusBar):
 
     def show_timing(self, simulation: float, reading: float) -> None:
         """Show the computing times in seconds of the last simulation and its decoding."""
-        self._timing.set_full_text(
-            f"simulated in {1e3 * simulation:.1f} ms, read in {1e3 * reading:.1f} ms"
-        )
+        self._times = f"simulated in {1e3 * simulation:.1f} ms, read in {1e3 * reading:.1f} ms"
+        self.tell_times(self._are_told)
+
+    def tell_times(self, told: bool) -> None:
+        """Show the computing times, or leave them out where nothing of the scene is shown."""
+        self._are_told = told
+        self._timing.set_full_text(self._times if told else "")
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

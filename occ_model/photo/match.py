@@ -117,7 +117,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     judge = Judge(stripes, rows_alike(photo, stripes.region), blinks=blinks)
     hypotheses = _hypotheses(candidates, sent, report)
     chosen = _chosen(judge, hypotheses, stripes, sent)
-    case = _Case(photo, scene, estimate, candidates, judge, hypotheses, sent == "scene", report)
+    case = _Case(photo, scene, estimate, candidates, judge, hypotheses, sent, report)
     as_sent = next((one for one in hypotheses if not one.was_read), None)
     noted = candidates.as_noted(chosen) if chosen is as_sent and sent == "auto" else None
     match = case.concluded(noted or chosen)
@@ -137,7 +137,7 @@ class _Case:
     candidates: Candidates
     judge: Judge
     hypotheses: Sequence[Hypothesis]
-    is_given: bool
+    sent: str
     report: "_Progress"
 
     def concluded(self, chosen: Hypothesis) -> Match:
@@ -146,7 +146,7 @@ class _Case:
         found, beside = self.candidates.corrected(self.candidates.polished(chosen))
         others = [*(one for one in self.hypotheses if one is not chosen), *beside]
         apart = [one for one in others if not is_turned(one, found)]
-        verdict = self.judge.verdict(found, apart, is_given=self.is_given)
+        verdict = self.judge.verdict(found, apart, is_given=self.sent == "scene")
         self.report(0.9)
         match = described(
             photo,
@@ -159,7 +159,7 @@ class _Case:
         )
         return replace(
             match,
-            reasons=(*verdict.reasons, *match.reasons),
+            reasons=(*verdict.reasons, *self._doubts_by_kind(found), *match.reasons),
             exposure_reasons=(
                 *verdict.exposure_reasons,
                 *_doubts_by_exchange(photo, found),
@@ -170,6 +170,17 @@ class _Case:
                 for one, evidence in verdict.others
             ),
         )
+
+    def _doubts_by_kind(self, found: Hypothesis) -> list[str]:
+        """Doubt chips that were read where the frequency of a pulse was given."""
+        given = sent_chips(self.scene.transmitter)
+        blinks = is_single_pulse(given) and given.min() < given.max()
+        if self.sent == "read" or is_single_pulse(found.chips) or not blinks:
+            return []
+        return [
+            "What was read is not a repeated pulse, as is given: the frequency given may be that "
+            "of other chips."
+        ]
 
     def may_be_as_sent(self, match: Match) -> bool:
         """Whether a duty that was searched is that of the scene, within its error."""

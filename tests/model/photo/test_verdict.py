@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from photo_world.trials import hot_trial_of
 from simulated_photos import photo_of, random_scene, take
 from verdicts import Said, said_of, said_of_negative, said_of_other_code
 
@@ -139,6 +140,15 @@ def test_a_short_pulse_exposed_for_half_a_period_is_no_square_wave_if_that_is_no
     given_one = occ.match_photo(photo, told, sent="scene")
     assert given_one.duty == 0.5
     assert given_one.exposure_verdict == "doubtful"
+
+
+def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:
+    """Of a hot lamp two pulses were read, and a readout time twice too long."""
+    assert not hot_trial_of(9104).is_sure
+    scene = random_scene(3)
+    match = occ.match_photo(take(scene), scene.replace(pattern="10"))
+    assert len(match.pattern) == 24
+    assert any("as is given" in why for why in match.reasons)
 
 
 @pytest.mark.whole

@@ -231,14 +231,13 @@ def _hypotheses(
     found = [] if sent == "scene" else _read(candidates, as_sent, sent)
     report(0.8)
     if as_sent is not None:
-        profile = candidates.stripes.profile
         # Where both ways lead to the scene's chips, then perhaps to different timings.
         agreed = [
             replace(one, sent=as_sent.sent, bits=0.0, was_read=False)
             for one in found
             if is_turned(one, as_sent)
         ]
-        best = min([as_sent, *agreed], key=lambda one: one.power(profile))
+        best = min([as_sent, *agreed], key=lambda one: one.fit.residual)
         found = [best, *(one for one in found if not is_turned(one, as_sent))]
     if not found:
         raise MatchError(*_why_unexplained(candidates.stripes, sent))

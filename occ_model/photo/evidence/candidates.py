@@ -136,13 +136,13 @@ class Candidates:
         found: dict[int, Hypothesis] = {}
         width = float(np.mean(self.stripes.flattened > 0.5))
         for step in _DUTY_STEPS:
-            middle = min(found, key=lambda on: self._power(found[on])) if found else None
+            middle = min(found, key=lambda on: found[on].fit.residual) if found else None
             first = round(_PARTS_OF_A_PERIOD * width) if middle is None else middle
             for on in (first - step, first, first + step):
                 fitted = same._dimmed(on, period, len(sent)) if on not in found else None
                 if fitted is not None:
                     found[on] = fitted
-        best = min(found.values(), key=self._power, default=None)
+        best = min(found.values(), key=lambda one: one.fit.residual, default=None)
         return best and same._exchanged(best, period, len(sent))
 
     def _exchanged(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis:
@@ -152,7 +152,7 @@ class Candidates:
         both. The exposure nearest to the noted one is taken, or the shorter one.
         """
         other = self._swapped(found, period, chips_sent)
-        if other is None or self._power(other) > _MOST_EXCHANGE_RATIO * self._power(found):
+        if other is None or other.fit.residual > _MOST_EXCHANGE_RATIO * found.fit.residual:
             return found
         times = {one: self.exposed(one.fit, one.rate) for one in (found, other)}
         noted = self.noted
@@ -194,9 +194,6 @@ class Candidates:
             sent, chips, step, bits=np.log2(_PARTS_OF_A_PERIOD), was_read=True, rate=rate
         )
 
-    def _power(self, found: Hypothesis) -> float:
-        return found.power(self.stripes.profile)
-
     def corrected(self, found: Hypothesis) -> tuple[Hypothesis, list[Hypothesis]]:
         """Take the nearest other chips instead of those that were read, while they explain more.
 
@@ -208,7 +205,7 @@ class Candidates:
             other = self.nearest_other(found)
             if other is None:
                 return found, others
-            if not found.was_read or self._power(other) >= _MOST_POWER_RATIO * self._power(found):
+            if not found.was_read or other.fit.residual >= _MOST_POWER_RATIO * found.fit.residual:
                 return found, [*others, other]
             others.append(found)
             found = self.polished(

@@ -89,11 +89,6 @@ class Hypothesis:
         """Return a profile less that of the fit."""
         return profile - self.fit.profile
 
-    def power(self, profile: FloatArray) -> float:
-        """Return the sum of the squared residuals."""
-        residual = self.residual(profile)
-        return float(residual @ residual)
-
 
 def log_likelihood(power: float, columns: int, independent: float, freedom: float) -> float:
     """Return the logarithm of a fit's likelihood, less a penalty for its parameters.

@@ -113,13 +113,12 @@ class Judge:
     def _likelihoods(self, hypotheses: Sequence[Hypothesis]) -> list[float]:
         independent, profile = self._independent(hypotheses), self._stripes.profile
         return [
-            log_likelihood(one.power(profile) + self._error, len(profile), independent, one.freedom)
+            log_likelihood(one.fit.residual + self._error, len(profile), independent, one.freedom)
             - np.log(2.0) * one.bits
             for one in hypotheses
         ]
 
     def _independent(self, hypotheses: Sequence[Hypothesis]) -> float:
         """Count the independent columns by the least residual: what is left of others is signal."""
-        profile = self._stripes.profile
-        best = min(hypotheses, key=lambda one: one.power(profile))
-        return independent_columns(best.residual(profile))
+        best = min(hypotheses, key=lambda one: one.fit.residual)
+        return independent_columns(best.residual(self._stripes.profile))

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.photo.chips.edges import Edges as ChipEdges
+from occ_model.photo.chips.lattice import coherence
 from occ_model.photo.lamps.edges import Edges
 
 _TOLERANCE = 0.04
@@ -206,14 +208,9 @@ def chip_of(edges: Edges) -> float | None:
         return None
     near, usual = np.quantile(np.diff(edges.place[1:-1]), [0.1, 0.25]).tolist()
     chips = np.geomspace(_SHORTEST * near, _LONGEST * usual, _STEPS)
-    coherence = coherence_of(edges.part(1, len(edges) - 1), chips)
-    best = int(np.argmax(coherence))
+    inner = edges.part(1, len(edges) - 1)
+    kinds = ChipEdges(inner.place[inner.rises], inner.place[~inner.rises])
+    coherent = coherence(kinds, 1.0 / chips)
+    best = int(np.argmax(coherent))
     chip = float(chips[best])
-    return chip if coherence[best] >= _LEAST_COHERENCE - _COLUMN_COHERENCE / chip else None
-
-
-def coherence_of(edges: Edges, chips: FloatArray) -> FloatArray:
-    """Return how well edges lie on the lattices of some lengths of a chip, from 0 to 1."""
-    turns = np.exp(2j * np.pi * edges.place[None, :] / chips[:, None])
-    sums = sum(np.abs(turns[:, one].sum(axis=1)) for one in (edges.rises, ~edges.rises))
-    return np.asarray(sums / len(edges))
+    return chip if coherent[best] >= _LEAST_COHERENCE - _COLUMN_COHERENCE / chip else None

@@ -12,7 +12,7 @@ from occ_model.scene.units import METRE
 MAX_PIXELS = 170_000_000
 """Largest image that is made or read; a larger one is refused, as it would fill the memory."""
 
-_NEAREST_SHARE = 1e-6
+_MIN_RELATIVE_DEPTH = 1e-6
 """Depth, as a fraction of the distance, below which a corner counts as in the camera's plane.
 
 A depth is a difference of numbers; a smaller one has too few digits to place the corner.
@@ -48,7 +48,7 @@ def _corner_rays(pose: Pose, width: float, height: float) -> FloatArray:
     corners = np.array([[-x, -y, 0.0], [x, -y, 0.0], [x, y, 0.0], [-x, y, 0.0]])
     placed = corners @ rotation_of(pose).T + [pose.offset_x, pose.offset_y, pose.distance]
     nearest = float(placed[:, 2].min())
-    if nearest <= pose.distance * _NEAREST_SHARE:
+    if nearest <= pose.distance * _MIN_RELATIVE_DEPTH:
         place = f"{METRE.format(-nearest)} behind" if nearest < 0.0 else "beside"
         raise ProjectionError(
             f"Turned like this at a distance of {METRE.format(pose.distance)}, part of the panel "

@@ -18,11 +18,11 @@ _EXPOSURE_FACTOR = 0.65
 
 It includes the fall-off of light at 10 degrees off the axis, some 6 %."""
 
-_PHOTONS = 8.8e15
+_PHOTONS_PER_LUMEN_SECOND = 8.8e15
 """Photons in a lumen second of white LED light: 320 lm/W, 3.55e-19 J a photon of 560 nm."""
 
 
-_TINY = np.finfo(np.float64).tiny
+_SMALLEST_FLOAT = np.finfo(np.float64).tiny
 
 
 def electrons_per_luminance(scene: Scene) -> float:
@@ -32,7 +32,9 @@ def electrons_per_luminance(scene: Scene) -> float:
 
 def _electrons_per_luminance(camera: Camera, sensor: Sensor) -> float:
     illumination = _EXPOSURE_FACTOR * camera.exposure_time / camera.f_number**2
-    collected: float = illumination * _PHOTONS * sensor.pixel_pitch**2 * sensor.quantum_efficiency
+    collected: float = (
+        illumination * _PHOTONS_PER_LUMEN_SECOND * sensor.pixel_pitch**2 * sensor.quantum_efficiency
+    )
     return collected
 
 
@@ -75,7 +77,7 @@ def deviation(
     electrons = electrons_of(values, scene)
     square = variance(electrons)
     there = np.sqrt(electrons * electrons + square)
-    slope = values_of(there, scene) / np.maximum(scene.camera.gamma * there, _TINY)
+    slope = values_of(there, scene) / np.maximum(scene.camera.gamma * there, _SMALLEST_FLOAT)
     headroom = np.maximum(saturation_value(scene) - values, 0.0)
     return np.minimum(slope * np.sqrt(square), headroom)
 

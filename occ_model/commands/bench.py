@@ -14,7 +14,7 @@ from occ_model.study.bench.bench import bench, bench_scene, check_bench
 from occ_model.study.bench.data_set import SampleReading, load_samples, read_samples
 from occ_model.study.bit_error_rate import check_frame_rate
 
-_OWN = BenchRequest()
+_DEFAULT_REQUEST = BenchRequest()
 
 
 def add_to(commands: Commands) -> None:
@@ -24,45 +24,47 @@ def add_to(commands: Commands) -> None:
     )
     parser.add_argument(
         "--scheme", action="append", metavar="LINE_CODE[/FRAMING]",
-        help=f"may be repeated; default: {_OWN.schemes[0]}",
+        help=f"may be repeated; default: {_DEFAULT_REQUEST.schemes[0]}",
     )  # fmt: skip
     parser.add_argument(
         "--decoder", action="append", type=decoder_name, help="may be repeated; default: all"
     )
     parser.add_argument(
         "--exposure", action="append", type=number, metavar="SYMBOLS",
-        help=f"may be repeated; default: {_list(_OWN.exposures)}",
+        help=f"may be repeated; default: {_list(_DEFAULT_REQUEST.exposures)}",
     )  # fmt: skip
     parser.add_argument(
         "--snr", action="append", type=number, metavar="DB",
         help="the chips' variance over that of a row's noise; may be repeated; default: "
-        f"{_list(_OWN.decibels)}",
+        f"{_list(_DEFAULT_REQUEST.decibels)}",
     )  # fmt: skip
     parser.add_argument(
-        "--at-exposure", type=number, default=_OWN.at_exposure, metavar="SYMBOLS",
+        "--at-exposure", type=number, default=_DEFAULT_REQUEST.at_exposure, metavar="SYMBOLS",
         help="of the curve over noise; default: %(default)g",
     )  # fmt: skip
     parser.add_argument(
-        "--at-snr", type=number, default=_OWN.at_decibels, metavar="DB",
+        "--at-snr", type=number, default=_DEFAULT_REQUEST.at_decibels, metavar="DB",
         help="of the curve over exposure; default: %(default)g",
     )  # fmt: skip
     parser.add_argument(
-        "--rows", type=number, default=_OWN.rows_a_symbol,
+        "--rows", type=number, default=_DEFAULT_REQUEST.rows_a_symbol,
         help="read out while a symbol lasts; default: %(default)g",
     )  # fmt: skip
     parser.add_argument(
-        "--payload-bits", type=whole_number, default=_OWN.payload_bits, metavar="BITS",
+        "--payload-bits", type=whole_number, default=_DEFAULT_REQUEST.payload_bits, metavar="BITS",
         help="of a payload, one a picture; default: %(default)s",
     )  # fmt: skip
     parser.add_argument(
-        "--bits", type=whole_number, default=_OWN.bits,
+        "--bits", type=whole_number, default=_DEFAULT_REQUEST.bits,
         help="at each point at the least; default: %(default)s",
     )  # fmt: skip
     parser.add_argument(
         "--fps", type=number, default=FRAMES_A_SECOND,
         help="pictures a second, one payload each; default: %(default)g",
     )  # fmt: skip
-    parser.add_argument("--seed", type=whole_number, default=_OWN.seed, help="default: %(default)s")
+    parser.add_argument(
+        "--seed", type=whole_number, default=_DEFAULT_REQUEST.seed, help="default: %(default)s"
+    )
     parser.add_argument(
         "--data", type=Path, metavar="CSV",
         help="read the pictures of a data set instead, whose table this is",
@@ -78,10 +80,10 @@ def _run(options: argparse.Namespace) -> int:
     if options.data is not None:
         return _read_data_set(options, names)
     request = BenchRequest(
-        schemes=tuple(dict.fromkeys(options.scheme or _OWN.schemes)),
+        schemes=tuple(dict.fromkeys(options.scheme or _DEFAULT_REQUEST.schemes)),
         decoders=names,
-        exposures=tuple(options.exposure or _OWN.exposures),
-        decibels=tuple(options.snr or _OWN.decibels),
+        exposures=tuple(options.exposure or _DEFAULT_REQUEST.exposures),
+        decibels=tuple(options.snr or _DEFAULT_REQUEST.decibels),
         at_exposure=options.at_exposure,
         at_decibels=options.at_snr,
         rows_a_symbol=options.rows,
@@ -123,7 +125,7 @@ def _table(points: tuple[BenchPoint, ...], frames_a_second: float) -> list[str]:
 
 def _read_data_set(options: argparse.Namespace, names: tuple[str, ...]) -> int:
     samples = load_samples(options.data)
-    line_code = (options.scheme or _OWN.schemes)[0].partition("/")[0]
+    line_code = (options.scheme or _DEFAULT_REQUEST.schemes)[0].partition("/")[0]
     with progress_bar(total=len(samples), unit=" pictures", leave=False, delay=0.5) as bar:
         readings = tuple(
             read_samples(samples, names, line_code, lambda done, _all: bar.update(done - bar.n))

@@ -16,10 +16,10 @@ from occ_model.video.decode import decode_video
 from occ_model.video.file.source import CHANNELS
 from occ_model.video.load import load_video
 
-_WINDOWS = 5
+_RATE_PARTS = 5
 """Parts of the film in which error rates are reported."""
 
-_MIN_PACKETS = 50
+_MIN_RATE_PACKETS = 50
 """Packets from which the rates of parts are reported."""
 
 
@@ -94,14 +94,14 @@ def _report(reading: VideoReading, video: Video) -> list[str]:
     facts = [*packet_facts(reading), *(() if reading.clock is None else clock_facts(reading.clock))]
     for fact in facts:
         lines.append(f"{fact.label.lower():18}{fact}")
-        if fact.key == "packet_error_rate" and len(reading.packets) >= _MIN_PACKETS:
+        if fact.key == "packet_error_rate" and len(reading.packets) >= _MIN_RATE_PACKETS:
             lines += _by_parts(reading)
     return lines
 
 
 def _by_parts(reading: VideoReading) -> Iterator[str]:
     """Write the packet error rate in parts of the film."""
-    for window in reading.rates(_WINDOWS):
+    for window in reading.rates(_RATE_PARTS):
         if window.packets:
             rate = "{} ({})".format(*error_rate(window.packets_lost, window.packets, "packets"))
             yield f"  {SECOND.format(window.start)} to {SECOND.format(window.end)}: {rate}"

@@ -7,7 +7,7 @@ from occ_model.errors import one_line
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
 
-_LONGEST_NOTE = 1000
+_MAX_NOTE_CHARACTERS = 1000
 """Largest number of characters of a value's note that are printed."""
 
 
@@ -35,7 +35,7 @@ def _presets(options: argparse.Namespace) -> int:
         note = preset.sources.get(name, "")
         if name in preset.assumed:
             note = f"assumed: {preset.assumed[name]}"
-        print(f"{name:26}{value:16}{one_line(note, _LONGEST_NOTE)}".rstrip())
+        print(f"{name:26}{value:16}{one_line(note, _MAX_NOTE_CHARACTERS)}".rstrip())
     return 0
 
 

@@ -29,7 +29,7 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE, SQUARE_FREQUENCY
 
-_LONGEST_FILE = 32
+_MAX_FILE_CHARACTERS = 32
 
 
 def add_many_options(parser: argparse.ArgumentParser) -> None:
@@ -138,7 +138,7 @@ def _matched(
 
 def _report(table: PhotoTable, known: str) -> list[str]:
     name = table.estimate
-    width = min(max(len(one_line(row.path.name)) for row in table.rows), _LONGEST_FILE)
+    width = min(max(len(one_line(row.path.name)) for row in table.rows), _MAX_FILE_CHARACTERS)
     lines = [
         f"{_cut(row.path.name, width):{width}}  {row.verdict:10}  {_found(row, name)}"
         + (f"  given: {quantity(table.known).format(row.given)}" if row.given is not None else "")

@@ -26,7 +26,7 @@ else:
     Commands: TypeAlias = argparse._SubParsersAction
 
 
-_LONGEST_MESSAGE = 1000
+_MAX_MESSAGE_CHARACTERS = 1000
 """Largest number of characters of an error message: all allowed values fit, long input is cut."""
 
 
@@ -39,7 +39,7 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Exit with the usage and a message, of bounded length whatever the command line."""
-        super().error(one_line(message, _LONGEST_MESSAGE))
+        super().error(one_line(message, _MAX_MESSAGE_CHARACTERS))
 
 
 def number(text: str) -> float:

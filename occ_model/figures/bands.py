@@ -17,7 +17,7 @@ from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.eye import eye_flicker, risk_limits, risk_lines
 from occ_model.study.bands.least_depth import depth_map
 
-_VALLEYS = 8
+_MAX_VALLEY_LINES = 8
 """Lines that are drawn: those above lie closer than the cells."""
 
 _DEPTHS = (0.1, 100.0)
@@ -72,7 +72,7 @@ def _draw_map(scene: Scene, found: DepthMap) -> Figure:
         norm=LogNorm(*_DEPTHS), cmap="viridis", rasterized=True,
     )  # fmt: skip
     ends = found.frequencies[[0, -1]]
-    for order in range(1, _VALLEYS + 1):
+    for order in range(1, _MAX_VALLEY_LINES + 1):
         label = "exposures of whole periods" if order == 1 else None
         valley = order * found.period / ends
         ax.plot(ends, valley, color="white", linewidth=0.5, label=label)

@@ -30,7 +30,7 @@ FORMATS = ("png", "svg", "pdf")
 ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")
 """The endings of the files that a drawing is written to."""
 
-_LOOK: dict[Any, Any] = {
+_STYLE: dict[Any, Any] = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -43,7 +43,7 @@ _LOOK: dict[Any, Any] = {
 
 def house_style() -> AbstractContextManager[None]:
     """Draw all figures within this context in the same style, whatever the user's settings."""
-    look = dict[Any, Any](rcParamsDefault) | _LOOK
+    look = dict[Any, Any](rcParamsDefault) | _STYLE
     # The backend only concerns windows, and these figures become files.
     del look["backend"]
     return rc_context(look)

@@ -23,10 +23,10 @@ _PAGE = (8.27, 11.69)
 _LEFT, _RIGHT = 0.08, 0.92
 """Where lines begin and end, as fractions of the page's width."""
 
-_MAX_ROOM = 5
+_MAX_STEPS_A_PAGE = 5
 """Steps of a page that can still be read."""
 
-_ROOM_OF_MATCH = 2
+_STEPS_OF_A_MATCH = 2
 """Steps whose room one with a match takes."""
 
 _SHOWN_COLUMNS = 700
@@ -40,7 +40,7 @@ def steps_of_pages(
     """Yield the number of the first step of each page, from 1, and the page's steps."""
     page: list[AnsweredStep] = []
     for place, each in enumerate(steps):
-        if page and sum(map(_room, page)) + _room(each) > _MAX_ROOM:
+        if page and sum(map(_room, page)) + _room(each) > _MAX_STEPS_A_PAGE:
             yield place - len(page) + 1, tuple(page)
             page = []
         page.append(each)
@@ -48,7 +48,7 @@ def steps_of_pages(
 
 
 def _room(each: AnsweredStep) -> int:
-    return 1 if each.match is None else _ROOM_OF_MATCH
+    return 1 if each.match is None else _STEPS_OF_A_MATCH
 
 
 def draw_page(
@@ -146,8 +146,10 @@ def draw_match(axes: Sequence[Axes], match: Match) -> None:
     """Draw a photo's profile with the one fitted to it, and below it what is left over."""
     above, below = axes
     shown = min(_SHOWN_COLUMNS, len(match.profile))
-    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
-    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
+    # type: ignore[arg-type]
+    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)
+    # type: ignore[arg-type]
+    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)
     # Above the axes, where it covers no curve.
     above.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=7,

@@ -35,7 +35,7 @@ _MIN_HEIGHT = 1.3
 _AXIS_OF_RESIDUAL = 2.0
 """Ends of the axis of a residual, as a multiple of what most columns stay within."""
 
-_NAMED = ("exposure_time", "switching_frequency", "readout_time", "distance")
+_CAPTION_PARAMETERS = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
 
 def caption(scene: Scene) -> str:
@@ -45,7 +45,7 @@ def caption(scene: Scene) -> str:
 
 def _named_values(scene: Scene) -> list[str]:
     values = []
-    for name in _NAMED:
+    for name in _CAPTION_PARAMETERS:
         declared = PARAMETERS[name]
         value = declared.format(scene.value(name))  # type: ignore[arg-type]
         values.append(f"{declared.label.lower()} {value}")

@@ -21,7 +21,7 @@ from occ_model.parallel.processes import (
     worker_start,
 )
 
-_GRACE = 0.2
+_EXIT_SECONDS = 0.2
 """Seconds that processes get to end by themselves."""
 
 
@@ -84,7 +84,7 @@ class ProcessPool:
             # waits for them alone: of two that wait for a process one misses its exit code.
             shutdown = Thread(target=self._executor.shutdown, kwargs={"cancel_futures": True})
             shutdown.start()
-            shutdown.join(_GRACE)
+            shutdown.join(_EXIT_SECONDS)
             if shutdown.is_alive():
                 for process in self._started():
                     process.kill()

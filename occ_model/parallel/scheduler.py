@@ -20,7 +20,7 @@ from occ_model.parallel.request import Run, StageProgress
 _JOBS_PER_WORKER = 2
 """Jobs in flight for each worker: one that it does, and one that it continues with."""
 
-_TRIES = 3
+_MAX_LOST_WORKERS = 3
 """How often workers may end one after the other without a result."""
 
 
@@ -264,7 +264,7 @@ class Scheduler:
                 self.workers = self._fallback()
         is_hopeless = missing is not None and self._fallback is None
         for run in list(self._runs.values()):
-            if is_hopeless or self._losses >= _TRIES:
+            if is_hopeless or self._losses >= _MAX_LOST_WORKERS:
                 self._fail(run, WorkersLostError(reason_of(error), self._losses))
             elif missing is not None:
                 self._listener.workers_missing(run.channel, run.number, missing)

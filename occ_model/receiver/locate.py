@@ -9,10 +9,10 @@ from occ_model.arrays import ByteArray, IndexArray
 from occ_model.receiver.signal import otsu_split
 from occ_model.results.decoding import Location, Region
 
-_GRID = 512
+_MAX_GRID_CELLS = 512
 """Most cells a side of the grid that contours are grown on; they need not be as fine as pixels."""
 
-_SPECK = 0.04
+_MIN_BRIGHT_FRACTION = 0.04
 """Least fraction of bright pixels in a cell of a contour; below it they are noise."""
 
 
@@ -37,7 +37,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
     fraction = np.asarray(
         cv2.resize(bright, grid_size, interpolation=cv2.INTER_AREA), dtype=np.uint8
     )
-    cells = _above(fraction, 255 * _SPECK)
+    cells = _above(fraction, 255 * _MIN_BRIGHT_FRACTION)
     if not cv2.hasNonZero(cells):
         cells = _above(fraction, 0)
     if not cv2.hasNonZero(cells):  # too few for any cell to have a fraction of 1/255
@@ -58,7 +58,7 @@ def locate(image: ByteArray, bright_fraction: float) -> Location | None:
 
 def _cell_size(rows: int, columns: int) -> int:
     """Return the pixels along a side of a cell of the grid."""
-    return -(-max(rows, columns) // _GRID)
+    return -(-max(rows, columns) // _MAX_GRID_CELLS)
 
 
 def grid_of(rows: int, columns: int) -> tuple[int, int]:
@@ -69,7 +69,7 @@ def grid_of(rows: int, columns: int) -> tuple[int, int]:
 
 def least_bright_share() -> float:
     """Return the fraction of bright pixels that a cell of a contour exceeds, as a byte holds it."""
-    return (math.floor(255 * _SPECK) + 0.5) / 255.0
+    return (math.floor(255 * _MIN_BRIGHT_FRACTION) + 0.5) / 255.0
 
 
 def _histogram(image: ByteArray) -> IndexArray:

@@ -3,7 +3,7 @@
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
-_SHORTEST = 1.0
+_MIN_CHIP_COLUMNS = 1.0
 """Columns of a chip below which not every chip has a column of its own."""
 
 _DIGITS = 3
@@ -17,7 +17,7 @@ def columns_of_chip(scene: Scene) -> float:
 
 def has_short_chips(scene: Scene) -> bool:
     """Return whether a chip ends before the next column begins."""
-    return columns_of_chip(scene) < _SHORTEST
+    return columns_of_chip(scene) < _MIN_CHIP_COLUMNS
 
 
 def with_short_chips(failure: str, scene: Scene) -> str:

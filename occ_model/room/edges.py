@@ -19,16 +19,16 @@ from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Camera, Scene
 from occ_model.transmitter.packet import packet
 
-_REACH = 7
+_EDGE_REACH = 7
 """Pixels on either side of an edge that is expected: its light is summed there."""
 
-_INSIDE = 10
+_LEVEL_PIXELS = 10
 """Further pixels that tell the light of the lamp, and that of its surroundings."""
 
-_BRIGHT = 0.5
+_MIN_RELATIVE_LIGHT = 0.5
 """Fraction of the lamp's brightest light from which an edge is measured."""
 
-_ENDS = 0.06
+_EXCLUDED_END_FRACTION = 0.06
 """Fraction of an edge's length, and pixels, that are left out at its ends."""
 
 _MIN_POINTS = 16
@@ -37,7 +37,7 @@ _MIN_POINTS = 16
 _MIN_ROWS = 16
 """Rows from which the lamp's light in a column is told."""
 
-_MIN_TOLD = 4
+_MIN_LEVEL_PIXELS = 4
 """Bright pixels inside a lamp from which the level of its light is told."""
 
 _MAX_DEVIATIONS = 3.5
@@ -164,7 +164,7 @@ class EdgeFinder:
         that is the same in all columns: the fall.
         """
         first, last = column_spans(corners, *self._image.shape)
-        first, last = first + _REACH, last - _REACH
+        first, last = first + _EDGE_REACH, last - _EDGE_REACH
         shown = np.flatnonzero(last - first >= _MIN_ROWS)
         if not len(shown):
             return shown, np.empty(0), 0.0
@@ -188,18 +188,20 @@ class EdgeFinder:
         line = start[1] + (places - start[0]) * (end[1] - start[1]) / (end[0] - start[0])
         inwards = 1 if corners[:, 1].mean() > (start[1] + end[1]) / 2.0 else -1
         middle = np.rint(line).astype(np.int64)
-        kept = (middle > _REACH + _INSIDE) & (middle < rows - _REACH - _INSIDE - 1)
+        kept = (middle > _EDGE_REACH + _LEVEL_PIXELS) & (
+            middle < rows - _EDGE_REACH - _LEVEL_PIXELS - 1
+        )
         places, middle = places[kept], middle[kept]
         if len(places) < _MIN_POINTS:
             return _NONE
-        near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
+        near = np.arange(-_EDGE_REACH - _LEVEL_PIXELS, _EDGE_REACH + _LEVEL_PIXELS + 1) * inwards
         light = self._light[self._image[middle[:, None] + near, places[:, None]]]
-        inside = light[:, -_INSIDE:].mean(axis=1) - float(light[:, :_INSIDE].mean())
-        lit = inside > _BRIGHT * np.percentile(inside, 95)
+        inside = light[:, -_LEVEL_PIXELS:].mean(axis=1) - float(light[:, :_LEVEL_PIXELS].mean())
+        lit = inside > _MIN_RELATIVE_LIGHT * np.percentile(inside, 95)
         if lit.sum() < _MIN_POINTS:
             return _NONE
         count, shared, _ = _counts(light[lit], inside[lit, None], 0.0)
-        found = middle[lit] + inwards * (_REACH + 0.5 - count)
+        found = middle[lit] + inwards * (_EDGE_REACH + 0.5 - count)
         return _Points(np.stack([places[lit].astype(np.float64), found], axis=1), shared)
 
     def _across_columns(
@@ -211,16 +213,18 @@ class EdgeFinder:
         line = start[0] + (places - start[1]) * (end[0] - start[0]) / (end[1] - start[1])
         inwards = 1 if corners[:, 0].mean() > (start[0] + end[0]) / 2.0 else -1
         middle = np.rint(line).astype(np.int64)
-        kept = (middle > _REACH + _INSIDE) & (middle < columns - _REACH - _INSIDE - 1)
+        kept = (middle > _EDGE_REACH + _LEVEL_PIXELS) & (
+            middle < columns - _EDGE_REACH - _LEVEL_PIXELS - 1
+        )
         places, middle = places[kept], middle[kept]
         if len(places) < _MIN_POINTS:
             return _NONE
-        near = np.arange(-_REACH - _INSIDE, _REACH + _INSIDE + 1) * inwards
+        near = np.arange(-_EDGE_REACH - _LEVEL_PIXELS, _EDGE_REACH + _LEVEL_PIXELS + 1) * inwards
         across = middle[:, None] + near
         light = self._light[self._image[places[:, None], across]]
-        bright = _BRIGHT * np.percentile(own.light, 99)
+        bright = _MIN_RELATIVE_LIGHT * np.percentile(own.light, 99)
         count, shared, is_lit = _counts(light, own.at(places, across), bright)
-        found = middle[is_lit] + inwards * (_REACH + 0.5 - count[is_lit])
+        found = middle[is_lit] + inwards * (_EDGE_REACH + 0.5 - count[is_lit])
         return _Points(np.stack([found, places[is_lit].astype(np.float64)], axis=1), shared)
 
 
@@ -232,46 +236,50 @@ def _counts(
     The light about an edge is as much as its innermost pixels would hold, so many and a part of
     the next. A count is told only where that one is bright.
 
-    ``light``: shape (points, 2 _REACH + 2 _INSIDE + 1); from outside to inside. ``expected``: the
-    lamp's own light there, shape as ``light`` or (points, 1). ``bright``: expected light from which
-    a pixel is bright.
+    ``light``: shape (points, 2 _EDGE_REACH + 2 _LEVEL_PIXELS + 1); from outside to inside.
+    ``expected``: the lamp's own light there, shape as ``light`` or (points, 1). ``bright``:
+    expected light from which a pixel is bright.
     """
     full = np.broadcast_to(expected, light.shape)
-    dark = light[:, :_INSIDE].mean(axis=0)
+    dark = light[:, :_LEVEL_PIXELS].mean(axis=0)
     outside = float(dark.mean())
-    inner = full[:, -_INSIDE:].mean(axis=0)
+    inner = full[:, -_LEVEL_PIXELS:].mean(axis=0)
     is_told = inner > max(bright, 0.0)
-    places = np.arange(_REACH + 1, _REACH + _INSIDE + 1, dtype=np.float64)[is_told]
+    places = np.arange(_EDGE_REACH + 1, _EDGE_REACH + _LEVEL_PIXELS + 1, dtype=np.float64)[is_told]
     none = np.zeros(len(light), dtype=np.bool_)
-    if len(places) < _MIN_TOLD:
+    if len(places) < _MIN_LEVEL_PIXELS:
         return np.zeros(len(light)), 0.0, none
-    level = ((light[:, -_INSIDE:] - outside).mean(axis=0) / np.maximum(inner, 1e-12))[is_told]
+    level = ((light[:, -_LEVEL_PIXELS:] - outside).mean(axis=0) / np.maximum(inner, 1e-12))[is_told]
     # The light falls towards the rim: the level is taken where the lit pixels are.
     apart = places - places.mean()
     slope, gain = np.polyfit(apart, level, 1)
     scatter = float((level - gain - slope * apart).std() * np.sqrt(len(places) / (len(places) - 2)))
-    back = places.mean() - _REACH / 2.0
+    back = places.mean() - _EDGE_REACH / 2.0
     spread = float(apart.std() * np.sqrt(len(places)))
-    own = full[:, _INSIDE:-_INSIDE][:, ::-1] * (gain - slope * back)  # from inside to outside
+    # from inside to outside
+    own = full[:, _LEVEL_PIXELS:-_LEVEL_PIXELS][:, ::-1] * (gain - slope * back)
     held = np.cumsum(own, axis=1)
-    total = (light[:, _INSIDE:-_INSIDE] - outside).sum(axis=1)
+    total = (light[:, _LEVEL_PIXELS:-_LEVEL_PIXELS] - outside).sum(axis=1)
     last = np.minimum((held < total[:, None]).sum(axis=1), own.shape[1] - 2)
     row = np.arange(len(light))
     before = held[row, last] - own[row, last]
     count = last + (total - before) / np.maximum(own[row, last], 1e-12)
     beside = np.stack([own[row, np.maximum(last + step, 0)] for step in (-1, 0, 1)])
     is_lit = beside.min(axis=0) > bright * gain
-    of_level = _REACH * scatter / gain * np.hypot(1.0 / np.sqrt(len(places)), back / spread)
-    of_pixels = np.sqrt(_REACH) * scatter / gain
+    of_level = _EDGE_REACH * scatter / gain * np.hypot(1.0 / np.sqrt(len(places)), back / spread)
+    of_pixels = np.sqrt(_EDGE_REACH) * scatter / gain
     of_dark = (
-        (2.0 * _REACH + 1.0) * float(dark.std()) / np.sqrt(_INSIDE) / float((inner * gain).max())
+        (2.0 * _EDGE_REACH + 1.0)
+        * float(dark.std())
+        / np.sqrt(_LEVEL_PIXELS)
+        / float((inner * gain).max())
     )
     return count, float(np.sqrt(of_level**2 + of_pixels**2 + of_dark**2)), is_lit
 
 
 def _places(start: float, end: float, size: int) -> "np.ndarray[tuple[int], np.dtype[np.int64]]":
     low, high = min(start, end), max(start, end)
-    cut = max(_ENDS * (high - low), _REACH + _INSIDE - 2.0)
+    cut = max(_EXCLUDED_END_FRACTION * (high - low), _EDGE_REACH + _LEVEL_PIXELS - 2.0)
     return np.arange(int(max(low + cut, 0.0)) + 1, int(min(high - cut, size - 1.0)) + 1)
 
 

@@ -17,7 +17,7 @@ from occ_model.room.reading import ReadLamp, check_picture, find_and_name
 from occ_model.room.room import Room, RoomLamp, check_room
 from occ_model.room.view import angles_of, room_outline, rotation
 
-_AS_GOOD = 9.0
+_MAX_DEVIATION_EXCESS = 9.0
 """Sum of squared deviations within which another place explains the picture as well."""
 
 _MIN_EDGES = 4
@@ -28,7 +28,7 @@ Each gives two numbers; what three give, many places explain exactly."""
 _MAX_MEAN_SQUARE = 4.0
 """Mean squared deviation, in standard errors, above which a place does not explain the edges."""
 
-_LEFT_OUT = 3
+_MAX_EXCLUDED_EDGES = 3
 """Edges that may be left out, one after the other, where no place explains all."""
 
 _ONE_LAMP = "Only one lamp tells the place: it can be farther off than the stated errors."
@@ -151,7 +151,9 @@ def _located(
         )
     tried.sort(key=lambda one: one.deviations)
     best = tried[0]
-    limit = best.deviations + _AS_GOOD * max(1.0, best.deviations / max(best.freedom, 1))
+    limit = best.deviations + _MAX_DEVIATION_EXCESS * max(
+        1.0, best.deviations / max(best.freedom, 1)
+    )
     kept: list[Located] = []
     for one in tried:
         if one.deviations <= limit and not any(_is_same(one, other) for other in kept):
@@ -166,7 +168,7 @@ def _located(
 
 def _explanations(edges: LampEdges, starts: Sequence[FloatArray]) -> list[Located]:
     """Return the places that explain the edges, or all but a few of them."""
-    for _ in range(_LEFT_OUT + 1):
+    for _ in range(_MAX_EXCLUDED_EDGES + 1):
         tried = [fitted for start in starts if (fitted := edges.fitted(start)) is not None]
         fits = [one for one, _ in tried if one.deviations <= _MAX_MEAN_SQUARE * (one.freedom + 4)]
         if fits or not tried:

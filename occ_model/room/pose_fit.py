@@ -23,7 +23,7 @@ _MIN_DEPTH = 1e-6
 _STEP = 1e-6
 """Of each number, for its slope."""
 
-_ALONE = 1e14
+_MAX_CONDITION_NUMBER = 1e14
 """Ratio of what is told best and worst from which some of it is not told at all."""
 
 
@@ -113,7 +113,7 @@ class LampEdges:
                 return None
             slope = (found[1:] - found[0]).T / _STEP
             normal = slope.T @ slope
-            if not np.isfinite(normal).all() or np.linalg.cond(normal) > _ALONE:
+            if not np.isfinite(normal).all() or np.linalg.cond(normal) > _MAX_CONDITION_NUMBER:
                 return None
             inverse = np.linalg.inv(normal)
             change = -inverse @ (slope.T @ found[0])

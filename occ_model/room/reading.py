@@ -20,19 +20,19 @@ from occ_model.transmitter.packet import packet
 _ROWS = 4
 """Rows that are averaged where lamps are looked for."""
 
-_ABOVE_NOISE = 6.0
+_MIN_SIGMA_ABOVE_NOISE = 6.0
 """Standard deviations of the noise above the surroundings from which a pixel is a lamp's."""
 
-_SHARE = 0.1
+_MIN_LAMP_FRACTION = 0.1
 """Fraction of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
 
-_SAMPLED = 4
+_SAMPLING_STEP = 4
 """Every so manieth of those tells how bright the surroundings and the lamps are."""
 
 _MIN_SIDE = 12
 """Rows and columns of the smallest lamp that is looked at."""
 
-_SEEN = 0.5
+_MIN_LIT_FRACTION = 0.5
 """Fraction of a lamp's brightest light from which a column of it is found lit, however faint the
 lamp is beside others."""
 
@@ -105,11 +105,11 @@ def _found(image: ByteArray, room: Room) -> Iterator[tuple[Region, FloatArray]]:
     scale = min(_ROWS, len(image))
     rows = len(image) // scale
     sums = image[: rows * scale].reshape(rows, scale, -1).sum(axis=1, dtype=np.uint16)
-    some = sums[::_SAMPLED] / scale
+    some = sums[::_SAMPLING_STEP] / scale
     dark = float(np.median(some))
     noise = 1.48 * float(np.median(np.abs(some - dark)))
     bright = float(np.percentile(some, 99.9))
-    level = dark + max(_ABOVE_NOISE * noise, _SHARE * (bright - dark), 2.0)
+    level = dark + max(_MIN_SIGMA_ABOVE_NOISE * noise, _MIN_LAMP_FRACTION * (bright - dark), 2.0)
     lit = (sums > level * scale).astype(np.uint8)
     spots = cv2.morphologyEx(lit, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
     joined = cv2.morphologyEx(spots, cv2.MORPH_CLOSE, np.ones((1, _longest_gap(room)), np.uint8))
@@ -228,6 +228,6 @@ def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region) -> bool
     bins = len(result.model)
     place = chip * (bins / len(packet(scene)))
     lit = np.interp(place, np.arange(bins), result.model, period=bins)
-    seen = lit > _SEEN * result.model.max()
+    seen = lit > _MIN_LIT_FRACTION * result.model.max()
     sides = seen[: region.first_column], seen[region.last_column :]
     return any(not side.any() for side in sides)

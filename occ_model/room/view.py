@@ -21,7 +21,7 @@ _DISC_CORNERS = 96
 _MIN_DEPTH = 1e-3
 """Depth in metres before which nothing is seen."""
 
-_DISTORTED = 0.15
+_MAX_LENS_SHIFT = 0.15
 """Fraction of the picture's size by which a lens may move what it shows."""
 
 
@@ -111,7 +111,7 @@ def _seen(room: Room, lamp: RoomLamp) -> LampView | None:
         return None
     camera = room.scene.camera
     corners = image_points(before[:, :2] / before[:, 2:], camera)
-    slack = _DISTORTED * max(camera.rows, camera.columns) if room.scene.lens.distorts else 0.0
+    slack = _MAX_LENS_SHIFT * max(camera.rows, camera.columns) if room.scene.lens.distorts else 0.0
     try:
         scene = lamp_scene(room, lamp)
         slack += 4.0 * blur_of(scene)

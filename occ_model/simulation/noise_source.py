@@ -16,7 +16,7 @@ Drawn: TypeAlias = Callable[[], Sequence[tuple[Sequence[NoiseEffect], Pixels]]]
 """Gives numbers of the standard normal distribution, shape (rows, columns), which are the caller's
 own, and the effects whose noise they are together."""
 
-_PLANE = 2**21
+_PLANE_SIZE = 2**21
 """Numbers in the plane: eight megabytes, which fit the processor's cache."""
 
 
@@ -80,7 +80,7 @@ class ReusedNoise:
 @lru_cache(maxsize=2)
 def _plane(columns: int) -> Pixels:
     """Return all pieces of the plane of a row's length, shape (pieces, columns)."""
-    length = max(_PLANE, 8 * columns)
+    length = max(_PLANE_SIZE, 8 * columns)
     numbers = np.random.default_rng(0).standard_normal(length, dtype=np.float32)
     numbers -= numbers.mean(dtype=np.float64)
     numbers /= numbers.std(dtype=np.float64)

@@ -35,11 +35,11 @@ _SURROUNDING_BANDS = 6
 _PAIRS = BANDS // 2
 """Pairs of neighbouring bands, whose noise is opposite: its mean is nothing."""
 
-_STRIDE = 7
+_QUANTILE_STRIDE = 7
 """Quantiles from a pair to the next one: light varies from band to band, the noise not with it.
 Without a common divisor with the number of pairs, so that each quantile is used once."""
 
-_ENTRIES = 4096
+_TABLE_ENTRIES = 4096
 """Entries of the table of normal deviates."""
 
 
@@ -143,9 +143,9 @@ class SystematicNoise:
 
     def _normal(self, place: IndexArray) -> Pixels:
         band = place // BAND
-        step = (band // 2 * _STRIDE % _PAIRS / _PAIRS).astype(np.float32)
+        step = (band // 2 * _QUANTILE_STRIDE % _PAIRS / _PAIRS).astype(np.float32)
         quantile = self._first[place % BAND] + step[:, None]
-        entry = (quantile * _ENTRIES).astype(np.int32) % _ENTRIES
+        entry = (quantile * _TABLE_ENTRIES).astype(np.int32) % _TABLE_ENTRIES
         normal: Pixels = _deviates()[entry]
         normal[band % 2 == 1] *= np.float32(-1.0)
         return normal
@@ -155,5 +155,5 @@ class SystematicNoise:
 def _deviates() -> Pixels:
     """Return the normal deviates of evenly spaced quantiles."""
     normal = NormalDist()
-    found = [normal.inv_cdf((place + 0.5) / _ENTRIES) for place in range(_ENTRIES)]
+    found = [normal.inv_cdf((place + 0.5) / _TABLE_ENTRIES) for place in range(_TABLE_ENTRIES)]
     return np.array(found, dtype=np.float32)

@@ -26,14 +26,14 @@ TWO_HEADERS = ("threshold", "equalizer")
 _NEAR_NULL = 0.96
 """Fraction of the null frequency from which single chips are lost in rounding."""
 
-_BRIGHT = 200.0
+_TARGET_LEVEL = 200.0
 """Grey level of the lit panel that a step towards more or less light aims at."""
 
-_ROOM = 1.15
+_STEP_MARGIN = 1.15
 """By how much a step goes beyond the limit that theory gives."""
 
 
-_ABOVE_NOISE = {"threshold": 10.0, "equalizer": 2.0}
+_MIN_SWING_TO_NOISE = {"threshold": 10.0, "equalizer": 2.0}
 """Times a column's noise that stripes must swing, at random scenes: a single column that errs cuts
 a run in two. The equalizer smooths."""
 
@@ -90,7 +90,7 @@ def _to_level(scene: Scene, lit: float) -> Step:
     """Return the ISO speed that brings the lit panel to a level, as far as it goes."""
     iso = quantity("iso")
     low, high = iso.slider
-    wanted = scene.camera.iso * (_BRIGHT / max(lit, 1e-3)) ** scene.camera.gamma
+    wanted = scene.camera.iso * (_TARGET_LEVEL / max(lit, 1e-3)) ** scene.camera.gamma
     value = float(f"{min(max(wanted, low), high):.3g}")
     return Step(f"Set ISO {iso.format(value)}", {"iso": value})
 
@@ -115,7 +115,7 @@ def _few_chips(scene: Scene, decoder: str) -> Cause | None:
         return None
     if not shown:
         return Cause("the panel is out of the picture", "No column shows it.")
-    needed = packets * length / shown * _ROOM
+    needed = packets * length / shown * _STEP_MARGIN
     frequency = float(f"{scene.transmitter.switching_frequency * needed:.3g}")
     exposed = frequency * scene.camera.exposure_time
     nearer = float(f"{scene.pose.distance / needed:.2g}")
@@ -166,13 +166,13 @@ def _noise(scene: Scene, decoder: str) -> Cause | None:
     """Compare a column's noise with the stripes of chips that alternate."""
     chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
     region = region_of(panel_corners(scene), scene.camera.rows, scene.camera.columns)
-    if decoder not in _ABOVE_NOISE or region is None or chips >= 2.0:
+    if decoder not in _MIN_SWING_TO_NOISE or region is None or chips >= 2.0:
         return None
     values = level_values(scene)
     of_pixel = deviation(values, scene, lambda electrons: electrons + scene.sensor.read_noise**2)
     of_column = float(of_pixel.max()) / math.sqrt(region.rows)
     swing = float(values[1] - values[0]) * min(1.0, 2.0 / chips - 1.0)
-    if swing >= _ABOVE_NOISE[decoder] * of_column:
+    if swing >= _MIN_SWING_TO_NOISE[decoder] * of_column:
         return None
     return Cause(
         "too much noise",

@@ -25,7 +25,7 @@ from occ_model.transmitter.packet import sent_chips
 MOST_CODES = 4096
 """Lamps beyond which codes are not compared with each other."""
 
-_LONGER = (0, 2, 4)
+_EXTRA_BITS = (0, 2, 4)
 """Bits beyond the fewest that have a code for each lamp, tried by themselves."""
 
 
@@ -81,7 +81,7 @@ def code_lengths(
     room = request.room
     check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
     check_count("jobs", jobs, 1, MOST_JOBS)
-    lengths = tuple(bits) or tuple((lamps - 1).bit_length() + more for more in _LONGER)
+    lengths = tuple(bits) or tuple((lamps - 1).bit_length() + more for more in _EXTRA_BITS)
     for length in lengths:
         if 2**length < lamps:
             raise ParameterError.of("bits", f"{length}", f"from {(lamps - 1).bit_length()}",
@@ -91,8 +91,8 @@ def code_lengths(
         sent = _codes(length, lamps, request.seed)
         own = _sending(room, length, sent)
         asked = replace(request, room=own)
-        told = progress and partial(_told, progress, number, len(lengths))
-        points = room_map(asked, executor=executor, jobs=jobs, progress=told)
+        reported = progress and partial(_scaled_progress, progress, number, len(lengths))
+        points = room_map(asked, executor=executor, jobs=jobs, progress=reported)
         whole, named, misread = (
             sum(getattr(point, count) for point in points)
             for count in ("shown", "named", "misread")
@@ -107,7 +107,7 @@ def code_lengths(
     return tuple(found)
 
 
-def _told(
+def _scaled_progress(
     progress: Progress, number: int, lengths: int, done: int, points: int, left: float
 ) -> None:
     there, total = number * points + done, lengths * points

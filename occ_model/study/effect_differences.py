@@ -19,10 +19,10 @@ from occ_model.study.telling_crop import ICON, telling_crop
 _SAMPLES = 2**16
 """Most places in which a change is kept."""
 
-_UNSEEN = 0.05
+_VISIBLE_CHANGE = 0.05
 """Root mean square in grey levels below which a change of the panel's pixels is not seen."""
 
-_MARGIN = 16
+_SIZE_PER_MARGIN = 16
 """The panel's size in margins."""
 
 
@@ -86,7 +86,7 @@ class CompleteSimulation:
         Beside all the others, noise and file above all, many effects could not be seen.
         """
         alone = self._simulated((effect,), "image", timer)
-        if rms(alone - self._bare) >= _UNSEEN:
+        if rms(alone - self._bare) >= _VISIBLE_CHANGE:
             return alone, self._bare
         # It may move the panel's outline outwards.
         return self._with_margin((effect,), timer), self._with_margin((), timer)
@@ -97,7 +97,7 @@ class CompleteSimulation:
         chosen = plan_of_effects(self._scene, "image", effects)
         frame = render_plan(view, chosen, seed=self._seed, timer=timer)
         rows, columns = (
-            slice(max(0, first - length // _MARGIN), last + length // _MARGIN)
+            slice(max(0, first - length // _SIZE_PER_MARGIN), last + length // _SIZE_PER_MARGIN)
             for first, last, length in (
                 (view.region.first_row, view.region.last_row, view.region.rows),
                 (view.region.first_column, view.region.last_column, view.region.columns),

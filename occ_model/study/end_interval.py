@@ -28,7 +28,7 @@ _ENDS, _SLOPES = 81, 32
 _FLATTEST, _STEEPEST = 0.3, 1e5
 """Slopes of the odds' logarithm at the end, over the whole of the bracket."""
 
-_LARGEST = 0.999
+_MAX_LOST_FRACTION = 0.999
 """Fraction of lost pictures at the end, where each of them loses no more than the rate allows."""
 
 
@@ -51,7 +51,7 @@ def interval_of_end(
     ends = np.linspace(0.0, span, _ENDS)
     likelihood = _likelihoods(
         tried - ends[:, None], pictures, np.minimum(gone, pictures),
-        min((1.0 - rate / 100.0) / of_one, _LARGEST), span,
+        min((1.0 - rate / 100.0) / of_one, _MAX_LOST_FRACTION), span,
     )  # fmt: skip
     ratio = 2.0 * (likelihood.max() - likelihood)
     kept = np.flatnonzero(ratio <= _deviate(int(np.count_nonzero(each))) ** 2)

@@ -131,7 +131,7 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
 SEARCHED = ("switching_frequency", "exposure_time")
 """The parameters whose limits are searched."""
 
-_LOOK = 0.1
+_POLL_SECONDS = 0.1
 """Seconds between two looks at what other processes have done."""
 
 
@@ -205,7 +205,7 @@ class _Ways:
                 futures = [self._workers.submit(Job(work, each), 0, 1) for each in asked]
                 for each, future in zip(asked, futures, strict=True):
                     while not future.done():
-                        wait([future], timeout=_LOOK)
+                        wait([future], timeout=_POLL_SECONDS)
                         self._look(self._workers.counted(0), each)
                     yield _value_of(future.result())
                     done += 1

@@ -26,7 +26,7 @@ from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
-_TRIED = ("manchester", "4b6b", "8b10b")
+_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")
 """The line codes that are tried: of those as short, only the better known."""
 
 DECODERS = ("threshold", "equalizer", "sequence")
@@ -40,10 +40,10 @@ VARIED = (
 
 _FRAMING = "preamble"
 
-_STEP = 1.15
+_FREQUENCY_RATIO = 1.15
 """Ratio of neighbouring frequencies."""
 
-_FILLED = (0.95, 0.5, 0.25)
+_FILLED_FRACTIONS = (0.95, 0.5, 0.25)
 """Fractions of the chips that a picture shows which one period of a payload takes."""
 
 
@@ -117,7 +117,7 @@ def most_bits(
 def unvaried(scene: Scene) -> Scene:
     """Return a scene without what the search chooses: equal ones have the same result."""
     frequency = quantity("switching_frequency").default
-    return _sending(scene, _TRIED[0], 1, frequency).replace(code=0, start_time=0.0)
+    return _sending(scene, _TRIED_LINE_CODES[0], 1, frequency).replace(code=0, start_time=0.0)
 
 
 def example_of(found: MostBits, seed: int = 1) -> Scene | None:
@@ -140,9 +140,9 @@ def _candidates(scene: Scene) -> list[_Candidate]:
     seen = panel_readout_time(scene)
     found = {
         _Candidate(line_code, frequency, bits)
-        for line_code in _TRIED
+        for line_code in _TRIED_LINE_CODES
         for frequency in _frequencies(scene)
-        for filled in _FILLED
+        for filled in _FILLED_FRACTIONS
         if (bits := _bits_in(line_code, filled * seen * frequency)) > 0
     }
     return sorted(found, key=lambda one: (-one.bits, one.frequency, one.line_code))
@@ -152,8 +152,8 @@ def _frequencies(scene: Scene) -> list[float]:
     """Return switching frequencies up to one chip a column."""
     low = quantity("switching_frequency").slider[0]
     high = 1.0 / scene.camera.readout_time
-    count = max(1, int(np.log(high / low) / np.log(_STEP)))
-    return [low * _STEP**place for place in range(count + 1)]
+    count = max(1, int(np.log(high / low) / np.log(_FREQUENCY_RATIO)))
+    return [low * _FREQUENCY_RATIO**place for place in range(count + 1)]
 
 
 def _bits_in(line_code: str, chips: float) -> int:

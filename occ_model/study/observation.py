@@ -50,7 +50,7 @@ _LENS_SHIFT_PART = 50
 """The fraction of a picture's larger side by which a lens may move the panel: one in so many."""
 
 
-_RARE = 0.01
+_MAX_EXPECTED_BRIGHT = 0.01
 """Pixels beside the panel that may be expected to be as bright as its brightest."""
 
 
@@ -152,7 +152,10 @@ def shows_region(sample: SampledPicture, view: PaperView) -> bool:
             continue
         mean, spread = np.array([part.mean()]), np.array([part.std()])
         (bright,) = share_above(found.bright_level - 0.5, mean, spread)
-        if np.any(part >= found.bright_level) or bright * part.size * sample.rows_each > _RARE:
+        if (
+            np.any(part >= found.bright_level)
+            or bright * part.size * sample.rows_each > _MAX_EXPECTED_BRIGHT
+        ):
             return False
     return True
 

@@ -32,10 +32,10 @@ MOST_PLACES = 10_000
 
 _TITLE = "# Lamps read and place found over the floor"
 _FORMAT = 2
-_START_TIMES = 0.1
+_START_TIME_SPREAD = 0.1
 """Seconds over which the start of each picture is drawn at random."""
 
-_BESIDE = 20.0
+_LAMP_MARGIN = 20.0
 """Pixels beyond a lamp's rectangle within which what is read is that lamp."""
 
 
@@ -121,7 +121,7 @@ def measure_place(request: RoomMapRequest, index: int, heartbeat: Heartbeat) -> 
     for number in range(request.images):
         heartbeat()
         random = np.random.default_rng([request.seed, index, number])
-        start = request.room.scene.model.start_time + float(random.uniform(0.0, _START_TIMES))
+        start = request.room.scene.model.start_time + float(random.uniform(0.0, _START_TIME_SPREAD))
         room = request.room.replace(x=x, y=y, start_time=start)
         try:
             frame = render_room(room, tolerance=request.tolerance, seed=int(random.integers(2**31)))
@@ -158,8 +158,8 @@ def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]
 def _is_at(region: Region, read: ReadLamp) -> bool:
     column, row = read.hull.mean(axis=0)
     return bool(
-        region.first_column - _BESIDE <= column <= region.last_column + _BESIDE
-        and region.first_row - _BESIDE <= row <= region.last_row + _BESIDE
+        region.first_column - _LAMP_MARGIN <= column <= region.last_column + _LAMP_MARGIN
+        and region.first_row - _LAMP_MARGIN <= row <= region.last_row + _LAMP_MARGIN
     )
 
 

@@ -7,7 +7,7 @@ from occ_model.errors import ParameterError
 from occ_model.results.spectrum import Spectrum
 from occ_model.scene.scene import Scene, check_scene
 
-_FEWEST = 8
+_MIN_COLUMNS = 8
 _MAX_NULLS = 100
 
 
@@ -22,9 +22,9 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
     """
     check_scene(scene)
     values = np.asarray(profile, dtype=np.float64)
-    if values.ndim != 1 or len(values) < _FEWEST:
+    if values.ndim != 1 or len(values) < _MIN_COLUMNS:
         raise ParameterError.of(
-            "profile", f"shape {values.shape}", f"({_FEWEST} or more,)", verb="has"
+            "profile", f"shape {values.shape}", f"({_MIN_COLUMNS} or more,)", verb="has"
         )
     if not np.isfinite(values).all():
         raise ParameterError.of("profile", "values that are not finite", "finite ones", verb="has")

@@ -35,7 +35,7 @@ OUTSIDE = 200
 _ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
 """Pictures at parts of what is left of an interval, in rounds."""
 
-_CHANCE = 0.025
+_REFUTING_PROBABILITY = 0.025
 """Chance to refute a rate that is reached: that of one side of a 95 % interval."""
 
 _STAKES = (0.03, 0.1, 0.3)
@@ -184,6 +184,6 @@ def _until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] 
         seen.append(right)
         won = (least - right / bits) / (1.0 - least)
         wealth = [had * (1.0 + stake * won) for had, stake in zip(wealth, _STAKES, strict=True)]
-        if sum(wealth) * _CHANCE >= len(_STAKES):
+        if sum(wealth) * _REFUTING_PROBABILITY >= len(_STAKES):
             return seen
     return None

@@ -13,10 +13,10 @@ CROP = (64, 112)
 ICON = (16, 40)
 """Rows and columns of a crop in a line of a table."""
 
-_KEPT = 0.7
+_MIN_KEPT_FRACTION = 0.7
 """Fraction of a difference that averaging must keep for the averaged panel to show it."""
 
-_OUTLIERS = 1.0
+_CLIPPED_PERCENT = 1.0
 """Percent of the pixels at either end that the stretching to the full range may clip."""
 
 _MAX_AMPLIFIED = 256
@@ -35,7 +35,7 @@ def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = C
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))
     small = _averaged(difference, size)
-    is_averaged = _rms(small) >= _KEPT * _rms(difference)
+    is_averaged = _rms(small) >= _MIN_KEPT_FRACTION * _rms(difference)
     if is_averaged:
         shown = [_averaged(with_effect, size), _averaged(without, size), small]
     else:
@@ -69,14 +69,14 @@ def _largest(difference: Pixels, size: tuple[int, int]) -> tuple[slice, slice]:
 def _stretched(one: Pixels, other: Pixels) -> tuple[ByteArray, ByteArray]:
     """Stretch both pictures in the same way."""
     both: FloatArray = np.stack((one, other)).astype(np.float64)
-    low, high = np.percentile(both, (_OUTLIERS, 100.0 - _OUTLIERS))
+    low, high = np.percentile(both, (_CLIPPED_PERCENT, 100.0 - _CLIPPED_PERCENT))
     grey = np.clip((both - low) * (WHITE / max(high - low, 1.0)), 0.0, WHITE).astype(np.uint8)
     return grey[0], grey[1]
 
 
 def _amplification(difference: Pixels) -> int:
     """Return the largest power of two that leaves the difference within the range of grey."""
-    largest = float(np.percentile(np.abs(difference), 100.0 - _OUTLIERS))
+    largest = float(np.percentile(np.abs(difference), 100.0 - _CLIPPED_PERCENT))
     factor = 1
     while factor < _MAX_AMPLIFIED and 2 * factor * largest < _MIDDLE_GREY:
         factor *= 2

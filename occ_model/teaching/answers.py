@@ -13,7 +13,7 @@ from occ_model.teaching.result_text import result_text
 _NEAR_TOLERANCES = 3.0
 """An answer within this many tolerances is near."""
 
-_MIN_NEAR = 0.02
+_MIN_NEAR_DIFFERENCE = 0.02
 """Relative difference that is near however small the tolerance is."""
 
 _ROUNDING = 1e-9
@@ -66,7 +66,7 @@ def check_answer(
             text, "wrong", f"Not yet: that is not the {quantity.called}. Try again."
         )
     side = "high" if given > expected else "low"
-    if difference <= max(_NEAR_TOLERANCES * check.tolerance, _MIN_NEAR):
+    if difference <= max(_NEAR_TOLERANCES * check.tolerance, _MIN_NEAR_DIFFERENCE):
         return CheckedAnswer(text, "near", f"Close, but a little too {side}. Look once more.")
     return CheckedAnswer(text, "wrong", f"Not yet: that is too {side}. Try again.")
 
@@ -83,7 +83,8 @@ def _to_set_first(check: Check, scene: Scene) -> str:
             is_set = now == asked
         if not is_set:
             declared = PARAMETERS[name]
-            differing.append(f"{declared.label} to {declared.format(asked)}")  # type: ignore[arg-type]
+            # type: ignore[arg-type]
+            differing.append(f"{declared.label} to {declared.format(asked)}")
     if not differing:
         return ""
     return f"First set {' and '.join(differing)}: the question is about that."

@@ -11,20 +11,20 @@ from occ_model.video.phases import ClockFit, Phases, mean_step
 READOUT_TOLERANCE = 0.01
 """Fraction by which the readout time may differ from the rough one that is given."""
 
-_OVERLAP = 1e-3
+_MAX_READOUT_EXCESS = 1e-3
 """Fraction of a frame period by which reading out may seem to last longer: of measurement
 errors."""
 
 _MIN_FRAMES = 3
 """Minimum number of frames to fit the clock to."""
 
-_OUTLIERS = 0.1
+_MAX_OUTLIER_FRACTION = 0.1
 """Outlier fraction of the phases that triggers a warning."""
 
 _MAX_NAMED_FREQUENCIES = 5
 """Maximum number of other frequencies that a sentence names."""
 
-_WANDERING = 3.0
+_MIN_WANDER_RATIO = 3.0
 """Ratio of the phases' scatter to that from frame to frame from which they wander."""
 
 
@@ -41,7 +41,7 @@ def fits_of(
     step, _ = mean_step(phases)
     low = step / (readout_time * (1.0 + tolerance))
     high = step / (readout_time * (1.0 - tolerance))
-    low = max(low, step * columns / (period * (1.0 + _OVERLAP)))
+    low = max(low, step * columns / (period * (1.0 + _MAX_READOUT_EXCESS)))
     return fit_clock(phases, low, high) if low < high else ()
 
 
@@ -99,7 +99,7 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
             f"but also {others}; a surer readout time, or a longer packet, would tell them apart."
         )
     outliers = int((~best.kept).sum())
-    if outliers > _OUTLIERS * len(best.kept):
+    if outliers > _MAX_OUTLIER_FRACTION * len(best.kept):
         problems.append(
             f"{outliers} of {len(best.kept)} frames show a phase that does not agree with the "
             "others' times."
@@ -109,7 +109,7 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
         steps = float(np.sqrt(np.mean(np.diff(residuals) ** 2) / 2.0))
         scatter = float(np.std(residuals))
         least = float(np.median(phases.errors))
-        if scatter > _WANDERING * max(steps, least):
+        if scatter > _MIN_WANDER_RATIO * max(steps, least):
             problems.append(
                 "The stripes drift to and fro against the frame times by "
                 f"{SECOND.format(scatter / best.frequency)}: the film was stabilised, its frame "

@@ -14,10 +14,10 @@ from occ_model.arrays import FloatArray
 from occ_model.video.phase_fit import fit_parabola
 from occ_model.video.phases import ClockFit, Phases, mean_step
 
-_FIRST = 64
+_FIRST_FRAMES = 64
 """Frames of the part of a film in which aliases are searched."""
 
-_GRID = 8.0
+_GRID_POINTS_PER_TURN = 8.0
 """Frequencies that are tried while the phase at the part's end changes by a period."""
 
 _MAX_TRIED = 2**17
@@ -26,19 +26,19 @@ _MAX_TRIED = 2**17
 _MAX_ALIASES = 64
 """Most frequencies that may fit alike: of more, as with frames far apart, none is stated."""
 
-_FEW_TRIED = 64.0
+_TRIED_WITHOUT_CHANCE = 64.0
 """Frequencies among which none is coherent by chance."""
 
-_AS_COHERENT = 0.8
+_MIN_RELATIVE_COHERENCE = 0.8
 """Fraction of the best coherence from which another frequency is an alias to be fitted."""
 
 _MIN_COHERENCE = 0.5
 """Coherence of phases with the frame times below which they do not follow them."""
 
-_GROWTH = 1.3
+_PART_GROWTH = 1.3
 """Factor by which the fitted part of the film grows, once its frequency is known."""
 
-_AS_LIKELY = 9.0
+_MAX_CHI_SQUARED_EXCESS = 9.0
 """Difference of chi-squared up to which an alias is not excluded: three standard deviations."""
 
 
@@ -64,7 +64,7 @@ def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
     scale = max(1.0, best.chi_squared / free)
     return tuple(
         fit for fit in fits
-        if fit.chi_squared - best.chi_squared <= _AS_LIKELY * scale
+        if fit.chi_squared - best.chi_squared <= _MAX_CHI_SQUARED_EXCESS * scale
         and len(fit.jumps) <= len(best.jumps)
     )  # fmt: skip
 
@@ -84,13 +84,13 @@ def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
 
 def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> list[float]:
     """Return the frequencies at which the phases of the first frames are coherent."""
-    count = min(len(turned), _FIRST)
+    count = min(len(turned), _FIRST_FRAMES)
     while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MAX_TRIED:
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
     number = _grid(times, low, high, phases.period)
     # Of so many random phasors the mean is longer than r in the share exp(-count r^2).
-    by_chance = math.sqrt(2.0 * math.log(max(number / _FEW_TRIED, 1.0)) / count)
+    by_chance = math.sqrt(2.0 * math.log(max(number / _TRIED_WITHOUT_CHANCE, 1.0)) / count)
     if number > _MAX_TRIED or by_chance >= 1.0:
         return []
     tried = np.linspace(low, high, number)
@@ -100,12 +100,12 @@ def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> lis
         return []
     padded = np.concatenate([[-1.0], coherent, [-1.0]])
     peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:])
-    chosen = np.flatnonzero(peaks & (coherent >= _AS_COHERENT * best))
+    chosen = np.flatnonzero(peaks & (coherent >= _MIN_RELATIVE_COHERENCE * best))
     return [float(tried[place]) for place in chosen] if len(chosen) <= _MAX_ALIASES else []
 
 
 def _grid(times: FloatArray, low: float, high: float, period: float) -> int:
-    return int((high - low) * float(np.ptp(times)) / period * _GRID) + 3
+    return int((high - low) * float(np.ptp(times)) / period * _GRID_POINTS_PER_TURN) + 3
 
 
 def _coherence(
@@ -122,7 +122,7 @@ def _coherence(
 
 def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit | None:
     """Count the phase on over the film from a first frequency, and fit it."""
-    count, total = min(len(turned), _FIRST), len(turned)
+    count, total = min(len(turned), _FIRST_FRAMES), len(turned)
     times = phases.times - phases.times[0]
     angle = np.exp(2j * np.pi * (turned[:count] - frequency * times[:count]) / phases.period)
     start = float(np.angle(angle.mean())) / (2.0 * np.pi) * phases.period
@@ -132,5 +132,5 @@ def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit 
         fit = fit_parabola(phases.first(count), turned[:count] + rounds * phases.period)
         if fit is None or count == total:
             return fit
-        count = min(total, max(count + 1, int(count * _GROWTH)))
+        count = min(total, max(count + 1, int(count * _PART_GROWTH)))
         foretold = fit.at_start(phases.times)

@@ -8,10 +8,10 @@ from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.video_reading import Measured
 from occ_model.scene.units import SECOND
 
-_EVEN = 0.25
+_MAX_INTERVAL_DEVIATION = 0.25
 """Fraction of a period by which an interval may differ from a whole number of them."""
 
-_UNEVEN = 0.02
+_MAX_TIME_DEVIATION = 0.02
 """Standard deviation of the frame times, as a fraction of the period, that triggers a warning."""
 
 _MAX_NAMED_FRAMES = 3
@@ -100,7 +100,7 @@ def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None
         scatter = float(residuals @ residuals) / free
         error = np.sqrt(max(scatter, rounded_to**2 / 12.0) / power)
         period = Measured(period.value, float(error))
-        if np.sqrt(scatter) > max(_UNEVEN * usual, rounded_to):
+        if np.sqrt(scatter) > max(_MAX_TIME_DEVIATION * usual, rounded_to):
             problems.append(
                 f"The frame times are uneven: they deviate by {SECOND.format(np.sqrt(scatter))} "
                 f"from equal steps of {SECOND.format(period.value)}."
@@ -141,7 +141,7 @@ def _problems(steps: FloatArray, counts: IndexArray, usual: float) -> list[str]:
         problems.append(
             f"The frame times do not rise after {_named(backward)}: frames are doubled."
         )
-    odd = np.flatnonzero((np.abs(steps - counts) > _EVEN) & (steps > 0.0))
+    odd = np.flatnonzero((np.abs(steps - counts) > _MAX_INTERVAL_DEVIATION) & (steps > 0.0))
     if odd.size:
         problems.append(
             f"The frame rate is not constant: {len(odd)} of {len(steps)} intervals are no whole "

@@ -17,16 +17,16 @@ from occ_model.video.period import SentPeriod
 _MAX_FRAME_RATIO = 8.0
 """Largest log-likelihood ratio that one frame gives to a chip: a frame may be misplaced."""
 
-_KNOWN = 30.0
+_FIXED_CHIP_RATIO = 30.0
 """Log-likelihood ratio of a chip that is the same in every packet."""
 
 _KNOWN_CHIP_RATIO = 2.0
 """Log-likelihood ratio from which a chip counts as known when places are compared."""
 
-_AHEAD = 7.0
+_MIN_LOG_ODDS = 7.0
 """Logarithm of the odds of the best place against all others together from which it is taken."""
 
-_UNLIKE = -12.0
+_CONTRADICTING_LOG_LIKELIHOOD = -12.0
 """Logarithm of the likelihood below which a place contradicts the chips that are known."""
 
 _MIN_DEVIATION = 0.15
@@ -62,7 +62,7 @@ class Joined:
     @property
     def ratios(self) -> FloatArray:
         """Log-likelihood ratio of each chip, 0 where nothing is known, shape (length,)."""
-        return self._votes + _KNOWN * self._period.known
+        return self._votes + _FIXED_CHIP_RATIO * self._period.known
 
     @property
     def seen(self) -> BoolArray:
@@ -103,16 +103,19 @@ class Joined:
             places = (places[0] + parts) % length
         if len(places) == 1:
             place = int(places[0])
-            return Place(place, True) if by_chips[place] > _UNLIKE else None
+            return Place(place, True) if by_chips[place] > _CONTRADICTING_LOG_LIKELIHOOD else None
         if len(places):
             elsewhere = np.full(length, -np.inf)
             elsewhere[places] = likelihood[places]
             likelihood = elsewhere
         best = int(likelihood.argmax())
-        if by_chips[best] < _UNLIKE or _odds(likelihood, best) < _AHEAD:
+        if (
+            by_chips[best] < _CONTRADICTING_LOG_LIKELIHOOD
+            or _odds(likelihood, best) < _MIN_LOG_ODDS
+        ):
             return None
         # A preamble shows the place in a part exactly; the clock only says which part it is.
-        return Place(best, is_confirmed=len(places) > 0 or _odds(by_chips, best) > _AHEAD)
+        return Place(best, is_confirmed=len(places) > 0 or _odds(by_chips, best) > _MIN_LOG_ODDS)
 
     def add(self, frame: FrameReading, place: int) -> None:
         """Add what a frame says of its chips."""

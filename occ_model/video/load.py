@@ -38,7 +38,7 @@ _MAX_DECODED_AHEAD = 10
 _STEPS_LEFT = 2.0
 """The last frame of a whole film is no further from its end than so many of the longest steps."""
 
-_LOOKED_AT = 5
+_SCAN_AXIS_FRAMES = 5
 """Frames at a film's start on which the scan axis is found."""
 
 
@@ -274,7 +274,7 @@ class VideoFile(Video):
         """Whether over the first frames the means of lines differ more than those of columns."""
         columns = lines = 0.0
         stored: StoredFrame | None = first
-        for _ in range(_LOOKED_AT):
+        for _ in range(_SCAN_AXIS_FRAMES):
             if stored is None or stored.pixels.shape != first.pixels.shape:
                 break
             columns += roughness_along(stored.pixels, 0)

@@ -21,7 +21,7 @@ from occ_model.transmitter.framings.raw import FRAMING as RAW
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import Scheme, scheme_of
 
-_BY_CHANCE = 10
+_MIN_PREAMBLE_CHIPS = 10
 """Chips of a preamble from which a payload hardly holds it by chance."""
 
 _SAMPLES = 8
@@ -135,7 +135,7 @@ class SentPeriod:
             found = tuple(at for at in found if at + len(HEADER) <= len(chips))
         elif self.scheme.framing.name in (PREAMBLE.name, RAW.name):
             preamble = preamble_of(form)
-            unique = is_unique(preamble, form.line_code) or len(preamble) >= _BY_CHANCE
+            unique = is_unique(preamble, form.line_code) or len(preamble) >= _MIN_PREAMBLE_CHIPS
             found = find_preambles(chips, preamble) if unique else ()
         else:
             return ()

@@ -12,10 +12,10 @@ from occ_model.video.phases import ClockFit, PhaseJump, Phases, mean_step
 _MIN_FOR_DRIFT = 6
 """Frames from which a drift is fitted too."""
 
-_OUTLYING = 6.0
+_OUTLIER_DEVIATIONS = 6.0
 """Deviations from which a phase is none of the others': a packet that was misread."""
 
-_JUMP = 10.0
+_JUMP_DEVIATIONS = 10.0
 """Deviations from which the phase jumps between two frames."""
 
 _MIN_JUMP = 0.1
@@ -26,7 +26,7 @@ _MAX_JUMPS = 8
 _MIN_TO_COMPARE = 16
 """Frames from which it shows whether neighbouring residuals are alike."""
 
-_BY_CHANCE = 2.5
+_CORRELATED_DEVIATIONS = 2.5
 """Deviations of their correlation from which they are not so by chance."""
 
 _MIN_PHASE = 1e-5
@@ -41,7 +41,9 @@ def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
     for _ in range(_MAX_JUMPS + 3):
         spread = _local_spread(solution.residuals[kept], phases.errors[kept])
         jump = _largest_jump(solution.residuals, kept, spread, jumps)
-        outlying = kept & (np.abs(solution.residuals) > _OUTLYING * max(spread, _typical(solution)))
+        outlying = kept & (
+            np.abs(solution.residuals) > _OUTLIER_DEVIATIONS * max(spread, _typical(solution))
+        )
         if jump is not None and len(jumps) < _MAX_JUMPS:
             jumps.append(jump)
         elif outlying.any() and (kept & ~outlying).sum() >= max(2, len(kept) // 2):
@@ -140,7 +142,11 @@ def _alike(residuals: FloatArray) -> float:
     if count < _MIN_TO_COMPARE or power <= 0.0:
         return 1.0
     neighbours = float(residuals[1:] @ residuals[:-1]) / power
-    return correlated_columns(residuals) if neighbours > _BY_CHANCE / math.sqrt(count) else 1.0
+    return (
+        correlated_columns(residuals)
+        if neighbours > _CORRELATED_DEVIATIONS / math.sqrt(count)
+        else 1.0
+    )
 
 
 def _typical(solution: _Solution) -> float:
@@ -166,7 +172,7 @@ def _largest_jump(
     values = residuals[frames]
     heights = np.abs(np.diff(values))
     for place in np.argsort(heights)[::-1][:4].tolist():
-        if heights[place] < max(_JUMP * spread, _MIN_JUMP):
+        if heights[place] < max(_JUMP_DEVIATIONS * spread, _MIN_JUMP):
             return None
         frame = int(frames[place + 1])
         before, after = values[max(0, place - 2) : place + 1], values[place + 1 : place + 4]

@@ -19,13 +19,13 @@ from occ_model.video.period import SentPeriod
 from occ_model.video.phases import ClockFit, Phases
 from occ_model.video.read_frame import TimedFrame
 
-_REFIT = 1.25
+_REFIT_GROWTH = 1.25
 """Factor of the number of frames after which the clock is fitted anew."""
 
 FIRST_FIT = 3
 """Placed frames from which the clock is fitted."""
 
-_FORETELLING = 6
+_MIN_PREDICTING_FRAMES = 6
 """Frames of a fit from which it foretells the places of others."""
 
 _ROUNDS = 4
@@ -50,7 +50,7 @@ class PlacedFrames:
         self._readout_time, self._tolerance = readout_time, tolerance
         self._places: list[Place | None] = []
         self._fits: tuple[ClockFit, ...] = ()
-        self._next_fit, self._next_try = FIRST_FIT, _FORETELLING
+        self._next_fit, self._next_try = FIRST_FIT, _MIN_PREDICTING_FRAMES
         self._part_unknown = False
         self._times: FrameTimes | None = None
         self._clock_from = 0
@@ -149,7 +149,11 @@ class PlacedFrames:
         if not timed.is_read:
             return False
         foretold, deviation, fit = None, 0.0, self.fit
-        if fit is not None and fit.kept.sum() >= _FORETELLING and self._is_foretold(number):
+        if (
+            fit is not None
+            and fit.kept.sum() >= _MIN_PREDICTING_FRAMES
+            and self._is_foretold(number)
+        ):
             time = timed.reading.time
             phase = float(fit.at_start(np.array([time]))[0]) + fit.step * timed.column
             foretold = (phase - timed.middle) % self._period.length
@@ -204,7 +208,7 @@ class PlacedFrames:
         part = _fullest(times, (number for number, _ in shown))
         shown = [(number, place) for number, place in shown if part.first <= number < part.end]
         both = [(self.frames[number], place) for number, place in shown]
-        if len(both) < _FORETELLING:
+        if len(both) < _MIN_PREDICTING_FRAMES:
             return
         phases = _phases(both, length)
         fits = fits_of(
@@ -265,7 +269,7 @@ def _fullest(times: FrameTimes, frames: Iterable[int]) -> Part:
 
 
 def _later(count: int) -> int:
-    return int(np.ceil(count * _REFIT)) + 1
+    return int(np.ceil(count * _REFIT_GROWTH)) + 1
 
 
 def _phases(both: Sequence[tuple[TimedFrame, int]], period: int) -> Phases:

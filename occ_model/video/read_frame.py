@@ -28,10 +28,10 @@ _REMEMBERED_REGIONS = 5
 _MAX_DARK = 6.0
 """Most dark chips in a row at an end of the panel: more than any line code has."""
 
-_MARGIN = 0.5
+_MOTION_MARGIN = 0.5
 """Chips by which the panel may have moved since the frames that show where it ends."""
 
-_EDGE = 1e-6
+_ROUNDING_CHIPS = 1e-6
 """Chips of rounding that do not cut a chip off."""
 
 
@@ -176,12 +176,12 @@ def _timed(
 ) -> TimedFrame:
     lattice, count = timing.lattice, region.columns
     # In chips from the first one's start: where the first exposure starts and the last one ends.
-    start = lattice.phase - lattice.first + _MARGIN * dark_ends[0]
+    start = lattice.phase - lattice.first + _MOTION_MARGIN * dark_ends[0]
     end = lattice.phase - lattice.first + lattice.step * (count - 1) + lattice.exposure
-    end -= _MARGIN * dark_ends[1]
+    end -= _MOTION_MARGIN * dark_ends[1]
     whole = (
-        max(int(np.ceil(start - _EDGE)), 0),
-        min(int(np.floor(end + _EDGE)), len(lattice.values)),
+        max(int(np.ceil(start - _ROUNDING_CHIPS)), 0),
+        min(int(np.floor(end + _ROUNDING_CHIPS)), len(lattice.values)),
     )
     ratios = timing.ratios.copy()
     for dark, outside in zip(dark_ends, (slice(0, whole[0]), slice(whole[1], None)), strict=True):

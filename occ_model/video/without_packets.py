@@ -29,7 +29,7 @@ _MIN_CHANGE = 0.2
 """Fraction of the brightest frames' light by which dark ones are darker where whole frames
 blink."""
 
-_MOST = 0.9
+_MIN_SAME_FRACTION = 0.9
 """Fraction of frames from which all are said to show the same."""
 
 
@@ -69,7 +69,11 @@ class WithoutPackets:
     ) -> Clock | None:
         """State the clock of a square wave; None where the frames show none."""
         seen = [look for look in self._looks if look.is_pulse]
-        if times is None or len(times.parts) != 1 or len(seen) < _MOST * len(self._looks):
+        if (
+            times is None
+            or len(times.parts) != 1
+            or len(seen) < _MIN_SAME_FRACTION * len(self._looks)
+        ):
             return None
         phases = Phases(
             times=np.array([look.time for look in seen]),
@@ -119,7 +123,7 @@ class WithoutPackets:
             f"{what} after {columns}, {HERTZ.format(1.0 / (period * readout_time), 4)} by a "
             f"readout time of {SECOND.format(readout_time)}."
         )
-        if len(seen) >= _MOST * count:
+        if len(seen) >= _MIN_SAME_FRACTION * count:
             return text
         return f"{text} They are in {len(seen)} of {count} frames only: it is sent in bursts."
 
@@ -148,7 +152,7 @@ class WithoutPackets:
 def _mostly_pulses(seen: Sequence[_Look]) -> list[_Look]:
     """Return the frames that show a plain pulse; none where many show other stripes."""
     pulses = [look for look in seen if look.is_pulse]
-    return pulses if len(pulses) >= _MOST * len(seen) else []
+    return pulses if len(pulses) >= _MIN_SAME_FRACTION * len(seen) else []
 
 
 def _look(time: float, level: float, even: FloatArray, first_column: int) -> _Look:

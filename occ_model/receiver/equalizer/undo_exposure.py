@@ -16,16 +16,16 @@ from occ_model.arrays import FloatArray
 MMSE, ZERO_FORCING = "mmse", "zero-forcing"
 """The ways to undo an exposure."""
 
-_NONE = 1e-6
+_ZERO_FORCING_NOISE = 1e-6
 """Noise over light that zero-forcing takes for none: at a null it would divide by zero."""
 
-_BESIDE_NULLS = 0.25
+_NULL_FRACTION = 0.25
 """Fraction of the spectrum, where the exposure passes least, that the noise is measured in."""
 
-_FLOOR = 1e-3
+_MIN_CHIP_SPECTRUM = 1e-3
 """Least of a chip's spectrum, relative to its largest; at its own nulls it is 0."""
 
-_TAPER = 4.0
+_TAPER_EXPOSURES = 4.0
 """Exposures over which the signal fades out at either end, before the spectrum repeats it."""
 
 
@@ -63,15 +63,15 @@ def undo_exposure(
     from skimage.restoration import wiener
 
     mean = float(light.mean())
-    margin = math.ceil(_TAPER * exposure)
+    margin = math.ceil(_TAPER_EXPOSURES * exposure)
     # A Fourier transform of a length with large prime factors takes many times as long.
     faded = _faded(light - mean, margin, next_fast_len(len(light) + 2 * margin, real=True))
     passed = response(exposure, len(faded))
     frequency = np.arange(len(passed)) / len(faded)
     if method == ZERO_FORCING:
-        noise, spectrum = _NONE, np.ones_like(passed)
+        noise, spectrum = _ZERO_FORCING_NOISE, np.ones_like(passed)
     else:
-        spectrum = np.sinc(frequency * chip) ** 2 + _FLOOR
+        spectrum = np.sinc(frequency * chip) ** 2 + _MIN_CHIP_SPECTRUM
         noise = _noise_over_light(faded, light, passed, spectrum)
     # Complex: scikit-image takes it for a response, not for an impulse response.
     shape = (1.0 / np.sqrt(spectrum)).astype(np.complex128)
@@ -95,8 +95,8 @@ def _noise_over_light(
     the tone curve, and what the ends of the picture cut off.
     """
     power = np.abs(np.fft.rfft(faded)) ** 2 / len(faded)
-    count = max(1, int(_BESIDE_NULLS * len(power)))
+    count = max(1, int(_NULL_FRACTION * len(power)))
     beside = np.argpartition(np.abs(passed), count - 1)[:count]
     noise = float(power[beside].mean())
-    variance = max(float(light.var()) - noise, noise * _FLOOR)
+    variance = max(float(light.var()) - noise, noise * _MIN_CHIP_SPECTRUM)
     return noise / (variance / float(np.mean(spectrum * passed**2)))

@@ -43,7 +43,7 @@ _MIN_CORRELATION = 0.7
 _MIN_CONFIDENCE = 0.05
 """Least confidence of a code that is read; below it the best code may be so by chance."""
 
-_EXPLAINED = 1e-3
+_FULLY_EXPLAINED = 1e-3
 """Fraction of the variance below which a code explains all: bins and ranks are no more exact.
 
 Where two codes do, either can be the one that is sent.
@@ -58,7 +58,7 @@ _WIDEST_GAP = 1.25
 Where each chip has a column of its own there is no gap above one chip, but for rounding to bins.
 """
 
-_LIKELY = 16
+_CANDIDATE_CODES = 16
 """Codes that are compared in the second, more exact step."""
 
 _AT_ONCE = 2**15
@@ -159,7 +159,9 @@ def _best_code(
     if isinstance(templates, CodeTemplates):
         likely, shifts = most_likely(templates.levels[rank], templates)
     else:
-        likely, shifts = templates.most_likely(rank, _LIKELY, math.sqrt(1.0 - _EXPLAINED))
+        likely, shifts = templates.most_likely(
+            rank, _CANDIDATE_CODES, math.sqrt(1.0 - _FULLY_EXPLAINED)
+        )
     models = templates.profiles(likely)
     # The levels of each code itself are more exact than those of all codes.
     signals = np.sort(models, axis=1)[:, rank]
@@ -207,7 +209,7 @@ def _why_ambiguous(code: int, likely: IndexArray, scene: Scene) -> str | None:
 def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
     """Find the codes that correlate best with the signal over all phases, and their phases.
 
-    Returns shape (_LIKELY,) or fewer; a phase is the bin at which a code's packet starts.
+    Returns shape (_CANDIDATE_CODES,) or fewer; a phase is the bin at which a code's packet starts.
     """
     bins, period = len(signal), packet_length(templates.bits)
     about_mean = signal - signal.mean()
@@ -217,7 +219,7 @@ def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArra
     first, second = sums_of_halves(np.concatenate([with_response] * 2)[places], templates.bits)
     codes = codes_by_levels(templates.bits)
     scores = _largest_sums(first, second).ravel() / np.sqrt(templates.energy[codes])
-    count = min(_LIKELY, len(scores))
+    count = min(_CANDIDATE_CODES, len(scores))
     likely = np.argpartition(scores, -count)[-count:]
     of_first, of_second = np.divmod(likely, len(second))
     return codes[likely], (first[of_first] + second[of_second]).argmax(axis=1)
@@ -263,7 +265,7 @@ def _level_correlations(folded: FloatArray, models: FloatArray) -> FloatArray:
 
 def _unexplained(correlation: float) -> float:
     """Return the fraction of the signal's variance that a code leaves unexplained."""
-    return max(1.0 - correlation**2, _EXPLAINED)
+    return max(1.0 - correlation**2, _FULLY_EXPLAINED)
 
 
 def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -12,7 +12,7 @@ from occ_model.receiver.sequence.exposures import ChipStatistics
 from occ_model.receiver.sequence.max_log import SURVIVAL, Chips
 from occ_model.receiver.sequence.trellis import NO_STATE, Word, places_of
 
-_WAYS = 256
+_BEAM_WIDTH = 256
 """Ways that are kept at each chip."""
 
 
@@ -79,7 +79,7 @@ def _best_ways(places: IndexArray, chips: ByteArray, distance: FloatArray) -> In
     state = np.concatenate([numbers, chips[order]], axis=1)
     rows = np.ascontiguousarray(state).view(np.dtype((np.void, state.shape[1]))).ravel()
     _, firsts = np.unique(rows, return_index=True)
-    return np.asarray(order[np.sort(firsts)[:_WAYS]])
+    return np.asarray(order[np.sort(firsts)[:_BEAM_WIDTH]])
 
 
 def _margin(chips: ByteArray, distance: FloatArray) -> float:

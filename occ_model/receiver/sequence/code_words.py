@@ -26,7 +26,7 @@ _MAX_ENCODER_STATES = 16
 _MAX_BLOCK = 8
 """Bits of a block above which its words are not listed."""
 
-_SHORT = 64
+_MAX_SAMPLED_BITS = 64
 """Bits of payloads up to which all samples are tried whether they are sequences of words."""
 
 _SAMPLES = 8
@@ -79,7 +79,7 @@ def _of_scheme(
         ends = product(states, states) if header else ()
         words = (*blocks, *(Word(before, header, after) for before, after in ends))
         # The number of bits is part of some headers, so that samples are as long as the payload.
-        tried = periods if bits <= _SHORT else periods[-2:]
+        tried = periods if bits <= _MAX_SAMPLED_BITS else periods[-2:]
         if all(_accepts(words, period) for period in tried):
             return CodeWords(words, header)
     return CodeWords(FREE_CHIPS)

@@ -35,16 +35,16 @@ from occ_model.transmitter.scheme import scheme_of
 _IMPROVEMENTS = 4
 """Most times that the fit is improved from the chips that were detected."""
 
-_SETTLED = 0.9
+_MAX_NOISE_RATIO = 0.9
 """Fraction of the noise's variance before an improvement above which no other one is tried."""
 
 _MIN_CERTAINTY = 0.9
 """Least probability that all bits are right, of a code that is read."""
 
-_LONGEST_MEMORY = 32
+_MAX_MEMORY = 32
 """Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""
 
-_DOUBTFUL = 0.02
+_DOUBTFUL_FRACTION = 0.02
 """Fraction of the signal's variance that is neither the chips' light nor noise, above which their
 timing may be another one."""
 
@@ -85,10 +85,10 @@ def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
     """Say why chips cannot be told apart at a timing, or that too few are seen."""
     if has_short_chips(scene):
         return with_short_chips("The sequence detector needs one for each.", scene)
-    if timing.memory > _LONGEST_MEMORY:
+    if timing.memory > _MAX_MEMORY:
         return (
             f"An exposure covers {timing.exposure:.3g} chips; the sequence detector undoes up to "
-            f"{_LONGEST_MEMORY}."
+            f"{_MAX_MEMORY}."
         )
     if scene.transmitter.pattern or not scheme_of(scene.transmitter).is_papers:
         return None
@@ -110,7 +110,7 @@ def _fit(
     brightness = first_guess(rows, timing, PER_CHIP)
     known = find_phase(rows, timing, brightness, words)
     found = _improved(signal, scene, detect(rows, known, brightness, words), light, words)
-    if found[0].unexplained() <= _DOUBTFUL:
+    if found[0].unexplained() <= _DOUBTFUL_FRACTION:
         return found
     followed = follow_timing(rows, timing, brightness, words)
     other = _improved(signal, scene, detect(rows, followed, brightness, words), light, words)
@@ -136,7 +136,7 @@ def _improved(
         rows = replace(rows, light=light.values)
         before, fit = fit, detect(rows, *improve(rows, fit), words)
         same = np.array_equal(fit.chips.values, before.chips.values)
-        settled = (same and not light.is_estimated) or fit.noise > _SETTLED * before.noise
+        settled = (same and not light.is_estimated) or fit.noise > _MAX_NOISE_RATIO * before.noise
         if settled and fit.unexplained() <= _MAX_UNEXPLAINED:
             break
     return fit, light

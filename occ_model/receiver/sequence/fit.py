@@ -23,7 +23,7 @@ _PHASES = 8
 TRIED_CHIPS = 96
 """Chips in the middle of the picture that the phases are tried on."""
 
-_LAGS = 3
+_LAG_ROWS = 3
 """Rows apart whose products give the contrast without the noise, which no two rows share."""
 
 _MIN_NOISE = 1e-8
@@ -115,7 +115,7 @@ def first_guess(rows: Rows, timing: Timing, per_chip: int) -> Brightness:
     """Guess the brightness from the mean of the rows and the covariance of neighbours."""
     light, expected = rows.light, rows.expected
     about = light - light.mean()
-    lags = np.arange(1, _LAGS + 1)
+    lags = np.arange(1, _LAG_ROWS + 1)
     own = np.array([about[lag:] @ about[:-lag] for lag in lags]) / len(light)
     swing = expected - expected.mean()
     shifts = np.rint(lags * timing.step * per_chip).astype(np.int64)

@@ -21,7 +21,7 @@ from occ_model.receiver.sequence.trellis import Word
 _MAX_TURNS = 8
 """Most times that the timing is improved in a part: each moves its ends by a tenth of a chip."""
 
-_SETTLED = 0.01
+_CONVERGED_CHIPS = 0.01
 """Chips that the ends of a part moved, from which it is not improved again."""
 
 
@@ -55,6 +55,6 @@ def _in_part(
     for _ in range(_MAX_TURNS):
         before = here
         here, _bright = improve(seen, detect(seen, here, bright, words))
-        if abs(here.step - before.step) * size < _SETTLED:
+        if abs(here.step - before.step) * size < _CONVERGED_CHIPS:
             break
     return replace(here, phase=here.phase - here.step * first)

@@ -16,7 +16,7 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.sequence.exposures import ChipStatistics, features_of
 from occ_model.receiver.sequence.trellis import NO_STATE, Trellis
 
-_NEVER = 1e30
+_UNREACHABLE_COST = 1e30
 """Distance of a state that cannot be reached."""
 
 SURVIVAL = 5
@@ -43,7 +43,7 @@ def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
     features = np.pad(statistics.features, ((1, 0), (0, 0)))
     parts = _Parts.of(len(features), trellis.memory)
     costs = _costs(trellis, features)
-    outside = np.where(costs[:1] < _NEVER, 0.0, _NEVER)
+    outside = np.where(costs[:1] < _UNREACHABLE_COST, 0.0, _UNREACHABLE_COST)
     costs = np.concatenate([costs, outside])
     forward = _forward(trellis, costs, parts)
     both = _add_backward(trellis, costs, forward, parts)
@@ -97,7 +97,7 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
     """
     of_words = features @ features_of(trellis.words).T
     costs = of_words.take(trellis.word_of, axis=-1)
-    costs[..., trellis.before == NO_STATE] = _NEVER
+    costs[..., trellis.before == NO_STATE] = _UNREACHABLE_COST
     return np.asarray(costs)
 
 
@@ -126,7 +126,7 @@ def _add_backward(
     count = parts.chips.shape[1]
     now = np.zeros((count, states))
     ways = np.empty((count, steps * states + 1))
-    ways[:, NO_STATE] = _NEVER
+    ways[:, NO_STATE] = _UNREACHABLE_COST
     on, into = np.empty((count, *trellis.after.shape)), np.empty((count, steps, states))
     for step in range(len(parts.chips) - 2, -1, -1):
         costs.take(parts.chips[step + 1], axis=0, out=into, mode="wrap")

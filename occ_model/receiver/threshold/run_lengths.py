@@ -8,16 +8,16 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.signal import otsu_split
 from occ_model.results.decoding import RunHistogram, Runs
 
-_LONGEST = np.array([2, 4])
+_MAX_RUN_CHIPS = np.array([2, 4])
 """Chips of the longest run of zeros, and of ones: a header after data that end in a one."""
 
 _HEADER_RUNS = (3, 4)
 """Chips of the run of ones that holds a header: its own three, or four after a one."""
 
-_NO_HEADER = 0.1
+_NO_HEADER_PENALTY = 0.1
 """Penalty in chips of a fit without a header, as the picture may show none."""
 
-_WIDENED = 0.05
+_WIDENING_PENALTY = 0.05
 """Penalty of a pattern's fit, in chips, for each chip of widening."""
 
 _WIDENINGS = 19
@@ -110,7 +110,7 @@ def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
     # A threshold is rarely far off the middle.
-    penalty = _WIDENED * np.abs(widening) / nominal
+    penalty = _WIDENING_PENALTY * np.abs(widening) / nominal
     chip_length = np.full(_WIDENINGS, nominal)
     return _best_fit(runs, chip_length, widening, penalty, nominal=nominal)
 
@@ -154,9 +154,9 @@ def _best_fit(
     if nominal is not None:
         misfit += np.abs(chip_length / nominal - 1.0)
     else:
-        misfit += (n > _LONGEST[values]) @ repeats / repeats.sum()
+        misfit += (n > _MAX_RUN_CHIPS[values]) @ repeats / repeats.sum()
         ones = n[:, values == 1]
         has_header = ((ones >= min(_HEADER_RUNS)) & (ones <= max(_HEADER_RUNS))).any(axis=1)
-        misfit += np.where(has_header, 0.0, _NO_HEADER)
+        misfit += np.where(has_header, 0.0, _NO_HEADER_PENALTY)
     best = int(misfit.argmin())
     return ChipFit(float(chip_length[best]), float(widening[best]), float(misfit[best]))

@@ -9,7 +9,7 @@ from occ_model.study.bands.depth import duty
 from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.bands.shutter_speeds import shutter_speeds
 
-_NAMED = 2
+_MAX_SPEEDS = 2
 
 _SAMPLES = 65
 """Number of exposures within the error at which the depth is sampled."""
@@ -35,7 +35,7 @@ def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     cured = as_bright(scene, exposure)
     return Cure(
         repeats, duty(scene), _present_depth(scene, over, exposure_error),
-        tuple(as_written[:_NAMED]), tuple(kept[:_NAMED]), cured,
+        tuple(as_written[:_MAX_SPEEDS]), tuple(kept[:_MAX_SPEEDS]), cured,
     )  # fmt: skip
 
 

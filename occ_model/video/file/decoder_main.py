@@ -44,7 +44,7 @@ _CHECK = 0.2
 """Seconds between looks at the processor time."""
 
 
-_SPARE = 60.0
+_IDLE_SECONDS = 60.0
 """Seconds that a process without a film waits for the next one."""
 
 
@@ -71,7 +71,7 @@ class _Watch:
             if since is not None and time.process_time() - since > LONGEST:
                 os._exit(TOOK_TOO_LONG)
             closed = self._closed
-            if closed is not None and time.monotonic() - closed > _SPARE:
+            if closed is not None and time.monotonic() - closed > _IDLE_SECONDS:
                 os._exit(0)
 
 

@@ -16,7 +16,7 @@ _LARGEST_SIDE = 65_535
 _BLOCK = 255
 """Bytes of a block of data."""
 
-_AGAIN = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
+_LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
 """Lets players begin again at the end."""
 
 _HEAD, _DESCRIPTION = 13, 10
@@ -40,7 +40,7 @@ def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str)
                 )
             if count == 0:
                 file.write(b"GIF89a" + struct.pack("<HHBBB", columns, lines, 0, 0, 0))
-                file.write(_AGAIN + b"\x21\xfe" + _blocks(note.encode()))
+                file.write(_LOOP_EXTENSION + b"\x21\xfe" + _blocks(note.encode()))
             step = round((count + 1) * 100 / rate) - round(count * 100 / rate)
             file.write(struct.pack("<BBBBHBB", 0x21, 0xF9, 4, 4, step, 0, 0))
             file.write(_encoded(picture))

@@ -146,10 +146,8 @@ def draw_match(axes: Sequence[Axes], match: Match) -> None:
     """Draw a photo's profile with the one fitted to it, and below it what is left over."""
     above, below = axes
     shown = min(_SHOWN_COLUMNS, len(match.profile))
-    # type: ignore[arg-type]
-    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)
-    # type: ignore[arg-type]
-    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)
+    above.plot(match.stripes.profile[:shown], linewidth=0.9, label="photo", **PHOTO)  # type: ignore[arg-type]
+    above.plot(match.profile[:shown], linewidth=0.9, label="fit", **SIMULATION)  # type: ignore[arg-type]
     # Above the axes, where it covers no curve.
     above.legend(
         loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, frameon=False, fontsize=7,

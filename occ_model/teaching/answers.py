@@ -83,8 +83,7 @@ def _to_set_first(check: Check, scene: Scene) -> str:
             is_set = now == asked
         if not is_set:
             declared = PARAMETERS[name]
-            # type: ignore[arg-type]
-            differing.append(f"{declared.label} to {declared.format(asked)}")
+            differing.append(f"{declared.label} to {declared.format(asked)}")  # type: ignore[arg-type]
     if not differing:
         return ""
     return f"First set {' and '.join(differing)}: the question is about that."

@@ -1,6 +1,6 @@
 """Sketches for Arduino boards with an ATmega328P: a timer's compare output switches the pin.
 
-The interrupt only tells the timer what to do at the end of the chip; the timer does it. So edges
+The interrupt only programs what the timer does at the end of the chip. So edges
 are exact to the cycle of the clock, however late the interrupt comes within the chip.
 """
 

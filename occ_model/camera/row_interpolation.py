@@ -2,7 +2,7 @@
 
 Within a band of rows the light changes smoothly with the row, so that a polynomial through its
 values at a few nodes gives all its rows. At the Chebyshev nodes its error falls geometrically with
-their number, and the last coefficients of its Chebyshev series tell how small it is (L. N.
+their number, and the last coefficients of its Chebyshev series bound it (L. N.
 Trefethen, *Approximation Theory and Approximation Practice*, 2013, chapters 3 and 8).
 """
 

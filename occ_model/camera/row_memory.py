@@ -18,7 +18,7 @@ LIMIT = 24 * 2**20
 
 MOST_ENTRIES = 256
 """Most things that are remembered: of small pictures thousands would fill the bytes, and each takes
-as much again in objects that are no arrays."""
+as much again in objects other than arrays."""
 
 
 class RowMemory:

@@ -19,7 +19,7 @@ _RANGES = 6
 def add_to(commands: Commands) -> None:
     """Add the command."""
     parser = commands.add_parser(
-        "bands", help="tell how deep the bars of a picture are, and which settings show none"
+        "bands", help="report the depth of a picture's bars, and settings without bars"
     )
     add_scene_options(parser)
     parser.add_argument(

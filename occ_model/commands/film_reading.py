@@ -31,7 +31,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
     video = load_video(options.file, options.scan_axis, channel=_channel(options.channel))
     with progress_bar(total=video.frame_count, unit="frame", disable=options.follow or None) as bar:
 
-        def told(known: FilmProgress) -> None:
+        def report_progress(known: FilmProgress) -> None:
             if options.follow:
                 print(_line(known), flush=True)
             else:
@@ -42,7 +42,7 @@ def read_film(options: argparse.Namespace, scene: Scene) -> int:
             scene,
             options.decoder,
             readout_tolerance=percent / 100.0,
-            progress=told,
+            progress=report_progress,
         )
     for line in _report(reading, video):
         print(line)

@@ -214,7 +214,7 @@ def _codes(options: argparse.Namespace) -> int:
     )
     alike = [f"{one.bits}" for one, gain in zip(found, gains, strict=True) if gain == max(gains)]
     if len(alike) > 1:
-        print(f"As well do {', '.join(alike[1:])} bits: so few pictures do not tell them apart.")
+        print(f"As well do {', '.join(alike[1:])} bits: so few pictures do not distinguish them.")
     return 0
 
 

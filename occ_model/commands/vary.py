@@ -29,7 +29,7 @@ def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:
         name, equals, text = setting.partition("=")
         name = name.strip()
         if not equals:
-            raise ParameterError(f"{shown(setting)} is no axis; allowed: {SYNTAX}.")
+            raise ParameterError(f"{shown(setting)} is not an axis; allowed: {SYNTAX}.")
         parameter = parameter_named(name)
         if name in axes:
             raise parameter.refuse("is varied twice", "one axis a parameter")

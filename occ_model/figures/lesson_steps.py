@@ -75,12 +75,12 @@ def draw_page(
 def _draw_step(figure: Figure, number: int, each: AnsweredStep, top: float, bottom: float) -> None:
     answer = each.answer
     given = _NO_ANSWER if answer is None else each.step.with_unit(answer.text)
-    told = "" if answer is None else answer.sentence
+    outcome = "" if answer is None else answer.sentence
     matched = "" if each.match is None else "; ".join(match_lines(each.match, each.photo))
     texts = (
         (f"{number}. {each.step.question}", 10, "bold", "0.0"),
         (f"Answer: {given}", 10, "normal", "0.0"),
-        (told, 9, "normal", "0.3"),
+        (outcome, 9, "normal", "0.3"),
         (matched, 9, "normal", "0.0"),
         (explanation(each.step, each.scene), 8.5, "normal", "0.3"),
     )

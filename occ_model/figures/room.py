@@ -14,7 +14,7 @@ from occ_model.room.room import Place, Room
 from occ_model.room.view import room_outline, seen_outline
 from occ_model.scene.provenance import Provenance
 
-_TITLE = "Room, its picture and the place that it tells"
+_TITLE = "Room, its picture and the place found"
 _NUMBERS = tuple(Place.__dataclass_fields__)
 
 

@@ -21,7 +21,7 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.packet_fields import threshold_levels
 
 MOST_CELLS = 900
-"""Cells on each side of a printed picture: more are no finer on paper."""
+"""Maximum cells on each side of a printed picture: print resolves no more."""
 
 _PHOTO = "photo, fitted levels"
 """Name of a photo's profile: it has the mean and the contrast of the simulation's."""
@@ -53,7 +53,7 @@ def _named_values(scene: Scene) -> list[str]:
 
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
-    """Write the scene under a figure, and what is told of a photo in it.
+    """Write the caption of a figure: its scene, and what is known of its photo.
 
     ``about``: a sentence on the photo; empty without one.
     """

@@ -34,7 +34,7 @@ _BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")
 """Boxes that MP4 and MOV files begin with, after four bytes of length."""
 
 FIRST_BYTES = 16
-"""Bytes that tell the kind."""
+"""Number of bytes that identify the kind."""
 
 
 def container_of(path: Path, start: bytes) -> Container:
@@ -43,7 +43,7 @@ def container_of(path: Path, start: bytes) -> Container:
     if kind is not None:
         return kind
     raise VideoError(
-        f"{one_line(str(path))} is no film that can be read; allowed: MP4, MOV, AVI, MKV, WebM, "
+        f"{one_line(str(path))} is not a film that can be read; allowed: MP4, MOV, AVI, MKV, WebM, "
         "GIF and animated PNG."
     )
 

@@ -42,8 +42,8 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
     Raises
     ------
     DecodeInputError
-        The array is no grey image or profile, is empty or too large, or holds a value that is not
-        a number.
+        The array is not a grey image or profile, is empty or too large, or holds a value that is
+        not a number.
     ParameterError
         There is no such decoder.
     """
@@ -52,7 +52,7 @@ def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> D
         image = np.asarray(image)
     except ValueError:
         raise DecodeInputError(
-            "The image is no array: its rows are of different lengths."
+            "The image is not an array: its rows are of different lengths."
         ) from None
     _check(image)
     if image.ndim == 1:

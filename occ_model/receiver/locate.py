@@ -10,7 +10,7 @@ from occ_model.receiver.signal import otsu_split
 from occ_model.results.decoding import Location, Region
 
 _MAX_GRID_CELLS = 512
-"""Most cells a side of the grid that contours are grown on; they need not be as fine as pixels."""
+"""Maximum cells on a side of the grid on which contours grow."""
 
 _MIN_BRIGHT_FRACTION = 0.04
 """Least fraction of bright pixels in a cell of a contour; below it they are noise."""

@@ -78,13 +78,13 @@ def _problem_of_code(result: DecodeResult) -> str | None:
     code: object = result.code
     payload: object = result.payload
     if not is_reason(failure):
-        return "a failure that is no sentence"
+        return "a failure that is not a sentence"
     if failure is None and (code is None or not result.bits.size):
         return "neither a code with its bits nor a failure"
     if code is not None and (not _is_whole(code) or code < 0):  # type: ignore[operator]
-        return f"the code {shown(code)}, which is no whole number from 0"
+        return f"the code {shown(code)}, which is not a whole number from 0"
     if not isinstance(payload, str):
-        return f"the payload {shown(payload)}, which is no text"
+        return f"the payload {shown(payload)}, which is not text"
     return None
 
 
@@ -108,12 +108,12 @@ def _problem_of_arrays(result: DecodeResult, columns: int) -> str | None:
     for name in ("folded", "model", *lengths):
         values = getattr(result, name)
         if values is not None and not _is_line(values, lengths.get(name)):
-            return f"{name} that is no array of as many finite numbers as it should"
+            return f"{name} that is not an array of as many finite numbers as it should"
     headers: object = result.headers
     if not isinstance(headers, tuple) or not all(
         _is_whole(place) and 0 <= place < chips for place in headers
     ):
-        return f"the headers {shown(headers)}, which are no places among its chips"
+        return f"the headers {shown(headers)}, which are not places among its chips"
     return None
 
 

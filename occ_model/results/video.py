@@ -101,7 +101,7 @@ class Video(ABC):
         Raises
         ------
         ParameterError
-            ``first`` is no whole number from 0.
+            ``first`` is not a whole number from 0.
         VideoError
             The file cannot be read any more.
         """

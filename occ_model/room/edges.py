@@ -23,7 +23,7 @@ _EDGE_REACH = 7
 """Pixels on either side of an edge that is expected: its light is summed there."""
 
 _LEVEL_PIXELS = 10
-"""Further pixels that tell the light of the lamp, and that of its surroundings."""
+"""Further pixels that give the light of the lamp, and of its surroundings."""
 
 _MIN_RELATIVE_LIGHT = 0.5
 """Fraction of the lamp's brightest light from which an edge is measured."""
@@ -35,10 +35,10 @@ _MIN_POINTS = 16
 """Points from which a line is fitted."""
 
 _MIN_ROWS = 16
-"""Rows from which the lamp's light in a column is told."""
+"""Minimum rows that determine the lamp's light in a column."""
 
 _MIN_LEVEL_PIXELS = 4
-"""Bright pixels inside a lamp from which the level of its light is told."""
+"""Minimum bright pixels inside a lamp that determine its level."""
 
 _MAX_DEVIATIONS = 3.5
 """Deviations beyond which a point is left out of a line."""
@@ -234,7 +234,7 @@ def _counts(
     """Return how many pixels about an edge are lit, the error that all counts share, and which.
 
     The light about an edge is as much as its innermost pixels would hold, so many and a part of
-    the next. A count is told only where that one is bright.
+    the next. A count is valid only where that one is bright.
 
     ``light``: shape (points, 2 _EDGE_REACH + 2 _LEVEL_PIXELS + 1); from outside to inside.
     ``expected``: the lamp's own light there, shape as ``light`` or (points, 1). ``bright``:
@@ -346,7 +346,7 @@ class _Line:
 def _alike(lines: Sequence[_Line]) -> float:
     """Return how many times the variance of sums over neighbours is that of unlike errors.
 
-    Over all edges of a lamp: one has too few blocks to tell.
+    Over all edges of a lamp: one has too few blocks.
     """
     sums = np.array([line.sums_of_blocks() for line in lines]).reshape(-1, 2).sum(axis=0)
     return max(1.0, float(sums[0] / sums[1])) if sums[1] > 0.0 else 1.0

@@ -31,7 +31,7 @@ _MAX_MEAN_SQUARE = 4.0
 _MAX_EXCLUDED_EDGES = 3
 """Edges that may be left out, one after the other, where no place explains all."""
 
-_ONE_LAMP = "Only one lamp tells the place: it can be farther off than the stated errors."
+_ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
 
 _PLACE_TOLERANCE = 1e-3
 """Metres and radians within which two places are the same."""
@@ -88,7 +88,7 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     Raises
     ------
     DecodeInputError
-        The array is no picture of the room's camera.
+        The array is not a picture of the room's camera.
     ParameterError
         The share is none from 0 to 1.
     """
@@ -131,7 +131,7 @@ def _located(
 ) -> tuple[list[Located], tuple[str, ...]]:
     if not measured:
         what = "No lamp was found" if not found else "No rectangular lamp was named"
-        return [], (f"{what}: there is nothing to tell the place from.",)
+        return [], (f"{what}: nothing determines the place.",)
     whole = [one for one in measured if not one.is_cut]
     if not whole:
         return [], ("Every named lamp is cut by the picture's edge; one has to be whole.",)
@@ -162,7 +162,7 @@ def _located(
         return kept, (_ONE_LAMP,) if len(measured) == 1 else ()
     return kept, (
         f"{len(kept)} places explain the picture alike: a panel looks the same when it is turned, "
-        "and a small one when it is tilted the other way. More lamps would tell.",
+        "and a small one when it is tilted the other way. More lamps would resolve it.",
     )
 
 

@@ -24,7 +24,7 @@ _STEP = 1e-6
 """Of each number, for its slope."""
 
 _MAX_CONDITION_NUMBER = 1e14
-"""Ratio of what is told best and worst from which some of it is not told at all."""
+"""Condition number from which some parameters are undetermined."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

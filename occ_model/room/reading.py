@@ -27,7 +27,7 @@ _MIN_LAMP_FRACTION = 0.1
 """Fraction of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
 
 _SAMPLING_STEP = 4
-"""Every so manieth of those tells how bright the surroundings and the lamps are."""
+"""Step between the rows that sample the light of surroundings and lamps."""
 
 _MIN_SIDE = 12
 """Rows and columns of the smallest lamp that is looked at."""

@@ -162,7 +162,7 @@ class Room:
 
     def __post_init__(self) -> None:
         check_scene(self.scene)
-        # A pose that is not used is no difference between two rooms.
+        # An unused pose does not make two rooms differ.
         object.__setattr__(self, "scene", dataclasses.replace(self.scene, pose=Pose()))
         if not isinstance(self.camera, Place):
             raise ParameterError.of("camera", shown(self.camera), "a Place")
@@ -259,7 +259,7 @@ class Room:
         Raises
         ------
         SceneFileError
-            The text is no room file.
+            The text is not a room file.
         ParameterError
             A value is not of its kind or out of range; a lamp is named.
         """

@@ -23,7 +23,7 @@ def load_room(name: str | Path) -> Room:
     PresetError
         No room has that name; the message lists the known names.
     SceneFileError, ParameterError
-        The file cannot be read, or is no room.
+        The file cannot be read, or is not a room.
     """
     if isinstance(name, str) and name in rooms():
         return Room.from_toml(resource_text(_FOLDER, name + _ENDING))

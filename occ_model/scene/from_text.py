@@ -56,6 +56,6 @@ def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
     for setting in settings:
         name, equals, text = setting.partition("=")
         if not equals:
-            raise ParameterError(f"{shown(setting)} is no setting; write NAME=VALUE.")
+            raise ParameterError(f"{shown(setting)} is not a setting; write NAME=VALUE.")
         changes[name.strip()] = parameter_named(name.strip()).parse(text)
     return scene.replace(**changes)

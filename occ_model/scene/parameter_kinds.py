@@ -72,7 +72,7 @@ class Quantity(Declaration):
 
     def check(self, value: object) -> float:
         """Return ``value`` as a float, or raise :class:`ParameterError`."""
-        if type(value) is float:  # as most are, and sooner told than any number
+        if type(value) is float:  # as most are, and checked faster than any number
             number = value
         elif isinstance(value, bool) or not isinstance(value, Real):
             raise self.refuse(f"is {shown(value)}, which is not a number", self.allowed)

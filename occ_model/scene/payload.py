@@ -26,7 +26,7 @@ _SHORT_FORM = re.compile(r"\s*(?:0x([0-9a-f ]+)|0b([01 ]+))", re.IGNORECASE)
 _DIGITS_ALONE = re.compile("[0-9 ]*")
 
 _REPLACEMENT_LETTER = "?"
-"""In place of bytes that are no text."""
+"""In place of bytes that are not text."""
 
 
 def canonical(value: object) -> str:
@@ -77,7 +77,7 @@ def typed_form(payload: str) -> str:
 def _is_content(form: str, content: str) -> bool:
     match form:
         case "text":
-            # Half of a pair of surrogates is no character.
+            # Half of a surrogate pair is not a character.
             return not any("\ud800" <= letter <= "\udfff" for letter in content)
         case "hex":
             return re.fullmatch("(?:[0-9a-f]{2})*", content) is not None

@@ -55,7 +55,7 @@ def parse_toml(text: str) -> dict[str, Any]:
     """Read TOML from an untrusted source, in a time that grows with the text's length."""
     if not isinstance(text, str):
         raise SceneFileError(f"A scene is read from text (str), not from {type(text).__name__}.")
-    # What stands in a string is no key, and a string that is a part of a key is one part.
+    # A string is not a key, and a string that is a part of a key is one part.
     if _LONG_KEY.search(_STRING_OR_COMMENT.sub("s", text)):
         raise SceneFileError(
             f"This is not a scene file: a key has more than {_MAX_KEY_PARTS} parts."

@@ -67,7 +67,7 @@ class MeanRows(Protocol):
     """Gives the mean pixel values of any rows of a picture."""
 
     def of(self, place: range, stage_ended: Callable[[str], object], /) -> Rows:
-        """Compute some rows; each stage's name is told as it ends."""
+        """Compute some rows; each stage is reported as it ends."""
 
 
 class PixelExposure:

@@ -57,7 +57,7 @@ def render(
         :func:`occ_model.plan`.
     noise
         ``"exact"``: drawn for every pixel; ``"reused"``: from a plane of noise at random places,
-        many times faster. All noise then shares its numbers: the fixed pattern is not fixed.
+        many times faster. All noise then uses the same numbers: the fixed pattern is not fixed.
     rows_step
         From 2 on a draft: every ``rows_step``-th row of the picture and no other, each as it is in
         the picture but for its random numbers. A file is made of the draft's rows, as if they were
@@ -71,9 +71,9 @@ def render(
     Raises
     ------
     ParameterError
-        The tolerance or the seed is negative, or no number; there is no such observable, effect or
-        source of noise; the step of a draft is less than 1 row or more than the picture has; or the
-        picture is too large for the JPEG file that the scene asks for.
+        The tolerance or the seed is negative or not a number; there is no such observable, effect
+        or source of noise; the step of a draft is less than 1 row or more than the picture has; or
+        the picture is too large for the JPEG file that the scene asks for.
     ProjectionError
         Part of the panel is behind the camera, the lens folds the picture, or the image would be
         too large.

@@ -1,4 +1,4 @@
-"""Why a picture is not read: the cause in the scene, before the symptom that a decoder meets."""
+"""Why a picture is not read: the cause in the scene, not the symptom in a decoder."""
 
 import math
 from collections.abc import Mapping
@@ -27,15 +27,15 @@ _NEAR_NULL = 0.96
 """Fraction of the null frequency from which single chips are lost in rounding."""
 
 _TARGET_LEVEL = 200.0
-"""Grey level of the lit panel that a step towards more or less light aims at."""
+"""Grey level of the lit panel that a suggested step aims at."""
 
 _STEP_MARGIN = 1.15
-"""By how much a step goes beyond the limit that theory gives."""
+"""Factor by which a suggested step exceeds the theoretical limit."""
 
 
 _MIN_SWING_TO_NOISE = {"threshold": 10.0, "equalizer": 2.0}
-"""Times a column's noise that stripes must swing, at random scenes: a single column that errs cuts
-a run in two. The equalizer smooths."""
+"""Minimum ratio of the stripes' swing to a column's noise, found on random scenes: a single wrong
+column splits a run. The equalizer smooths."""
 
 
 @dataclass(frozen=True, slots=True)

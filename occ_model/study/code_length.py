@@ -1,8 +1,9 @@
-"""Which length of code serves many lamps: how many codes there are, how alike, and what is read.
+"""Compare lengths of code for many lamps: number of codes, their distance, and what is read.
 
-A longer code leaves most of its words unused, so that a wrong one is seldom another lamp's; but its
-packet is longer, and a picture shows fewer of them. A room has at most 200 lamps; those of a larger
-house send other codes of the same length, and what they change is counted, not simulated.
+A longer code leaves most of its words unused, so that a misread one is rarely another lamp's, but a
+picture shows fewer of its longer packets. A room has at most 200 lamps; the others of a larger
+building are taken into account by counting, not by simulation.
+
 """
 
 from collections.abc import Sequence
@@ -26,12 +27,12 @@ MOST_CODES = 4096
 """Lamps beyond which codes are not compared with each other."""
 
 _EXTRA_BITS = (0, 2, 4)
-"""Bits beyond the fewest that have a code for each lamp, tried by themselves."""
+"""Bits beyond the minimum that gives each lamp a code."""
 
 
 @dataclass(frozen=True, slots=True)
 class CodeLength:
-    """What codes of one length give."""
+    """Result for one length of code."""
 
     # Of a code, and of its packet
     bits: int
@@ -54,7 +55,7 @@ class CodeLength:
     def named_wrongly(self, lamps: int) -> float:
         """Return how many of the misread lamps are expected to be named as another one of many.
 
-        As if a code that is misread were any of the others.
+        A misread code is taken as uniformly distributed over the others.
         """
         return self.misread * (lamps - 1) / (self.codes - 1)
 

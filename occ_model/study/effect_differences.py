@@ -17,7 +17,7 @@ from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.telling_crop import ICON, telling_crop
 
 _SAMPLES = 2**16
-"""Most places in which a change is kept."""
+"""Maximum number of samples kept of a change."""
 
 _VISIBLE_CHANGE = 0.05
 """Root mean square in grey levels below which a change of the panel's pixels is not seen."""

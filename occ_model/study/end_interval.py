@@ -6,11 +6,11 @@ is lost are taken to grow as
 o(u) = o_0 (1 + b (u - u_0) / m)^m, and to be nothing where the base is negative,
 
 with the logarithm u of the value, u_0 that of the end, and the odds o_0 at the rate asked for. The
-power m tells how losses set in: suddenly (1/2), evenly (1), ever faster (2, 4), or as in a logistic
-curve (infinite). An end is in the interval if, with the slope b and the power m that suit it best,
-it is not refuted by the ratio of its likelihood to the greatest of all (S. S. Wilks, Ann. Math.
-Statist. 9 (1938) 60). A lost picture may lose a part of its bits alone: it counts as one by what it
-loses over what lost pictures lose, (sum of squares) / sum.
+power m tells how losses set in: suddenly (1/2), linearly (1), accelerating (2, 4), or logistically
+(infinite). An end is in the interval if, with the slope b and the power m that suit it best, it is
+not refuted by the ratio of its likelihood to the greatest of all (S. S. Wilks, Ann. Math. Statist.
+9 (1938) 60). A lost picture may lose a part of its bits alone: it counts as one by what it loses
+over what lost pictures lose, (sum of squares) / sum.
 """
 
 import math

@@ -132,7 +132,7 @@ SEARCHED = ("switching_frequency", "exposure_time")
 """The parameters whose limits are searched."""
 
 _POLL_SECONDS = 0.1
-"""Seconds between two looks at what other processes have done."""
+"""Seconds between two polls of other processes."""
 
 
 def usual_images(images: int, rate: float) -> int:

@@ -51,7 +51,7 @@ _LENS_SHIFT_PART = 50
 
 
 _MAX_EXPECTED_BRIGHT = 0.01
-"""Pixels beside the panel that may be expected to be as bright as its brightest."""
+"""Negligible expected number of pixels outside the panel as bright as its brightest."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

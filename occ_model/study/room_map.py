@@ -36,7 +36,7 @@ _START_TIME_SPREAD = 0.1
 """Seconds over which the start of each picture is drawn at random."""
 
 _LAMP_MARGIN = 20.0
-"""Pixels beyond a lamp's rectangle within which what is read is that lamp."""
+"""Pixels around a lamp's rectangle within which a reading is attributed to it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +74,7 @@ class RoomMapRequest:
 
 @dataclass(frozen=True, slots=True)
 class RoomPoint:
-    """What pictures at one place told."""
+    """Results of the pictures at one place."""
 
     index: int  # The place's number
     # Lamps whole in the pictures, and those of them that were named rightly, in all pictures

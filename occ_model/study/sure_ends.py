@@ -5,8 +5,8 @@ their 95 % intervals lie on either side of the rate asked for. At a rate of 99 %
 381 images, all of them read. So values inside are tried in growing steps from the end, each until a
 first image is not read. The search has found a value that fails in twenty images, which is far out
 where the rate falls slowly: values between it and the end are tried with more images, each until it
-is refuted that the rate is reached there. In which part between the end lies is told by more
-pictures there: see :mod:`occ_model.study.end_interval`.
+is refuted that the rate is reached there. More pictures in between narrow the end down: see
+:mod:`occ_model.study.end_interval`.
 """
 
 import math
@@ -36,7 +36,7 @@ _ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
 """Pictures at parts of what is left of an interval, in rounds."""
 
 _REFUTING_PROBABILITY = 0.025
-"""Chance to refute a rate that is reached: that of one side of a 95 % interval."""
+"""Probability of wrongly refuting a rate: one side of a 95 % interval."""
 
 _STAKES = (0.03, 0.1, 0.3)
 """Stakes of the betting test, as fractions of the maximum: small ones detect small deficits."""
@@ -55,7 +55,7 @@ def images_to_be_sure(rate: float) -> int:
 
 
 def images_about_an_end(rate: float) -> int:
-    """Return how many images usually tell how surely an end is known."""
+    """Return how many images the confidence of an end usually takes."""
     sure = images_to_be_sure(rate)
     return sure and sure + _ROUNDS * len(_PARTS) * PICTURES
 

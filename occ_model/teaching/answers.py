@@ -55,7 +55,7 @@ def check_answer(
     given = quantity.unit.parse(text, plain)
     if given is None or not math.isfinite(given):
         hint = f" in {quantity.asked_in}" if quantity.asked_in else ""
-        return CheckedAnswer(text, "unreadable", f"“{one_line(text, 40)}” is no number{hint}.")
+        return CheckedAnswer(text, "unreadable", f"“{one_line(text, 40)}” is not a number{hint}.")
     difference = abs(given - expected) / abs(expected) if expected else abs(given)
     if difference <= check.tolerance * (1.0 + _ROUNDING):
         value = result_text(quantity.unit, expected)

@@ -101,7 +101,7 @@ def _lesson(name: str, text: str) -> Lesson:
     try:
         content = parse_toml(text)
     except SceneFileError as error:
-        raise SceneFileError(f"{where} is no lesson: {error}") from None
+        raise SceneFileError(f"{where} is not a lesson: {error}") from None
     place: int | None = None
     try:
         _check_keys(content, _LESSON_KEYS, "lesson")
@@ -117,7 +117,7 @@ def _lesson(name: str, text: str) -> Lesson:
     except OccError as error:
         key = error.key if isinstance(error, _MistakeError) else "set"
         line = _line(text, place, key)
-        raise SceneFileError(f"{where} is no lesson: line {line}: {error}") from None
+        raise SceneFileError(f"{where} is not a lesson: line {line}: {error}") from None
 
 
 def _line(text: str, step: int | None, key: str) -> int:

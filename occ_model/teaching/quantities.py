@@ -70,7 +70,7 @@ def _chip_columns(scene: Scene, _photo: str | Match = "") -> float:
 
 def _code(scene: Scene) -> float:
     if scene.transmitter.pattern:
-        raise OccError("The photo's chips are a pattern that is no packet: it has no code.")
+        raise OccError("The photo's chips are a pattern, not a packet: it has no code.")
     return float(scene.transmitter.code)
 
 
@@ -179,7 +179,7 @@ QUANTITIES: dict[str, LessonQuantity] = {
         _bit_rate,
     ),
     "share-seen": LessonQuantity(
-        f"share of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
+        f"fraction of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
         _PERCENT,
         "%",
         _share_seen,

@@ -16,7 +16,7 @@ from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
 
 _ROUNDS = 6
-"""Most improvements of the timing."""
+"""Maximum iterations of the timing's fit."""
 
 _CONVERGED_CHANGE = 1e-5
 """Change of the timing in chips below which the fit has converged."""
@@ -29,7 +29,7 @@ _SHIFTS = np.linspace(-0.75, 0.75, 13)
 
 _MIN_FREEDOM, _FREEDOMS, _CHIPS_A_FREEDOM = 3, (5, 7), 6
 """Numbers of polynomials of either level, and the chips in view for each. Light that falls off as a
-lens's or a round lamp's is no parabola, which shifts the edges of all frames alike: over 60
+lens's or a round lamp's is not a parabola, which shifts the edges of all frames alike: over 60
 simulated films of 25 frames the median error of the readout time is 5.1 ppm with 3 and 1.6 ppm with
 up to 7."""
 

@@ -12,8 +12,7 @@ READOUT_TOLERANCE = 0.01
 """Fraction by which the readout time may differ from the rough one that is given."""
 
 _MAX_READOUT_EXCESS = 1e-3
-"""Fraction of a frame period by which reading out may seem to last longer: of measurement
-errors."""
+"""Fraction by which measurement errors may extend the readout beyond the frame period."""
 
 _MIN_FRAMES = 3
 """Minimum number of frames to fit the clock to."""
@@ -96,7 +95,8 @@ def _problems(fits: tuple[ClockFit, ...], phases: Phases) -> list[str]:
         )
         problems.append(
             f"Several frequencies fit the frames alike: {HERTZ.format(best.frequency)} is stated, "
-            f"but also {others}; a surer readout time, or a longer packet, would tell them apart."
+            f"but also {others}; a more accurate readout time, or a longer packet, would "
+            "distinguish them."
         )
     outliers = int((~best.kept).sum())
     if outliers > _MAX_OUTLIER_FRACTION * len(best.kept):

@@ -1,4 +1,4 @@
-"""Fit the switching frequency to the phases of frames, and tell its aliases apart.
+"""Fit the switching frequency to the phases of frames, and resolve its aliases.
 
 A frame shows the phase of the chips at its time only up to whole periods of what is sent. So
 frequencies that differ by a whole number of periods between frames fit alike (aliases). The rough
@@ -27,7 +27,7 @@ _MAX_ALIASES = 64
 """Most frequencies that may fit alike: of more, as with frames far apart, none is stated."""
 
 _TRIED_WITHOUT_CHANCE = 64.0
-"""Frequencies among which none is coherent by chance."""
+"""Number of frequencies without one that is coherent by chance."""
 
 _MIN_RELATIVE_COHERENCE = 0.8
 """Fraction of the best coherence from which another frequency is an alias to be fitted."""

@@ -14,8 +14,8 @@ _MIN_CERTAINTY = 0.9
 """Least probability that all bits are right, of a payload that is read."""
 
 NO_CLOCK = (
-    "The frame times tell no clock: no frequency that the readout time allows explains what the "
-    "frames show, or too many do. Packets are not counted."
+    "The frame times do not determine a clock: no frequency that the readout time allows explains "
+    "what the frames show, or too many do. Packets are not counted."
 )
 
 
@@ -43,7 +43,7 @@ def why_unplaced(frames: Sequence[TimedFrame]) -> str:
         return f"None of {len(frames)} frames shows chips; of the first one: {why}"
     why = read[0].problem
     rest = (
-        "no header tells it, and the chips fit no place."
+        "no header shows it, and the chips fit no place."
         if why is None
         else f"of the first one: {why}"
     )

@@ -56,7 +56,7 @@ class FrameTimes:
 
     @property
     def follow(self) -> bool:
-        """Whether most frames follow each other, so that their times tell a clock."""
+        """Whether most frames follow each other, so that their times determine a clock."""
         return len(self.parts) == 1 or len(self.numbers) >= _MIN_FRAMES_PER_PART * len(self.parts)
 
     def part_of(self, frame: int) -> Part:

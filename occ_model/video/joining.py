@@ -24,13 +24,13 @@ _KNOWN_CHIP_RATIO = 2.0
 """Log-likelihood ratio from which a chip counts as known when places are compared."""
 
 _MIN_LOG_ODDS = 7.0
-"""Logarithm of the odds of the best place against all others together from which it is taken."""
+"""Minimum log-odds of the best place against all others together."""
 
 _CONTRADICTING_LOG_LIKELIHOOD = -12.0
 """Logarithm of the likelihood below which a place contradicts the chips that are known."""
 
 _MIN_DEVIATION = 0.15
-"""Least standard deviation of a place that the clock foretells, in chips."""
+"""Minimum standard deviation of a place predicted by the clock, in chips."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ class Joined:
         self._votes, self._counts = np.roll(self._votes, shift), np.roll(self._counts, shift)
 
     def _likelihood(self, frame: FrameReading) -> FloatArray:
-        """Return the logarithm of the likelihood of each place, 0 for one that tells nothing."""
+        """Return the logarithm of the likelihood of each place, 0 for one without information."""
         ratios, length = self.ratios, self._period.length
         lit, dark = (
             (ratios > _KNOWN_CHIP_RATIO).astype(np.float64),

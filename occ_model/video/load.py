@@ -36,7 +36,7 @@ _MAX_DECODED_AHEAD = 10
 """Frames ahead up to which a frame is decoded to; one further away is found by its time."""
 
 _STEPS_LEFT = 2.0
-"""The last frame of a whole film is no further from its end than so many of the longest steps."""
+"""Maximum distance of a complete film's last frame from its end, in longest steps."""
 
 _SCAN_AXIS_FRAMES = 5
 """Frames at a film's start on which the scan axis is found."""

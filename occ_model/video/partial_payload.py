@@ -15,7 +15,7 @@ UNKNOWN = "·"
 
 
 def known_bits(joined: Joined, period: SentPeriod) -> IndexArray:
-    """Return the payload's bits that chips in view tell.
+    """Return the payload's bits known from the chips in view.
 
     Returns shape (bits,); 0 or 1, and -1 where it is not known.
     """

@@ -22,7 +22,7 @@ from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import Scheme, scheme_of
 
 _MIN_PREAMBLE_CHIPS = 10
-"""Chips of a preamble from which a payload hardly holds it by chance."""
+"""Minimum length of a preamble that a payload rarely contains by chance."""
 
 _SAMPLES = 8
 """Payloads that show which chips are the same in all."""

@@ -13,7 +13,7 @@ _MIN_FOR_DRIFT = 6
 """Frames from which a drift is fitted too."""
 
 _OUTLIER_DEVIATIONS = 6.0
-"""Deviations from which a phase is none of the others': a packet that was misread."""
+"""Standard deviations from which a phase is an outlier: a misread packet."""
 
 _JUMP_DEVIATIONS = 10.0
 """Deviations from which the phase jumps between two frames."""
@@ -24,10 +24,10 @@ _MIN_JUMP = 0.1
 _MAX_JUMPS = 8
 
 _MIN_TO_COMPARE = 16
-"""Frames from which it shows whether neighbouring residuals are alike."""
+"""Minimum frames for a correlation of neighbouring residuals."""
 
 _CORRELATED_DEVIATIONS = 2.5
-"""Deviations of their correlation from which they are not so by chance."""
+"""Standard deviations from which that correlation is significant."""
 
 _MIN_PHASE = 1e-5
 """Least standard deviation of a phase in chips that is believed."""

@@ -26,10 +26,10 @@ FIRST_FIT = 3
 """Placed frames from which the clock is fitted."""
 
 _MIN_PREDICTING_FRAMES = 6
-"""Frames of a fit from which it foretells the places of others."""
+"""Minimum frames of a fit that predicts the places of others."""
 
 _ROUNDS = 4
-"""Most rounds in which frames that were not placed are tried again at the end."""
+"""Maximum rounds over unplaced frames at the end."""
 
 
 class PlacedFrames:

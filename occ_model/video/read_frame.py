@@ -89,7 +89,7 @@ class FrameReader:
 
     The timing of chips is fitted to the light, which the camera's picture shows. Their values are
     read from either, as of a single picture: an enhancement moves the threshold, so that chips can
-    be told apart in one picture that cannot in the other. Those count that explain the light
+    be distinguished in one picture that cannot in the other. Those count that explain the light
     better.
     """
 

@@ -1,4 +1,4 @@
-"""The reader of a film: it takes frames as they come, and says what they tell together."""
+"""The reader of a film: it takes frames as they come, and combines their information."""
 
 import numpy as np
 
@@ -135,7 +135,7 @@ class VideoReader:
         )
 
     def _problems(self, times: FrameTimes | None) -> tuple[str, ...]:
-        """Say what is not regular in the times of frames that tell no clock."""
+        """Report irregular times of frames that do not determine a clock."""
         placed = self._placed
         found = () if times is None else times.problems
         if times is None and len(placed.frames) > 1:

@@ -30,7 +30,7 @@ _MIN_CHANGE = 0.2
 blink."""
 
 _MIN_SAME_FRACTION = 0.9
-"""Fraction of frames from which all are said to show the same."""
+"""Minimum fraction of equal frames from which all count as equal."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +108,7 @@ class WithoutPackets:
     def described(self, readout_time: float) -> str:
         """Say what the frames show, in a sentence or two; nothing where it is neither of these.
 
-        ``readout_time``: a rough value in seconds, by which a frequency is told.
+        ``readout_time``: a rough value in seconds, by which a frequency is estimated.
         """
         seen = [look for look in self._looks if look.repeats]
         count = len(self._looks)

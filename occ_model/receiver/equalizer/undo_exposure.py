@@ -17,7 +17,7 @@ MMSE, ZERO_FORCING = "mmse", "zero-forcing"
 """The ways to undo an exposure."""
 
 _ZERO_FORCING_NOISE = 1e-6
-"""Noise over light that zero-forcing takes for none: at a null it would divide by zero."""
+"""Noise-to-light ratio of zero-forcing, which avoids a division by zero at a null."""
 
 _NULL_FRACTION = 0.25
 """Fraction of the spectrum, where the exposure passes least, that the noise is measured in."""

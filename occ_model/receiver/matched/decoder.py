@@ -1,8 +1,8 @@
 """The matched decoder: correlate the signal with the forward model of every code and phase.
 
 Beyond the paper, it knows the switching frequency, the exposure time and the readout time. The
-signal is folded over one packet first. An exposure of several chips is no obstacle: each code still
-has a profile of its own.
+signal is folded over one packet first. An exposure of several chips is not an obstacle: each code
+still has a profile of its own.
 """
 
 import math
@@ -115,7 +115,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     if gap > _WIDEST_GAP:
         unseen = (
             f"All columns together see a packet at places up to {gap:.2g} chips apart: the codes "
-            "cannot be told from each other."
+            "cannot be distinguished."
         )
         return replace(result, failure=with_short_chips(unseen, scene))
     read = _best_code(result, _fold(signal, starts, counts), templates, scene)

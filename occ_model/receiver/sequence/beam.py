@@ -13,7 +13,7 @@ from occ_model.receiver.sequence.max_log import SURVIVAL, Chips
 from occ_model.receiver.sequence.trellis import NO_STATE, Word, places_of
 
 _BEAM_WIDTH = 256
-"""Ways that are kept at each chip."""
+"""Paths kept at each chip."""
 
 
 def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics) -> Chips:

@@ -126,7 +126,7 @@ def _blocks(line_code: LineCode) -> tuple[Word, ...]:
 
 
 def _after(line_code: LineCode, bits: ByteArray, level: int, probes: Iterable[ByteArray]) -> bytes:
-    """Return the chips of some blocks after a number of bits: what tells the encoder's state."""
+    """Return the chips of some blocks after a number of bits, which determine the state."""
     start = len(bits) // line_code.block_bits * line_code.block_chips
     sent = [line_code.encode(np.concatenate([bits, probe]), level)[start:] for probe in probes]
     return np.concatenate(sent).tobytes()

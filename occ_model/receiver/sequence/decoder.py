@@ -33,7 +33,7 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_of
 
 _IMPROVEMENTS = 4
-"""Most times that the fit is improved from the chips that were detected."""
+"""Maximum iterations of fit and detection."""
 
 _MAX_NOISE_RATIO = 0.9
 """Fraction of the noise's variance before an improvement above which no other one is tried."""
@@ -82,7 +82,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _why_not(timing: Timing, rows: int, scene: Scene) -> str | None:
-    """Say why chips cannot be told apart at a timing, or that too few are seen."""
+    """Return why chips cannot be resolved at a timing, or that too few are seen."""
     if has_short_chips(scene):
         return with_short_chips("The sequence detector needs one for each.", scene)
     if timing.memory > _MAX_MEMORY:

@@ -19,10 +19,10 @@ from occ_model.receiver.sequence.fit import (
 from occ_model.receiver.sequence.trellis import Word
 
 _MAX_TURNS = 8
-"""Most times that the timing is improved in a part: each moves its ends by a tenth of a chip."""
+"""Maximum iterations of the timing in a part; each moves its ends by at most 0.1 chips."""
 
 _CONVERGED_CHIPS = 0.01
-"""Chips that the ends of a part moved, from which it is not improved again."""
+"""Motion of a part's ends in chips below which the fit has converged."""
 
 
 def follow_timing(

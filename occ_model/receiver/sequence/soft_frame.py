@@ -16,7 +16,7 @@ from occ_model.transmitter.packet import packet_length
 from occ_model.transmitter.scheme import Scheme
 
 _MAX_LOG_RATIO = 700.0
-"""Log-likelihood ratio above which its exponential is not told from infinity."""
+"""Log-likelihood ratio above which its exponential overflows."""
 
 _REPETITIONS = 3
 """Periods that a framing is shown, so that one lies whole between two headers."""

@@ -166,7 +166,7 @@ class Sensor(Group):
     gain_variation: float = quantity_field(
         "Fixed-pattern gain (PRNU)",
         "",
-        "Standard deviation of the gain from pixel to pixel, as a share; the same in all pictures.",
+        "Standard deviation of the gain between pixels, as a fraction; the same in all pictures.",
         unit=NONE, low=0.0, high=0.5, slider=(0.0, 0.05), scale="linear", default=0.008,
     )
     adc_bits: int = count_field(

@@ -160,7 +160,7 @@ class Surroundings(Group):
     flicker_depth: float = quantity_field(
         "Flicker depth",
         "",
-        "By which share of its mean the light from elsewhere swings up and down; 0: steady.",
+        "Amplitude of the ambient light's flicker, as a fraction of its mean; 0: steady.",
         unit=NONE, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.0,
     )
     flicker_frequency: float = quantity_field(

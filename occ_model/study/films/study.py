@@ -131,7 +131,7 @@ def _measured(
     period = period_of(scene)
     timing = _timing(scene)
     length = period.part_length
-    # A film whose frames hold no packet at all tells how many were sent by its clock alone.
+    # Without a packet in any frame the number sent follows from the clock alone.
     sent = len(reading.packets)
     return FilmPoint(
         frequency=scene.transmitter.switching_frequency,

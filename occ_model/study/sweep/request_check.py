@@ -86,7 +86,7 @@ def _axis(name: str, values: object) -> tuple[ParameterValue, ...]:
     for value in values:
         own = parameter.check(value)
         if isinstance(parameter, Choice):
-            own = str(own)  # an array's strings are no plain ones
+            own = str(own)  # an array's strings are not plain ones
         if own in checked:
             text = parameter.format(own)  # type: ignore[arg-type]
             raise parameter.refuse(f"is {text} twice", "values that differ")

@@ -18,7 +18,7 @@ from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.study.sweep.file_lock import is_locked_by_us
 
 _SYNC_SECONDS = 2.0
-"""Seconds of work that a power cut may cost."""
+"""Maximum seconds of work lost by a power cut."""
 
 
 class Indexed(Protocol):

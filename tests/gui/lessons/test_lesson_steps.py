@@ -323,7 +323,7 @@ def test_a_teachers_lesson_is_listed_and_a_bad_one_is_named(
     bench.see("lessons")
     guide = bench.guide
     assert any(choice.text().startswith("Mine") for choice in guide.list.choices)
-    assert "bad is no lesson: line 2: a lesson has no key 'stop'" in guide.list.problems.text()
+    assert "bad is not a lesson: line 2: a lesson has no key 'stop'" in guide.list.problems.text()
 
 
 def test_the_folder_of_lessons_is_made_and_opened(

@@ -115,7 +115,7 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail() -> None:
-        raise SceneFileError("1.toml is no lesson: it is a <song>.")
+        raise SceneFileError("1.toml is not a lesson: it is a <song>.")
 
     monkeypatch.setattr(lesson_controller, "lessons", fail)
     bench = Lessons(qtbot, small_scene)

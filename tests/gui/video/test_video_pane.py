@@ -130,7 +130,7 @@ def test_what_is_no_film_is_a_sentence_and_the_film_stays(
     damaged.write_bytes(b"no film")
     application.files.open_film(damaged)
     user.wait_until_idle()
-    assert "damaged.mp4 is no film that can be read" in user.message
+    assert "damaged.mp4 is not a film that can be read" in user.message
     assert application.video.path == film_file
 
 
@@ -171,7 +171,7 @@ def test_a_kept_film_that_cannot_be_opened_is_kept_no_longer(
     damaged.write_bytes(b"no film")
     application.files.open_film(damaged)
     user.wait_until_idle()
-    assert "damaged.mp4 is no film that can be read" in user.message
+    assert "damaged.mp4 is not a film that can be read" in user.message
     assert application.video.path is None
     assert not application.window.actions_by_name["close_film"].isEnabled()
 

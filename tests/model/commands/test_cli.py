@@ -167,7 +167,7 @@ MISUSES = {
     "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
     "render --set exposure_time=1Hz": "exposure_time is '1Hz', which is not a number in µs; ",
     "render --set code=1024": "code is 1024; allowed with 10 bits: 0 to 1023.",
-    "render --set iso": "'iso' is no setting; write NAME=VALUE.",
+    "render --set iso": "'iso' is not a setting; write NAME=VALUE.",
     "render --set yaw=80° --set distance=0.2m": "Turned like this at a distance of 0.2 m, ",
     "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
     "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",

@@ -58,7 +58,7 @@ def test_steps_that_meet_the_end_end_there_exactly() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("distance", "'distance' is no axis; allowed: NAME=a,b,c"),
+        ("distance", "'distance' is not an axis; allowed: NAME=a,b,c"),
         ("distnce=1", "did you mean distance"),
         ("distance=1:2", "allowed: low:high:step, low:high:xN"),
         ("distance=1:2:3:4", "allowed: low:high:step"),

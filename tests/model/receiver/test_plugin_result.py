@@ -37,7 +37,7 @@ def test_headers_are_places_among_the_chips(headers: tuple[int, ...]) -> None:
 def test_headers_elsewhere_are_refused(headers: object) -> None:
     said = with_headers(headers)
     assert said is not None
-    assert said.endswith("which are no places among its chips")
+    assert said.endswith("which are not places among its chips")
 
 
 @pytest.mark.parametrize(

@@ -72,8 +72,8 @@ def test_the_last_of_two_settings_of_one_parameter_holds() -> None:
 @pytest.mark.parametrize(
     ("setting", "sentence"),
     [
-        ("iso", r"^'iso' is no setting; write NAME=VALUE\.$"),
-        ("", r"^'' is no setting; write NAME=VALUE\.$"),
+        ("iso", r"^'iso' is not a setting; write NAME=VALUE\.$"),
+        ("", r"^'' is not a setting; write NAME=VALUE\.$"),
         ("=100", r"^There is no parameter ''; known are "),
         ("is=100", r"^There is no parameter 'is'; did you mean iso\?$"),
         ("iso=", r"^iso is '', which is not a number; allowed: 1 to "),

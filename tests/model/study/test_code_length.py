@@ -62,4 +62,4 @@ def test_the_command_says_which_length_serves_best(
     assert "6 bits serve 64 lamps best: 2 of 2 whole lamps named rightly" in said
     assert "As well do" not in said
     assert main((*words, "--bits", "8")) == 0
-    assert "As well do 8 bits: so few pictures do not tell them apart." in capsys.readouterr().out
+    assert "As well do 8 bits: so few pictures do not distinguish them." in capsys.readouterr().out

@@ -203,7 +203,7 @@ def test_a_list_of_other_files_or_addresses_is_no_film(
     (tmp_path / "other.mp4").write_bytes(film_bytes("mp4", "mp4v"))
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(occ.VideoError, match="is no film that can be read; allowed: MP4, MOV"):
+    with pytest.raises(occ.VideoError, match="is not a film that can be read; allowed: MP4, MOV"):
         occ.load_video(path)
 
 
@@ -238,7 +238,7 @@ def test_what_is_no_regular_file_is_refused(tmp_path: Path) -> None:
             occ.load_video(path)
     with pytest.raises(occ.VideoError, match="3 is not the path of a film"):
         occ.load_video(3)  # type: ignore[arg-type]
-    with pytest.raises(occ.VideoError, match="is no film that can be read"):
+    with pytest.raises(occ.VideoError, match="is not a film that can be read"):
         occ.load_video(saved(tmp_path, b""))
 
 

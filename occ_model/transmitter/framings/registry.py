@@ -31,7 +31,7 @@ def _problem_of(read: object, chips: int, bits: int) -> str | None:
     if not is_reason(read.failure) or (read.failure is None and not read.bits.size):
         return "neither bits nor a reason"
     if not are_places(read.headers, chips):
-        return "headers that are no places among the chips"
+        return "headers that are not places among the chips"
     return None
 
 

@@ -101,7 +101,8 @@ class FileChange:
         along = self._spectrum_along(float(stack[0].min()), rims.is_level)
         edge = contrast * np.outer(_EDGE_SPECTRUM, along)
         self._of_rims = np.hypot(self._noise, edge).ravel() / self._all
-        self._rim_weights = self._all**2 * near_half(self._of_rims) / 64.0
+        self._near_at_rims = near_half(self._of_rims)
+        self._rim_weights = self._all**2 * self._near_at_rims / 64.0
         self._along = np.tile(along * math.sqrt(8.0), 8) / self._all
         self._white = 1.0 / self._all
 
@@ -255,8 +256,11 @@ class FileChange:
         apart = (own[:, None] / step) ** 2 + moved_steps_of_noise(own[:, None] / step)
         along = np.minimum(varied[:-1] + varied[-1], apart) @ step**2 / 64.0
         varied = rounded_noise(spreads / q)
-        apart = (own[:, None] / q) ** 2 + moved_steps_of_noise(own[:, None] / q)
+        # Coefficients across lie about 0, or anywhere where rows differ: between these two.
+        near = np.sqrt(near_half(self._noise / q))
+        apart = near * ((own[:, None] / q) ** 2 + moved_steps_of_noise(own[:, None] / q))
         across = np.minimum(varied[:-1] + varied[-1], apart) @ q**2 / 64.0
         rims = self._at_rims(own, self._white)
-        image = along + across + self._rims * rims
+        part = self._rims * float(self._near_at_rims.mean())  # no noise is rounded away there
+        image = (1.0 - part) * (along + across) + part * own**2 + self._rims * rims
         return np.asarray(image), np.asarray(along / self.block_rows + self._cut * rims)

@@ -337,15 +337,10 @@ class SampledPixels:
         """The mean square of each noise as a file has it: in pixels, and in a column's mean."""
         if self.file is None or not self.variances:
             return {}
-        each = np.array([self.noise_without(name) for name in self.variances])
-        found = np.transpose(self.file.of_noise(*each.T)).tolist()
-        return {
-            name: (image, mean) for name, (image, mean) in zip(self.variances, found, strict=True)
-        }
-
-    def noise_without(self, name: str) -> tuple[float, float]:
-        """Return the root mean square of a noise, and of all the other, on the panel."""
-        return self.noise_with(frozenset({name})), self.noise_with(self.names - {name})
+        own = np.array(list(self._noise_squares.values()))
+        image, mean = self.file.of_noise(np.sqrt(own), np.sqrt(own.sum() - own))
+        pairs = zip(image.tolist(), mean.tolist(), strict=True)
+        return dict(zip(self.variances, pairs, strict=True))
 
     @property
     def rim_share(self) -> float:

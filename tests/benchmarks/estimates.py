@@ -171,7 +171,7 @@ def planning(folder: str = "") -> None:
     print("| preset |" + "".join(f" {' and '.join(one)} |" for one in asked))
     print("|---" * (1 + len(asked)) + "|")
     for name in ("phone-136us", "phone-136us-real", "tablet-122us-real"):
-        tried = _in_turn(_PLANNED.format(name=name, asked=asked), folder, 7)
+        tried = _in_turn(_PLANNED.format(name=name, asked=asked), folder, 4)
         cells = []
         for at in range(len(asked)):
             times = [state[at][1] for state in tried]

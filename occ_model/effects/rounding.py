@@ -40,7 +40,8 @@ def rounding_square(x: FloatArray, s: FloatArray) -> FloatArray:
     found = np.full(np.broadcast_shapes(x.shape, s.shape), 1.0 / 12.0)
     for n, angle, damped in _harmonics(x, s):
         found += np.cos(angle) * (damped / (math.pi * n) ** 2)
-    return np.asarray(np.maximum(found, 0.0))
+    sharp = s < SHARP  # there the series ends too early
+    return np.where(sharp, (x - np.rint(x)) ** 2 + s * s, found) if sharp.any() else found
 
 
 def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:

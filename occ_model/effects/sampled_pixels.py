@@ -346,6 +346,8 @@ class SampledPixels:
     def rim_share(self) -> float:
         """The share of the region's pixels that lie in a file's blocks with a rim."""
         region = self.view.region
+        if self.sample.is_covered:
+            return 0.0
         if self.view.sides is None:
             return min(1.0, 8.0 / region.rows + 8.0 / region.columns)
         ends, sides = self._level_rims

@@ -7,6 +7,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE
 from occ_model.effects.rounding import (
     DAMPING,
     SHARP,
@@ -89,7 +90,9 @@ class FileChange:
         self._step = steps[0][:, None]
         self._others = steps[1:].ravel()
         self._all = steps.ravel()
-        self._noise = math.sqrt(spread**2 + _ROUNDING)
+        # A white pixel is a whole level already.
+        self._rounding = _ROUNDING * float((stack[0][:, sample.inner] < WHITE).mean())
+        self._noise = math.sqrt(spread**2 + self._rounding)
         self._s = self._noise / self._step
         self.block_rows = max(rims.rows / 8.0, 1.0)
         self._rims = rims.share
@@ -144,7 +147,7 @@ class FileChange:
         noise = self._noise / self._others
         others = (self._others**2 * rounding_square(np.zeros(1), noise)).sum()
         inner = float(along.mean() + others) / 64.0
-        return (1.0 - rims) * inner + rims * self._rounding_at_edges + _ROUNDING
+        return (1.0 - rims) * inner + rims * self._rounding_at_edges + self._rounding
 
     @property
     def _rounding_at_edges(self) -> float:

@@ -7,7 +7,6 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import WHITE
 from occ_model.effects.rounding import (
     DAMPING,
     SHARP,
@@ -90,9 +89,13 @@ class FileChange:
         self._step = steps[0][:, None]
         self._others = steps[1:].ravel()
         self._all = steps.ravel()
-        # A white pixel is a whole level already.
-        self._rounding = _ROUNDING * float((stack[0][:, sample.inner] < WHITE).mean())
-        self._noise = math.sqrt(spread**2 + self._rounding)
+        # Full pixels are rounded alike, which is no noise.
+        inner = stack[0][:, sample.inner]
+        full = float(inner.max())
+        share = float((inner == full).mean())
+        rounding = _ROUNDING * (1.0 - share)
+        self._noise = math.sqrt(spread**2 + rounding)
+        self._rounding = rounding + share * (full - round(full)) ** 2
         self._s = self._noise / self._step
         self.block_rows = max(rims.rows / 8.0, 1.0)
         self._rims = rims.share

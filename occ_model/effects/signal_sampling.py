@@ -29,11 +29,18 @@ class SignalSampling:
         curve, self._deviation, jumps = pixels.enhancement(pixels.names).smoothed(passed)
         self._even = pixels.slope(curve) ** 2
         self._uneven = np.maximum(pixels.slope(jumps) - self._even, 0.0)
-        self._gain = float(pixels.mean_at_whole(self._even))
+        inside = pixels.inside([pixels.names])
+        self._inside = None if inside is None else inside[0]  # beside the panel nothing is enhanced
+        self._beside = 0.0 if inside is None else float(pixels.mean_of(~inside[0]))
+        self._gain = self._of_panel(self._even) + self._beside
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
         self._pixel = float(pixels.mean_at_whole(self._even + self._uneven)) * one
         # One pixel whose noise is drawn otherwise.
         self._drawn = float(pixels.mean_at_whole(self._even * spread**2)) * one
+
+    def _of_panel(self, table: FloatArray) -> float:
+        """Return the mean of a table over all pixels, as if it were 0 beside the panel."""
+        return float(self._pixels.mean_at_whole(table, self._inside))
 
     def of_effects(self) -> dict[str, float]:
         """Return it for each effect, by name."""
@@ -56,7 +63,7 @@ class SignalSampling:
     @cached_property
     def _of_noise(self) -> dict[str, float]:
         pixels, total = self._pixels, self._spread**2
-        inside, found = pixels.inside([pixels.names]), {}
+        found = {}
         for name, variance in pixels.variances.items():
             read, of_means = pixels.noise_read_back.get(name, (0.0, 0.0))
             own = np.maximum(np.sqrt(variance), math.sqrt(read))
@@ -66,9 +73,9 @@ class SignalSampling:
             if not pixels.files:
                 part = part + self._even * own**2
             part = np.where(own**2 > 0.7 * total, most, np.minimum(part, most))
-            square = float(pixels.mean_at_whole(part, None if inside is None else inside[0]))
-            if inside is not None:
-                square += float(pixels.mean_at_whole(own**2, ~inside[0]))
+            square = self._of_panel(part)
+            if self._inside is not None and not pixels.files:
+                square += float(pixels.mean_at_whole(own**2, ~self._inside))
             found[name] = self._of_mean(square, of_means) + self._drawn
         return found
 
@@ -85,7 +92,7 @@ class SignalSampling:
         file = self._pixels.file
         moved = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
         part = self._even / 6.0 + self._uneven * 0.8 * moved
-        return float(self._pixels.mean_at_whole(part))
+        return self._of_panel(part) + self._beside / 6.0
 
     @property
     def doubt_of_file(self) -> float:
@@ -103,6 +110,8 @@ class SignalSampling:
             changes = np.sqrt(changes**2 + np.maximum(added, 0.0)[:, None, None])
         np.minimum(changes, 0.5, out=changes)
         even, uneven = pixels.at_whole(self._even), pixels.at_whole(self._uneven)
+        if self._inside is not None:
+            even, uneven = np.where(self._inside, even, 1.0), uneven * self._inside
         squares = pixels.mean_of(changes * (even * (1.0 - changes) + uneven)).tolist()
         return {
             name: self._of_mean(square, own)

@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from _pytest.mark.structures import ParameterSet
 from amount import amount
 from physics.effect_world import present, rms, scene_of, seen
 
@@ -16,11 +15,6 @@ from occ_model.scene.simulation_settings import Observable
 SCENES = amount(6, 40)
 TOLERANCES = (0.5, 2.0, 8.0)
 OBSERVABLES: tuple[Observable, ...] = ("image", "profile", "signal")
-
-
-def broken(observable: Observable, reason: str) -> ParameterSet:
-    """Expect an observable to fail in the scenes of a whole run, which are the same each time."""
-    return pytest.param(observable, marks=[pytest.mark.xfail(SCENES > 6, reason=reason)])
 
 
 SMALL = 0.1
@@ -74,14 +68,7 @@ def test_an_estimate_is_in_the_median_the_truth(observable: Observable) -> None:
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize(
-    "observable",
-    [
-        broken("image", "8 of 100 in these scenes, of which panels of 2 and of 10 rows are most"),
-        "profile",
-        broken("signal", "6 of 100 in these scenes"),
-    ],
-)
+@pytest.mark.parametrize("observable", OBSERVABLES)
 def test_where_a_plan_knows_an_effect_its_estimate_is_seldom_half_too_large(
     observable: Observable,
 ) -> None:
@@ -92,14 +79,7 @@ def test_where_a_plan_knows_an_effect_its_estimate_is_seldom_half_too_large(
 
 
 @pytest.mark.whole
-@pytest.mark.parametrize(
-    "observable",
-    [
-        broken("image", "1.6 of 100, all of one panel of 2 rows in a file"),
-        "profile",
-        "signal",
-    ],
-)
+@pytest.mark.parametrize("observable", OBSERVABLES)
 def test_a_limit_is_seldom_below_the_truth(observable: Observable) -> None:
     assert np.mean(ratios_of(observable)[:, 1] < 0.8) < 0.01
 

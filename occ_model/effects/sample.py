@@ -34,6 +34,9 @@ _GAUSS, _GAUSS_WEIGHTS = (
 _MOVED_NODES, _BLURRED_NODES = 2, 3
 """Nodes where an outline moves, and on each side of it where it is blurred."""
 
+_BESIDE_NODES = 3
+"""Nodes above and below the panel."""
+
 _SIDE_NODES = 10
 """Columns across an upright rim."""
 
@@ -259,7 +262,8 @@ def _row_nodes(
     ends += [np.full(len(middle), high)]
     moved = _evenly(_MOVED_NODES if rims else 0)
     across = [_evenly(_BLURRED_NODES), moved, _evenly(_BLURRED_NODES)] if blur else [moved]
-    parts = [_evenly(1), *across, (_GAUSS, _GAUSS_WEIGHTS), *across, _evenly(1)]
+    beside = _evenly(_BESIDE_NODES)
+    parts = [beside, *across, (_GAUSS, _GAUSS_WEIGHTS), *across, beside]
     rows, weights = [], []
     for (nodes, shares), start, end in zip(parts, ends[:-1], ends[1:], strict=True):
         length = (end - start)[:, None]

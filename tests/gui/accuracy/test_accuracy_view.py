@@ -92,9 +92,14 @@ def test_a_higher_tolerance_leaves_effects_out(qtbot: QtBot, bench: Bench) -> No
     assert not bench.row("sensor-noise").included
 
 
-def test_each_mark_of_the_slider_has_a_plan_of_its_own(qtbot: QtBot, bench: Bench) -> None:
+@pytest.mark.parametrize("observable", ["image", "profile", "signal"])
+def test_each_mark_of_the_slider_has_a_plan_of_its_own(
+    qtbot: QtBot, bench: Bench, observable: str
+) -> None:
     scene = occ.load_preset("phone-136us-real").replace(rows=300, columns=400)
     bench.scenes.put(scene, "scene")
+    while bench.settings.settings.observable != observable:
+        qtbot.keyClick(bench.view.observable, Qt.Key.Key_Down)
     bench.simulate()
     slider = bench.view.tolerance.slider
     qtbot.waitUntil(lambda: slider.maximum() in range(6, 190))

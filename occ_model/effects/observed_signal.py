@@ -222,7 +222,7 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     """Doubt what a file makes of noise that black or white cuts off: it is not normal."""
     if pixels.file is None:
         return
-    spread, name = pixels.spread(pixels.names), pixels.files[0].name
+    spread = pixels.spread(pixels.names)
     if float(spread.max()) <= _CLIPPED_NOISE:
         return
     lost = np.where(
@@ -231,4 +231,5 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     cut = float(pixels.mean_at_whole(lost))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change * min(gain, 8.0) ** 2 / 4.0
-    found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+    for effect in (*pixels.noises, *pixels.files):
+        found.doubt[effect.name] = found.doubt.get(effect.name, 0.0) + doubt

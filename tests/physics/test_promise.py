@@ -99,6 +99,7 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
         pytest.param(74022, "signal", id="one column beside a step of 247 levels"),
         pytest.param(74133, "signal", id="noise that ends at a full well"),
         pytest.param(90146, "profile", id="full pixels are rounded before they are in a file"),
+        pytest.param(182023, "signal", id="a file of noise that black and white cut off"),
         pytest.param(180059, "image", id="the light falls off above and below a few columns"),
     ],
 )

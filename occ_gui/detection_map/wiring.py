@@ -46,7 +46,7 @@ class Measuring(QObject):
         self, scenes: SceneStore, strips: SliderStrips, may_begin: Callable[[], bool]
     ) -> None:
         super().__init__()
-        self._may_begin = may_begin
+        self._may_begin, self._was_there = may_begin, False
         self._scenes, self._strips = scenes, strips
         self._start = QTimer(self, singleShot=True)
         self._start.setInterval(START_MS)
@@ -110,7 +110,9 @@ class Measuring(QObject):
         )
 
     def _begin(self) -> None:
-        if self._may_begin():
+        # Not in the turn in which the picture has come: it is painted first.
+        was_there, self._was_there = self._was_there, self._may_begin()
+        if was_there and self._was_there:
             self._set_seen(True)
         else:
             self._start.start()

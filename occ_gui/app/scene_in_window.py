@@ -20,7 +20,7 @@ class SceneInWindow(QObject):
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._parts = parts
-        self.before = BeforeController(parts.store.store, [parts.board])
+        self.before = BeforeController(parts.store.store, parts.board.show_before)
         self._news = PlanNews(self)
         self._connect_scene()
         self._connect_simulation()

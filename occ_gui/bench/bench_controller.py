@@ -1,13 +1,13 @@
 """Controller of the bench: it measures in the background when the user asks."""
 
 from collections.abc import Iterator
-from typing import Protocol
 
 from PySide6.QtCore import QObject
 
 from occ_gui.background.signals import JobChannel
 from occ_gui.bench.bench_choice import BenchChoice
 from occ_gui.bench.bench_measurement import request_of, setting_of
+from occ_gui.bench.bench_view import BenchView
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.errors import OccError
 from occ_model.parallel.job import Job, Stage
@@ -20,35 +20,10 @@ _RANK = -1
 """Below all others: somebody waits for it."""
 
 
-class BenchPane(Protocol):
-    """A pane that shows a bench while it is measured."""
-
-    def show_begun(self, request: BenchRequest) -> None:
-        """Show that a measurement has begun, and forget the one before."""
-
-    def show_points(self, points: list[BenchPoint]) -> None:
-        """Show all points that are known."""
-
-    def show_bounds(self, bounds: BenchBounds) -> None:
-        """Show what theory says."""
-
-    def show_progress(self, done: int, of: int) -> None:
-        """Show how many places are measured."""
-
-    def show_ended(self, sentence: str) -> None:
-        """Show that no more points come, and why where some are missing."""
-
-    def show_frame_rate(self, frames_a_second: float, refusal: str) -> None:
-        """Show the pictures a second, and why there cannot be so many."""
-
-    def show_outdated(self, outdated: bool) -> None:
-        """Show whether the points are of another code or timing than would be measured now."""
-
-
 class BenchController(QObject):
     """Connects the stores, the job channel and the pane."""
 
-    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: BenchPane) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: BenchView) -> None:
         super().__init__()
         self._scenes = scenes
         self._frame_rate = scenes.store.select(lambda workspace: workspace.frame_rate)

@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
+from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.advice_worker import advise
 from occ_gui.detection_map.worker import left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
@@ -59,31 +59,6 @@ class AdviceRequest:
         yield Stage(rank, tuple(jobs))
 
 
-class AdvicePane(Protocol):
-    """A pane that shows advice."""
-
-    def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
-        """Show that a search has begun, and what it leaves out."""
-
-    def show_advice_progress(self, share: float) -> None:
-        """Show the share of the search that is done, from 0 to 1."""
-
-    def show_advice(self, advice: Advice) -> None:
-        """Show the limits of one decoder."""
-
-    def show_advice_ended(self, sentence: str) -> None:
-        """Show that the search has ended, and why where it is not complete."""
-
-    def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
-        """Show whether the advice is of an earlier scene.
-
-        Parameters
-        ----------
-        reachable
-            The parameters whose limits hold all the same: only they were changed.
-        """
-
-
 class AdvisorController(QObject):
     """Connects the stores, the job channel and the pane."""
 
@@ -96,7 +71,7 @@ class AdvisorController(QObject):
         settings: SettingsStore,
         queue: WorkQueue,
         channel: JobChannel,
-        pane: AdvicePane,
+        pane: AdviceView,
     ) -> None:
         super().__init__()
         self._scenes, self._settings = scenes, settings

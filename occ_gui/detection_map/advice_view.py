@@ -130,7 +130,7 @@ class AdviceView(QWidget):
         self._show_running(False)
 
     def show_advice_outdated(self, outdated: bool, reachable: frozenset[str]) -> None:
-        """Show whether the scene has changed since the advice was given."""
+        """Show whether the scene has changed since, and which limits hold all the same."""
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self._lines:
             return

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Protocol
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from occ_gui.background.signals import JobChannel, WorkQueue
 from occ_gui.core.store import NO_GESTURE
 from occ_gui.detection_map.advice_worker import carry_most
+from occ_gui.detection_map.most_bits_card import MostBitsCard
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.receiver import decoders
@@ -39,25 +39,6 @@ class MostBitsRequest:
             yield Stage(_RANK, (job,))
 
 
-class MostBitsPane(Protocol):
-    """A pane that shows the search."""
-
-    def show_begun(self) -> None:
-        """Show that a search has begun."""
-
-    def show_tried(self, decoder: str, pictures: int) -> None:
-        """Show with which decoder it is busy, and how many pictures it has tried."""
-
-    def show_found(self, found: MostBits) -> None:
-        """Show what was found with one decoder."""
-
-    def show_ended(self, sentence: str) -> None:
-        """Show that it has ended, and why where it is not complete."""
-
-    def show_outdated(self, outdated: bool) -> None:
-        """Show whether what was found is of an earlier scene."""
-
-
 class MostBitsController(QObject):
     """Connects the scene, the job channel and the pane."""
 
@@ -69,7 +50,7 @@ class MostBitsController(QObject):
         scenes: SceneStore,
         queue: WorkQueue,
         channel: JobChannel,
-        pane: MostBitsPane,
+        pane: MostBitsCard,
     ) -> None:
         super().__init__()
         self._scenes, self._queue, self.channel, self._pane = scenes, queue, channel, pane

@@ -1,7 +1,6 @@
 """Controller of the comparison with before: it keeps the results before the latest step."""
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Callable
 
 from PySide6.QtCore import QObject
 
@@ -11,22 +10,15 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
 
-class BeforePane(Protocol):
-    """A pane that shows an earlier picture or profile beside the current one."""
-
-    def show_before(self, snapshot: Snapshot) -> None:
-        """Show these results as those before the latest step."""
-
-
 class BeforeController(QObject):
     """Keeps the results from before each step of the scene, and shows them.
 
     A step is what one undo takes back, such as a whole drag of a slider; an undo is a step too.
     """
 
-    def __init__(self, store: Store, panes: Sequence[BeforePane]) -> None:
+    def __init__(self, store: Store, show: Callable[[Snapshot], None]) -> None:
         super().__init__()
-        self._store, self._panes = store, panes
+        self._store, self._tell = store, show
         self._wanted: Scene | None = None
         self._shown: Snapshot | None = None
         self.before: Snapshot | None = None
@@ -52,5 +44,4 @@ class BeforeController(QObject):
 
     def _show(self, snapshot: Snapshot) -> None:
         self.before = snapshot
-        for pane in self._panes:
-            pane.show_before(snapshot)
+        self._tell(snapshot)

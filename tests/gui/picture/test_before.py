@@ -1,6 +1,7 @@
 """What was there before the latest gesture stays to be compared with what is there now."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from occ_gui.profile.feature import profile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.values.room_choice import RoomChoice
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 
@@ -49,7 +51,7 @@ def store(small_scene: Scene) -> SceneStore:
 
 @pytest.fixture
 def before(store: SceneStore, pane: Pane) -> BeforeController:
-    return BeforeController(store.store, [pane])
+    return BeforeController(store.store, pane.show_before)
 
 
 def test_a_gesture_keeps_what_was_shown_when_it_began(
@@ -64,6 +66,19 @@ def test_a_gesture_keeps_what_was_shown_when_it_began(
     assert pane.shown == [first]
     store.change(2, iso=600.0)
     assert pane.shown == [first, second]
+
+
+def test_a_step_that_leaves_the_picture_as_it_is_leaves_what_was_before(
+    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+) -> None:
+    first, second = snapshot_of(), snapshot_of(iso=300.0)
+    before.show_snapshot(first)
+    store.change(1, iso=300.0)
+    before.show_snapshot(second)
+    workspace = store.store.workspace
+    store.store.put(replace(workspace, room=RoomChoice("another")), "room")
+    store.undo_stack.undo()
+    assert pane.shown == [first]
 
 
 def test_undoing_keeps_what_is_undone(
@@ -209,7 +224,7 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     bench = PaneBench(qtbot, small_scene)
     image = bench.add(picture_pane(bench.store, str)).view
     curves = bench.add(profile(bench.store, bench.board, str)).view
-    before = BeforeController(bench.store, [bench.board])
+    before = BeforeController(bench.store, bench.board.show_before)
     bench.hear_first.append(before.show_snapshot)
     bench.simulate()
     image.before.chosen.setChecked(True)

@@ -1,5 +1,6 @@
 """Entry point of ``occ-gui`` and ``python -m occ_gui``."""
 
+import gc
 from collections.abc import Callable
 
 from occ_model.program import run_program
@@ -11,6 +12,7 @@ def main() -> int:
 
 
 def _command() -> Callable[[], int]:
+    gc.disable()  # what is imported stays; the window collects garbage, on its own thread
     # Imported here, where Ctrl-C is handled already: it imports much of the model.
     from occ_gui.app.command_line import read_command_line
 

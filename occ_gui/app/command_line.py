@@ -267,7 +267,8 @@ def start(
     from PySide6.QtCore import QLocale
     from PySide6.QtWidgets import QApplication
 
-    # Qt's own one reads the source of each module, to see whether it asks for another spelling.
+    # PySide puts its own in its place, which reads the source of each module that is imported, to
+    # see whether it asks for snake_case names; ours never do. A thirteenth of the start's time.
     builtins.__import__ = _IMPORT
     from occ_gui.app.application import Application
     from occ_gui.app.error_reports import log_qt_messages

@@ -66,9 +66,8 @@ class PresetController(QObject):
     @property
     def shown(self) -> tuple[str, str]:
         """The preset that the scene is, and in place of it the one that it was changed from."""
-        named, scene = self._store.store.workspace.preset, self._store.scene
-        is_same = any(p.name == named and p.scene == scene for p in self._presets)
-        return (named, "") if is_same else ("", named)
+        name = self.name_of(self._store.scene)
+        return name, "" if name else self._store.store.workspace.preset
 
     def _name(self) -> None:
         """Note the preset that the scene has become, in whichever way."""

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from gui.shared_window import SharedWindow
+from gui.stores import show
 from gui.user import User
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QInputDialog, QMessageBox
@@ -229,6 +230,17 @@ def test_a_changed_preset_is_named_until_another_scene_comes(
     assert preset.placeholderText() == "Choose a preset"
     application.store.undo_stack.undo()
     assert preset.placeholderText() == "Phone, 68 µs, changed"
+    user.wait_until_idle()
+
+
+def test_a_scene_that_is_a_preset_is_named_by_it_whatever_a_session_says(
+    application: Application, user: User
+) -> None:
+    application.presets.load("phone-68us")
+    show(application.store.store, preset="tablet-61us")
+    assert application.presets.shown == ("phone-68us", "")
+    application.store.change(iso=200.0)
+    assert application.presets.shown == ("", "tablet-61us")
     user.wait_until_idle()
 
 

@@ -87,9 +87,12 @@ def theory_text(parameter: str, theory: TheoryLimits) -> str:
 
 
 def two_packets_text(frequency: float) -> str:
-    """Return the sentence on the frequency below which a decoder that needs two packets fails."""
+    """Return the sentence on the frequency below which a decoder lacks headers in some pictures."""
     limit = HERTZ.format(frequency, _DIGITS)
-    return f"Below {limit} the picture does not hold the two packets that this decoder needs."
+    return (
+        f"Below {limit} the picture does not hold two packets, and not always the two headers that "
+        "this decoder needs."
+    )
 
 
 def _counted(trial: Trial) -> str:

@@ -123,12 +123,13 @@ def _few_chips(scene: Scene, decoder: str) -> Cause | None:
         step = _frequency(frequency)
     else:
         step = Step(f"Come to {quantity('distance').format(nearer)}", {"distance": nearer})
-    return Cause(
-        "too few chips in view",
-        f"The panel's columns show {shown:.0f} chips, and {packets * length} are needed for "
-        f"{'two packets' if packets == 2 else 'a packet'}: come closer, or raise the frequency.",
-        step,
+    why = f"{shown:.0f} of the {packets * length} chips of "
+    why += (
+        "two packets are in view, and so both headers not in every picture"
+        if packets == 2
+        else "a packet are in view"
     )
+    return Cause("too few chips in view", f"{why}: come closer, or raise the frequency.", step)
 
 
 def _frequency(value: float) -> Step:

@@ -40,6 +40,24 @@ def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, w
         assert occ.success_rate(helped, 3, cause.step.decoder or decoder) == 100.0
 
 
+def test_chips_are_called_needed_only_where_no_picture_is_read_with_fewer() -> None:
+    """At 5 m the 33 chips in view hold both headers in some pictures, and a packet in all."""
+    far = occ.load_preset("phone-136us").replace(distance=5.0)
+    assert 0.0 < occ.success_rate(far, 20, "threshold") < 100.0
+    assert occ.success_rate(far, 3, "matched") == 100.0
+    cause = cause_of(far, "threshold")
+    assert cause is not None
+    assert cause.why == (
+        "33 of the 48 chips of two packets are in view, and so both headers not in every picture: "
+        "come closer, or raise the frequency."
+    )
+    assert cause_of(far, "matched") is None
+    less = cause_of(far.replace(distance=9.0), "matched")
+    assert less is not None
+    assert "18 of the 24 chips of a packet are in view: " in less.why
+    assert occ.success_rate(far.replace(distance=9.0), 5, "matched") == 0.0
+
+
 def test_a_scene_that_is_read_has_no_cause() -> None:
     for preset in occ.presets():
         for decoder in occ.decoders():

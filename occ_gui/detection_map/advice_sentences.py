@@ -7,7 +7,9 @@ from occ_model.results.advice_text import (
     end_text,
     gaps_text,
     how_tried,
+    own_text,
     searched_to,
+    sent_text,
     theory_text,
     two_packets_text,
     written,
@@ -72,11 +74,7 @@ class AdviceSentences:
 
     def bits_a_second(self, found: Limits) -> str:
         """Write how many bits a second arrive at the scene's own values."""
-        own, rate = found.frequency.own, found.bits_a_second(self.frames_a_second)
-        return (
-            f"At {written(found.frequency.parameter, own.value)} it reads {own.whole} of "
-            f"{own.images} pictures: {rate:.4g} bits a second, each picture with another payload."
-        )
+        return own_text(found, self.frames_a_second)
 
     def on_highest_frequency(self, advice: Advice) -> AdviceLine:
         """Write the line on the highest frequency that is read, or that there is none."""
@@ -119,7 +117,10 @@ class AdviceSentences:
             written(name, float(scene.value(name)))
             for name in ("switching_frequency", "exposure_time", "distance")
         )
-        return f"The {found.decoder} decoder, {found.rate:g} % of the bits, at {', '.join(values)}"
+        return (
+            f"The {found.decoder} decoder, {found.rate:g} % of the bits of "
+            f"{sent_text(found.scene)}, at {', '.join(values)}"
+        )
 
     def _line(self, text: str, end: EndFacts) -> AdviceLine:
         sentence = f"{text.format(value=written(end.parameter, end.value))}: "

@@ -116,7 +116,8 @@ class MapView(QWidget):
         self.frame_rate = QuantityEdit(FRAME_RATE)
         self.frame_rate.setAccessibleName(FRAME_RATE.label)
         self.frame_rate.setToolTip(
-            "Pictures a second, or as many as can be read out; each is of another payload."
+            "Pictures a second, or as many as can be read out, each of another payload, if others "
+            "are read as well."
         )
         self.frame_rate.hide()
 

@@ -19,7 +19,9 @@ from occ_model.results.advice_text import (
     end_text,
     gaps,
     how_tried,
+    own_text,
     searched_to,
+    sent_text,
     theory_text,
     two_packets_text,
     written,
@@ -100,7 +102,7 @@ def _run(options: argparse.Namespace) -> int:
             progress=show,
             found=show_row,
         )
-    for line in sentences(answers):
+    for line in sentences(answers, options.fps):
         print(line)
     reads = any(each.highest_frequency and each.longest_exposure for each in answers)
     return 0 if reads else EXIT_FAILURE
@@ -117,8 +119,8 @@ def _heading(scene: Scene, options: argparse.Namespace) -> list[str]:
     frequency = HERTZ.format(scene.transmitter.switching_frequency)
     distance = quantity("distance").format(scene.pose.distance)
     return [
-        f"Read with {options.rate:g} % of the bits at {distance}: frequencies at {exposure}, "
-        f"exposures and bits a second at {frequency}.",
+        f"Read with {options.rate:g} % of the bits at {distance}, sending {sent_text(scene)}: "
+        f"frequencies at {exposure}, exposures and bits a second at {frequency}.",
         _in_columns(_COLUMNS),
     ]
 
@@ -151,7 +153,7 @@ def _end_text(found: WorkingRange, end: RangeEnd) -> str:
     return f"{value} (searched to)" if end.fails is None else value
 
 
-def sentences(answers: Sequence[Limits]) -> list[str]:
+def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECOND) -> list[str]:
     """Write by which images the ends were confirmed, and what theory says."""
     ranges = [each for found in answers for each in (found.frequency, found.exposure)]
     is_sure = any(end and end.interval for each in ranges for end in (each.lowest, each.highest))
@@ -162,6 +164,7 @@ def sentences(answers: Sequence[Limits]) -> list[str]:
         two_packets = advice_of(found).frequency.theory.two_packets
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
+        lines.append(f"  {own_text(found, frames_a_second)}")
     advice = advice_of(answers[0])
     lines += dict.fromkeys(line for found in answers for line in how_tried(found))
     for facts in (advice.frequency, advice.exposure):

@@ -2,13 +2,39 @@
 
 import math
 
+from occ_model.errors import one_line
 from occ_model.results.advice import EndFacts, TheoryLimits
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.scene.parameters import quantity
+from occ_model.scene.payload import typed_form
+from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
 _DIGITS = 4
 """Significant digits: the ends of a range are found to a few thousandths."""
+
+
+_LONGEST_PAYLOAD = 24
+"""Characters of a payload that are named."""
+
+
+def sent_text(scene: Scene) -> str:
+    """Name what the pictures of a study show: the scene's own code or payload."""
+    sent = scene.transmitter
+    if sent.payload:
+        return f"“{one_line(typed_form(sent.payload), _LONGEST_PAYLOAD)}”"
+    return f"code {sent.code}"
+
+
+def own_text(found: Limits, frames_a_second: float = FRAMES_A_SECOND) -> str:
+    """Say what was read at the scene's own values, and how many bits a second that would be."""
+    own, bits = found.frequency.own, found.bits_a_second(frames_a_second)
+    return (
+        f"At {written(found.frequency.parameter, own.value)} it read {own.whole} of {own.images} "
+        f"pictures of {sent_text(found.scene)}, {own.rate:.3g} % of the bits ({own.low:.1f} to "
+        f"{own.high:.1f} %): {bits:.4g} bits a second, if others are read as well."
+    )
 
 
 def written(parameter: str, value: float) -> str:

@@ -124,7 +124,8 @@ class Limits:
     def bits_a_second(self, frames_a_second: float = FRAMES_A_SECOND) -> float:
         """Return the net bits a second at the scene's own frequency and exposure.
 
-        Each picture shows a new payload, which counts once, and only without a wrong bit.
+        Counted as if each picture showed a new payload, read as often as the scene's own: it counts
+        once, and only without a wrong bit.
         """
         own, camera = self.frequency.own, self.scene.camera
         bits, readout_time = own.sent // own.images, camera.columns * camera.readout_time

@@ -104,7 +104,10 @@ def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) ->
     assert lines[5].startswith("The shortest exposure that it reads is 10 µs: ")
     assert "beyond it was not tried" in lines[5]
     assert lines[6].startswith("The longest exposure that it reads is 196 µs: ")
-    assert "it reads 20 of 20 pictures" in lines[8]
+    assert lines[8] == (
+        f"At 10 kHz it read 20 of 20 pictures of code {small_scene.transmitter.code}, 100 % of the "
+        f"bits (83.9 to 100.0 %): 300 bits a second, if others are read as well."
+    )
 
 
 def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
@@ -149,7 +152,7 @@ def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
             assert all(
                 counted in shell for counted in re.findall(r"\d+ % in \d+ images", line.text)
             )
-    (bits,) = re.findall(r"pictures: (\S+) bits", " ".join(
+    (bits,) = re.findall(r"%\): (\S+) bits a second", " ".join(
         line.text for line in AdviceSentences().lines(advice)))  # fmt: skip
     assert row(advice.limits).split()[-1] == bits
 

@@ -114,7 +114,7 @@ class VerdictBar(StateBar):
         elif self._rate is not None:
             chips = (of_pictures(self._rate), *chips)
         is_unread = verdict.state is State.BAD and verdict.reason
-        cause = cause_of(reading.scene, result.decoder) if is_unread else None
+        cause = cause_of(reading.scene, result.decoder, result.region) if is_unread else None
         if cause is None:
             heading, why = self._heading(verdict.heading), self._why(verdict, reading)
             if _is_averaged(verdict, reading) and not (self._is_outdated or self._run):

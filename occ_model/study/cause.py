@@ -11,6 +11,7 @@ from occ_model.effects.paper_view import region_of
 from occ_model.errors import OccError
 from occ_model.receiver.matched.payload_templates import MOST_BITS
 from occ_model.receiver.short_chips import columns_of_chip
+from occ_model.results.decoding import Region
 from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.parameters import quantity
 from occ_model.scene.parameters.light import MAX_BITS
@@ -28,6 +29,9 @@ _NEAR_NULL = 0.96
 
 _TARGET_LEVEL = 200.0
 """Grey level of the lit panel that a suggested step aims at."""
+
+_LOST = 4.0
+"""Times the panel's area from which a rectangle is not the panel's."""
 
 _STEP_MARGIN = 1.15
 """Factor by which a suggested step exceeds the theoretical limit."""
@@ -56,13 +60,20 @@ class Cause:
     step: Step | None = None
 
 
-def cause_of(scene: Scene, decoder: str) -> Cause | None:
-    """Find why a decoder cannot read a scene; None where the scene gives no reason."""
+def cause_of(scene: Scene, decoder: str, region: Region | None = None) -> Cause | None:
+    """Find why a decoder cannot read a scene; None where the scene gives no reason.
+
+    Parameters
+    ----------
+    region
+        The rectangle that the receiver takes for the panel; None where that is not known.
+    """
     if scene.transmitter.pattern:
         return None
     try:
         found = (
-            _light(scene), _short_chips(scene), _few_chips(scene, decoder), _bits(scene, decoder),
+            _light(scene), _lost_panel(scene, region), _short_chips(scene),
+            _few_chips(scene, decoder), _bits(scene, decoder),
             _null(scene, decoder), _noise(scene, decoder),
         )  # fmt: skip
     except OccError:
@@ -93,6 +104,28 @@ def _to_level(scene: Scene, lit: float) -> Step:
     wanted = scene.camera.iso * (_TARGET_LEVEL / max(lit, 1e-3)) ** scene.camera.gamma
     value = float(f"{min(max(wanted, low), high):.3g}")
     return Step(f"Set ISO {iso.format(value)}", {"iso": value})
+
+
+def _lost_panel(scene: Scene, region: Region | None) -> Cause | None:
+    """Compare what the receiver takes for the panel with the panel, where that is small."""
+    camera = scene.camera
+    panel = region_of(panel_corners(scene), camera.rows, camera.columns)
+    if region is None or panel is None or _area(region) < _LOST * _area(panel):
+        return None
+    share, wanted = _area(panel) / (camera.rows * camera.columns), scene.receiver.bright_fraction
+    if share >= wanted:
+        return None
+    value = max(float(f"{0.5 * share:.2g}"), quantity("bright_fraction").low)
+    return Cause(
+        "the panel is not found",
+        f"The brightest {100.0 * wanted:.3g} % of the pixels mark it, but it covers "
+        f"{100.0 * share:.2g} % of the picture: noise beside it is marked as well.",
+        Step(f"Mark the brightest {100.0 * value:.2g} %", {"bright_fraction": value}),
+    )
+
+
+def _area(region: Region) -> int:
+    return region.rows * region.columns
 
 
 def _short_chips(scene: Scene) -> Cause | None:

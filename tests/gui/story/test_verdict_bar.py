@@ -16,6 +16,7 @@ from occ_gui.widgets.chip_row import ChipLabel
 from occ_gui.widgets.contrast import contrast
 from occ_gui.widgets.state_look import State, colours_of
 from occ_gui.window.theme import palette_of
+from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.cause import Step
@@ -69,6 +70,24 @@ def test_no_code_is_bad_and_says_why(
     assert bar.state is State.BAD
     assert bar.title.text() == f"No code: {cause}"
     assert bar.accessibleDescription().endswith(rest)
+
+
+def test_a_panel_that_the_receiver_does_not_find_is_not_said_to_have_no_stripes(
+    bar: VerdictBar, snapshot_of: SnapshotOf
+) -> None:
+    snapshot = snapshot_of(panel_height=0.002)
+    camera = snapshot.scene.camera
+    bar.show_reading(
+        sent_to(
+            snapshot,
+            code=None,
+            bits=np.empty(0, dtype=np.uint8),
+            failure="No stripes: the signal spans only 0.8 grey levels.",
+            region=Region(0, camera.rows, 0, camera.columns),
+        )
+    )
+    assert bar.title.text() == "No code: the panel is not found"
+    assert bar.step.text().startswith("Mark the brightest 0.")
 
 
 def test_a_code_with_wrong_bits_is_doubtful(bar: VerdictBar, snapshot_of: SnapshotOf) -> None:

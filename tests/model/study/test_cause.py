@@ -40,6 +40,25 @@ def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, w
         assert occ.success_rate(helped, 3, cause.step.decoder or decoder) == 100.0
 
 
+@pytest.mark.parametrize("enhancement", ["equalization", "none"])
+def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: str) -> None:
+    """Stripes are plain to see, and the receiver takes the whole picture for the panel."""
+    scene = occ.load_preset("phone-68us").replace(panel_height=0.002, enhancement=enhancement)
+    picture = occ.render(scene, noise="reused").image
+    found = occ.decode(picture, scene)
+    assert found.code is None
+    cause = cause_of(scene, "threshold", found.region)
+    assert cause is not None
+    assert cause.what == "the panel is not found"
+    assert cause.why.startswith("The brightest 5 % of the pixels mark it, but it covers 0.065 %")
+    assert cause.step is not None
+    helped = scene.replace(**cause.step.changes)
+    assert occ.decode(picture, helped).code == scene.transmitter.code
+    taller = scene.replace(panel_height=0.08)
+    found = occ.decode(occ.render(taller, noise="reused").image, taller)
+    assert cause_of(taller, "threshold", found.region) is None
+
+
 def test_chips_are_called_needed_only_where_no_picture_is_read_with_fewer() -> None:
     """At 5 m the 33 chips in view hold both headers in some pictures, and a packet in all."""
     far = occ.load_preset("phone-136us").replace(distance=5.0)

@@ -18,6 +18,7 @@ from occ_model.program import EXIT_FAILURE
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results.decoding import DecodeResult
+from occ_model.scene.scene import Scene
 from occ_model.video.clock import READOUT_TOLERANCE
 from occ_model.video.file.kind import is_film
 
@@ -63,14 +64,24 @@ def _run(options: argparse.Namespace) -> int:
     scene = scene_of(options)
     if options.follow or is_film(options.file):
         return read_film(options, scene)
-    photo = load_photo(options.file, options.scan_axis, channel=options.channel)
-    result = decode(photo.image, scene, options.decoder)
+    result = _decoded(scene, options, options.scan_axis)
     for line in _report(result):
         print(line)
     if result.failure is not None:
         print(result.failure, file=sys.stderr)
         return EXIT_FAILURE
     return 0
+
+
+def _decoded(scene: Scene, options: argparse.Namespace, scan_axis: str) -> DecodeResult:
+    """Read a picture; one of the scene's size that holds no code turned is taken as it lies."""
+    image = load_photo(options.file, scan_axis, channel=options.channel).image
+    result = decode(image, scene, options.decoder)
+    rows, columns = scene.camera.rows, scene.camera.columns
+    is_turned = scan_axis == "auto" and rows != columns and image.shape == (columns, rows)
+    if result.failure is not None and is_turned:
+        return _decoded(scene, options, "columns")
+    return result
 
 
 def _report(result: DecodeResult) -> list[str]:

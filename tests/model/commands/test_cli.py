@@ -120,6 +120,21 @@ def test_decode_turns_a_picture_whose_lines_were_scanned(command: Command, tmp_p
     assert command("decode", path, "--scan-axis", "columns").code == 1
 
 
+def test_a_picture_without_stripes_is_not_turned_away_from_the_scenes_size(
+    command: Command, tmp_path: Path
+) -> None:
+    """The window takes the same picture as it lies: both then say the same of it."""
+    path = tmp_path / "picture.png"
+    dark = ("--set", "rows=900", "--set", "columns=300", "--set", "luminance=0.5")
+    assert command("render", *dark, "-o", path).code == 0
+    assert occ.load_photo(path).image.shape == (300, 900)  # noise alone tells no axis
+    failed = command("decode", path, *dark)
+    assert failed.code == 1
+    assert failed.out.startswith("region       columns 0 to 299, rows 0 to 899")
+    scene = occ.load_preset("phone-68us").replace(rows=900, columns=300, luminance=0.5)
+    assert failed.err.strip() == occ.decode(occ.render(scene).image, scene).failure
+
+
 @pytest.mark.parametrize("level", [0, 255])
 def test_a_picture_without_a_code_fails_with_the_reason(
     command: Command, tmp_path: Path, level: int

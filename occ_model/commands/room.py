@@ -259,6 +259,9 @@ def _numbers_of(place: Place, located: Located | None = None) -> str:
     for name, error in zip(_AXES, errors.tolist(), strict=True):
         value = getattr(place, name)
         scale, unit, digits = (1.0, "m", 4) if name in "xyz" else (180.0 / math.pi, "°", 2)
+        if error:  # two digits of it
+            digits = max(digits, 1 - math.floor(math.log10(error * scale)))
         own = f" ± {error * scale:.{digits}f}" if located else ""
-        texts.append(f"{name} {value * scale:.{digits}f}{own} {unit}")
+        rounded = round(value * scale, digits) + 0.0  # no minus before 0
+        texts.append(f"{name} {rounded:.{digits}f}{own} {unit}")
     return ", ".join(texts)

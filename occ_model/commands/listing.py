@@ -35,7 +35,7 @@ def _presets(options: argparse.Namespace) -> int:
         note = preset.sources.get(name, "")
         if name in preset.assumed:
             note = f"assumed: {preset.assumed[name]}"
-        print(f"{name:26}{value:16}{one_line(note, _MAX_NOTE_CHARACTERS)}".rstrip())
+        print(f"{name:26}{value:23} {one_line(note, _MAX_NOTE_CHARACTERS)}".rstrip())
     return 0
 
 

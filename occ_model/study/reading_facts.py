@@ -117,7 +117,7 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
         "frame_starts",
         "Frame starts",
         SECOND.format(clock.timing_noise, 4),
-        f"root mean square of {clock.frames} frames",
+        f"off the times stated, root mean square of {clock.frames} frames",
         "How far the frames begin from the times that are stated for them.",
     )
 

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from occ_model.cli import main
 from occ_model.errors import OccError, ParameterError, PresetError, SceneFileError
 from occ_model.files import resources
 from occ_model.scene.parameters import PARAMETERS
@@ -110,6 +111,13 @@ def test_the_experiment_has_the_papers_numbers(name: str) -> None:
 def test_the_papers_camera_looks_straight_at_the_panels_centre(name: str) -> None:
     pose = load_preset(name).pose
     assert (pose.offset_x, pose.offset_y, pose.yaw, pose.pitch, pose.roll) == (0, 0, 0, 0, 0)
+
+
+def test_a_values_source_stands_apart_from_it(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["presets", "phone-136us-real"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    (line,) = [line for line in lines if line.startswith("line_code ")]
+    assert line.split()[1:4] == ["differential-manchester", "paper,", "II:"]
 
 
 @pytest.fixture

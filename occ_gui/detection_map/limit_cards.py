@@ -140,9 +140,9 @@ class LimitCard(QFrame):
         grid.setContentsMargins(12, 6, 8, 6)
         grid.setSpacing(2)
         grid.addWidget(self.name, 0, 0)
-        grid.addWidget(self.value, 1, 0)
+        grid.addWidget(self.go, 0, 1)
+        grid.addWidget(self.value, 1, 0, 1, 2)  # beside the button it would widen the window
         grid.addWidget(self.range, 2, 0, 1, 2)
-        grid.addWidget(self.go, 0, 1, 2, 1)
         grid.setColumnStretch(0, 1)
         self.show_unknown()
         self.set_outdated(False)

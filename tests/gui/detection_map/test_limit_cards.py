@@ -11,6 +11,7 @@ from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.detection_map.map_view import MapView
 from occ_gui.widgets.text_scale import TextSize
+from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice
 from occ_model.results.advice_text import written
 from occ_model.results.limits import RangeEnd
@@ -108,6 +109,19 @@ def test_cards_stand_above_a_map_that_leaves_space(qtbot: QtBot) -> None:
     for height, shown in ((300, False), (600, True), (300, False)):
         view.resize(QSize(700, height))
         assert view.cards.isVisible() == shown
+
+
+def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene: Scene) -> None:
+    """A window of 1280 pixels has some 910 beside the sliders."""
+    cards = LimitCards(list(DECODERS))
+    qtbot.addWidget(cards)
+    for decoder, card in cards.cards.items():
+        end = advice_on(small_scene).frequency.ends[-1]
+        works, inside = replace(end.works, value=58.82e3), replace(INSIDE, value=58.82e3)
+        card.show_limit(replace(end, works=works, fails=None, inside=inside, interval=None), "", 99)
+        assert card.value.text() == "58.82 kHz, searched to"
+        assert card.go.text() == "Go to 58.82 kHz", decoder
+    assert cards.minimumSizeHint().width() <= 910
 
 
 def test_the_value_of_a_card_is_as_large_as_a_heading(cards: LimitCards) -> None:

@@ -168,7 +168,7 @@ class AccuracyPlot(QWidget):
     def show_ways(self, expected: Forecast) -> None:
         """Draw what accuracy costs: error over time of all sets of effects that a plan may have.
 
-        Times are those expected from what was measured, errors the plan's estimates.
+        Times are those expected from what was measured, errors the plan's limits.
         """
         timed = zip(expected.ways, expected.ways_seconds, strict=True)
         shown = [(way, s) for way, s in timed if s is not None and way.error < math.inf]

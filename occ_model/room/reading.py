@@ -190,6 +190,8 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
     signal = _signal(image, region, hull)
     codes: list[tuple[int, list[str]]] = []
     failure, hides = "", False
+    own_rows = image[region.first_row : region.last_row]
+    bright = own_rows.max(axis=0) > _MIN_LIT_FRACTION * signal.max()
     for scene in _settings(room):
         result = decode(signal, scene, "matched")
         if result.code is None:
@@ -201,7 +203,7 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
             if sent_by(lamp) == sent and lamp.transmitter.code == result.code
         ]  # fmt: skip
         codes.append((result.code, names))
-        hides = hides or _may_reach_sides(result, scene, region)
+        hides = hides or _may_reach_sides(result, scene, region, bright)
     known = [(code, name) for code, names in codes for name in names]
     code = codes[0][0] if codes else None
     cut = "It is cut by the picture's edge." if is_cut else ""
@@ -218,8 +220,14 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
     return ReadLamp(None, code, region, hull, is_cut, f"{why} {cut}".strip())
 
 
-def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region) -> bool:
-    """Whether all chips between a lamp and one side of the picture are dark."""
+def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region, bright: BoolArray) -> bool:
+    """Whether no column between a lamp and one side of the picture lacks the light of a lit chip.
+
+    Parameters
+    ----------
+    bright
+        Whether a column is lit in some of the lamp's rows.
+    """
     if result.model is None:
         return False
     camera, sent = scene.camera, scene.transmitter
@@ -228,6 +236,6 @@ def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region) -> bool
     bins = len(result.model)
     place = chip * (bins / len(packet(scene)))
     lit = np.interp(place, np.arange(bins), result.model, period=bins)
-    seen = lit > _MIN_LIT_FRACTION * result.model.max()
-    sides = seen[: region.first_column], seen[region.last_column :]
+    lacking = (lit > _MIN_LIT_FRACTION * result.model.max()) & ~bright
+    sides = lacking[: region.first_column], lacking[region.last_column :]
     return any(not side.any() for side in sides)

@@ -8,11 +8,12 @@ import ctypes
 import gc
 import logging
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from functools import _lru_cache_wrapper
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 from gui.soak_actions import FileDialogs, Monkey, smaller, smaller_lessons
@@ -28,8 +29,8 @@ ACTIONS = int(os.environ.get("OCC_SOAK", 120))
 _WINDOW = 5_000
 """Actions between two looks at the memory; after the first of them all that is kept is full."""
 
-_MOST_GROWTH = 3e6
-"""Bytes."""
+_MOST_GROWTH, _MOST_BLOCKS = 3e6, 30_000
+"""Bytes, and blocks of Python, which hold some hundred bytes each."""
 
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3
@@ -72,27 +73,52 @@ def forget_ignored_messages(log: Any) -> None:
     log._records[:] = [each for each in log._records if not each.ignored]
 
 
-def used_memory() -> float:
-    """Give the memory that the process uses now, without what it keeps free for later."""
+class Allocated(ctypes.Structure):
+    """What glibc reports of its allocations, in its own order."""
+
+    _fields_: ClassVar = [
+        (name, ctypes.c_size_t)
+        for name in (
+            "arena", "ordblks", "smblks", "hblks", "hblkhd", "usmblks", "fsmblks", "uordblks",
+            "fordblks", "keepcost",
+        )
+    ]  # fmt: skip
+
+
+def used_memory() -> tuple[float, int]:
+    """Return the bytes that Qt, numpy and others have allocated now, and Python's blocks.
+
+    What the system counts holds also the room between them, which comes and goes by 10 MB.
+    """
     empty_bounded_caches()
     gc.collect()
     give_memory_back()
-    return memory("VmRSS")
+    try:
+        report = ctypes.CDLL("libc.so.6").mallinfo2
+    except (OSError, AttributeError):
+        return memory("VmRSS"), sys.getallocatedblocks()
+    report.restype = Allocated
+    found = report()
+    return float(found.uordblks + found.hblkhd), sys.getallocatedblocks()
 
 
 class Growth:
     """What is used at the end of each window of actions, and what was at most within it."""
 
     def __init__(self) -> None:
-        self.used: list[float] = []
+        self.used: list[tuple[float, int]] = []
         self._forget_the_peak()
 
     def look(self, number: int) -> None:
         """Look now, after so many actions, and print it."""
         peak, left = memory("VmHWM"), memory("VmRSS")
         self.used.append(used_memory())
-        each = [f"{value / 1e6:.1f}" for value in (peak, left, self.used[-1])]
-        print(number, "actions, MB at most, at rest and in use:", *each, flush=True)  # noqa: T201
+        (used, blocks), there = self.used[-1], memory("VmRSS")
+        each = [f"{value / 1e6:.1f}" for value in (peak, left, there, used)]
+        print(  # noqa: T201
+            number, "actions, MB at most, at rest, without caches, and in use:", *each,
+            "and blocks of Python:", blocks, flush=True,
+        )  # fmt: skip
         self._forget_the_peak()
 
     @staticmethod
@@ -147,4 +173,6 @@ def test_random_actions_cause_no_exception_warning_or_leak(
     # A mistake of ours on another thread becomes a sentence on the screen, and a line here.
     assert [each.message for each in caplog.records if each.levelno >= logging.WARNING] == []
     if growth.used:
-        assert growth.used[-1] - growth.used[0] < _MOST_GROWTH
+        (first, blocks), (last, more) = growth.used[0], growth.used[-1]
+        assert last - first < _MOST_GROWTH
+        assert more - blocks < _MOST_BLOCKS

@@ -42,8 +42,6 @@ def transmitter_sketch(scene: Scene, board: str = DEFAULT_BOARD) -> str:
 
     Parameters
     ----------
-    scene
-        The scene.
     board
         ``"arduino-uno"``, ``"arduino-nano"``, ``"esp32"`` or ``"raspberry-pi-pico"``.
 

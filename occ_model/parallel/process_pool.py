@@ -113,7 +113,6 @@ _shared: dict[str, Any] = {}
 
 
 def _begin(first_runs: Any, counts: Any, niceness: int) -> None:
-    """Prepare a worker."""
     _shared.update(first_runs=first_runs, counts=counts)
     if niceness and hasattr(os, "nice"):
         os.nice(niceness)

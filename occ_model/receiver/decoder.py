@@ -17,8 +17,6 @@ class Decoder:
     ----------
     name
         The identifier, as on the command line.
-    title
-        A short description.
     read
         Reads a signal, the mean grey level of each column, shape (columns,), with the parameters of
         a scene that a receiver knows. The caller adds the region to the result.

@@ -126,8 +126,6 @@ class FilmProgress:
 
     Parameters
     ----------
-    frame
-        The last frame.
     frames, placed
         Frames so far, and those of them whose place in the packet is known.
     payload
@@ -155,8 +153,6 @@ class VideoReading:
 
     Parameters
     ----------
-    frames
-        Its frames.
     packets
         The packets that were sent from the first frame's start to the last one's end; empty where
         the frames' times do not tell how many were sent between frames. Where those jump, so that

@@ -53,8 +53,6 @@ class RoomFrame:
 
     Parameters
     ----------
-    room
-        The room.
     plan
         The effects simulated: those that the picture of any of its lamps calls for.
     camera_image : ndarray of uint8, shape (rows, columns)
@@ -103,8 +101,6 @@ def render_room(
 
     Parameters
     ----------
-    room
-        The room.
     tolerance, seed, observable, force, noise
         As for :func:`occ_model.render`, the tolerance for each lamp.
 

@@ -60,8 +60,6 @@ class Place:
 
     Parameters
     ----------
-    x, y, z
-        Place in the room.
     yaw, pitch, roll
         Turn about y, x and z; all 0 looks straight up.
 
@@ -147,8 +145,6 @@ class Room:
     scene
         The camera's settings, lens and sensor, the light that is not the lamps', and the model. Its
         transmitter is not used, and its pose is the first one.
-    camera
-        Where the camera is.
 
     Raises
     ------

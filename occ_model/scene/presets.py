@@ -104,8 +104,6 @@ def save_preset(
     ----------
     name
         The name to load it by: letters, digits, spaces, ``-`` and ``_``.
-    scene
-        The scene.
     title
         A short description; by default the name.
     sources

@@ -45,8 +45,6 @@ def render(
 
     Parameters
     ----------
-    scene
-        The scene.
     tolerance
         Most change by the effects left out, in levels of the stretched profile. 0: every effect of
         the scene is simulated; infinity: none, the bare paper model.

@@ -59,8 +59,6 @@ def accuracy(
 
     Parameters
     ----------
-    scene
-        The scene.
     settings
         The current settings, by default ``SimulationSettings()``.
     complete

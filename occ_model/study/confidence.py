@@ -28,8 +28,6 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
     ----------
     successes
         Number of trials that succeeded, s.
-    trials
-        Number of trials, n.
     level
         Fraction of such intervals that hold the true rate, between 0 and 1.
 

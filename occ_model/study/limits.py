@@ -50,8 +50,6 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
 
     Parameters
     ----------
-    scene
-        The scene.
     decoder
         The decoder's name.
     rate
@@ -229,7 +227,6 @@ def _value_of(result: JobResult) -> WorkingRange:
 
 
 def _what(asked: tuple[Any, ...]) -> str:
-    """Say what is searched."""
     return f"{PARAMETERS[asked[1]].label.lower()}, {asked[3].decoders[0]} decoder"
 
 

@@ -70,8 +70,6 @@ def most_bits(
     ----------
     scene
         The scene; its scheme, payload and switching frequency are varied.
-    decoders
-        The decoders' names.
     frames_a_second
         Pictures a second, each of which shows another payload.
     pictures

@@ -58,8 +58,6 @@ def success_rate(
     ----------
     scene
         The scene; its start time and its flicker's phase are not used.
-    images
-        Number of images.
     decoder
         The decoder's name.
     seed

@@ -29,8 +29,6 @@ class Scheme:
         Chips that start a frame, as a text; empty: the line code's own.
     correction
         ``"none"`` or ``"reed-solomon"``.
-    bits
-        Bits of a payload.
     """
 
     line_code: LineCode

@@ -22,8 +22,6 @@ def decode_video(
 
     Parameters
     ----------
-    video
-        The film.
     scene
         What the receiver knows: scheme and number of bits, and roughly the switching frequency, the
         exposure time and the readout time.

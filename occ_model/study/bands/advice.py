@@ -34,8 +34,6 @@ def band_advice(scene: Scene, limit: float = NO_BARS_DEPTH) -> BandAdvice:
 
     Parameters
     ----------
-    scene
-        The scene.
     limit
         Peak-to-peak depth relative to the mean, below which there are no bars.
 

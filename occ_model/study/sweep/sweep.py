@@ -64,8 +64,6 @@ def sweep(  # noqa: PLR0913 - a study's settings, most of them optional
         The scene, which gives the parameters that are not varied.
     axes
         The values of each parameter that is varied, by name and in SI units.
-    images
-        Images at each point.
     decoder
         A decoder's name, or several: they read the same images.
     seed

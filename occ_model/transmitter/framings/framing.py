@@ -68,8 +68,6 @@ class Framing:
     ----------
     name
         The identifier, as in a scene file.
-    title
-        A short description.
     checks
         Whether it checks the payload itself, whatever the line code finds.
     encode

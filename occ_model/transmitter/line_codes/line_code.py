@@ -51,8 +51,6 @@ class LineCode:
     ----------
     name
         The identifier, as in a scene file.
-    title
-        A short description.
     block_bits, block_chips
         Bits and chips of a block.
     longest_run

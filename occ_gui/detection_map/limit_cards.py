@@ -129,7 +129,7 @@ class LimitCard(QFrame):
         self._is_outdated = False
         self.name = ElidedLabel(decoder, Qt.TextElideMode.ElideRight)
         self.value = QLabel()
-        self.range = ElidedLabel()
+        self.range = ElidedLabel(how=Qt.TextElideMode.ElideRight)  # not a gap's end
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")

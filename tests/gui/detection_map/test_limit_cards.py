@@ -122,6 +122,10 @@ def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene
         assert card.value.text() == "58.82 kHz, searched to"
         assert card.go.text() == "Go to 58.82 kHz", decoder
     assert cards.minimumSizeHint().width() <= 910
+    cards.resize(910, 80)
+    cards.show()
+    card.range.set_full_text("from 3.56 kHz; gap 14.07 kHz to 17.19 kHz and 12 gaps more")
+    assert card.range.text().startswith("from 3.56 kHz; gap 14.07")
 
 
 def test_the_value_of_a_card_is_as_large_as_a_heading(cards: LimitCards) -> None:

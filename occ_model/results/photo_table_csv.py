@@ -1,11 +1,10 @@
 """Write the table of several photos as CSV: comment lines, then one row a photo."""
 
-import csv
 from collections.abc import Sequence
-from io import StringIO
 
 from occ_model.errors import one_line, printable
 from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoTable
+from occ_model.results.sweep_csv import csv_row
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.version import __version__
@@ -41,7 +40,7 @@ def csv_text(table: PhotoTable, more: Sequence[str] = (), condition: str = "") -
         "# scene at hand:",
         *(f"# {line}".rstrip() for line in table.scene.to_toml().splitlines()),
     ]
-    return "\n".join(lines) + "\n" + _row(_COLUMNS) + "".join(_photo_rows(table, condition))
+    return "\n".join(lines) + "\n" + csv_row(_COLUMNS) + "".join(_photo_rows(table, condition))
 
 
 def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
@@ -57,7 +56,7 @@ def _photo_rows(table: PhotoTable, condition: str) -> list[str]:
         own = rests_on if row.given is None else _given(known, row.given)
         estimates += [row.exposure_verdict, None if row.match is None else own]
         texts.append(
-            _row(
+            csv_row(
                 [_text(str(row.path)), row.verdict, kept, *estimates, row.noted_exposure,
                  row.correlation, row.pattern, row.lines or None, _text(row.camera or ""),
                  _text(row.note)]
@@ -105,9 +104,3 @@ def _text(text: str) -> str:
     """Return a text from a file, quoted so that no spreadsheet evaluates it."""
     text = one_line(text, _MAX_TEXT_LENGTH)
     return f"'{text}" if text.startswith(tuple(_FORMULA)) else text
-
-
-def _row(cells: Sequence[object]) -> str:
-    text = StringIO()
-    csv.writer(text, lineterminator="\n").writerow("" if cell is None else cell for cell in cells)
-    return text.getvalue()

@@ -2,7 +2,7 @@
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from io import StringIO
 
 from occ_model.results.sweep_request import SweepPoint, SweepRequest
@@ -36,7 +36,7 @@ def header_text(request: SweepRequest) -> str:
         lines.append(f"# axis {_column(name)}: {', '.join(map(_written, values))}")
     lines += ["#", "# scene at hand:"]
     lines += [f"# {line}".rstrip() for line in request.scene.to_toml().splitlines()]
-    return "\n".join(lines) + "\n" + _row(_columns(request))
+    return "\n".join(lines) + "\n" + csv_row(_columns(request))
 
 
 def _columns(request: SweepRequest) -> list[str]:
@@ -69,7 +69,7 @@ def point_text(
         if point.sent:
             right, bits = point.right[place], request.bits_a_second(point, place)
             found = [right, point.sent, 100.0 * right / point.sent, *ends, point.whole[place], bits]
-        text += _row([*values, decoder, settings.images, settings.seed, *found, point.note])
+        text += csv_row([*values, decoder, settings.images, settings.seed, *found, point.note])
     return text
 
 
@@ -110,7 +110,8 @@ def _written(value: ParameterValue) -> str:
     return value if isinstance(value, str) else repr(value)
 
 
-def _row(cells: Sequence[object]) -> str:
+def csv_row(cells: Iterable[object]) -> str:
+    """Return a line of a CSV table; a cell that is None or not a number is empty."""
     text = StringIO()
     csv.writer(text, lineterminator="\n").writerow(
         "" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells

@@ -6,7 +6,6 @@ from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, closing
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from time import perf_counter
 
@@ -15,7 +14,7 @@ import numpy as np
 from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat, Job
 from occ_model.results.decoding import Region
-from occ_model.results.sweep_csv import one_line
+from occ_model.results.sweep_csv import csv_row, one_line
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp
@@ -217,11 +216,11 @@ class RoomMapText:
             "x (m)", "y (m)", "images", "whole lamps", "named rightly", "misread", "named wrongly",
             "sure places", "error (m)", "stated error (m)", "note",
         )  # fmt: skip
-        self.header = "\n".join(lines) + "\n" + _row(columns)
+        self.header = "\n".join(lines) + "\n" + csv_row(columns)
 
     def text(self, point: RoomPoint) -> str:
         """Write a place."""
-        return _row((
+        return csv_row((
             *self._request.place(point.index), self._request.images, point.shown, point.named,
             point.misread, point.wrong, point.sure, point.error, point.stated, point.note,
         ))  # fmt: skip
@@ -239,14 +238,6 @@ class RoomMapText:
         index = across * len(self._request.along) + along
         off, told = (float(text) if text else math.nan for text in (error, stated))
         return RoomPoint(index, shown, named, misread, wrong, sure, off, told, note)
-
-
-def _row(cells: Iterable[object]) -> str:
-    text = StringIO()
-    csv.writer(text, lineterminator="\n").writerow(
-        "" if isinstance(cell, float) and math.isnan(cell) else cell for cell in cells
-    )
-    return text.getvalue()
 
 
 def room_map(

@@ -29,8 +29,12 @@ ACTIONS = int(os.environ.get("OCC_SOAK", 120))
 _WINDOW = 5_000
 """Actions between two looks at the memory; after the first of them all that is kept is full."""
 
-_MOST_GROWTH, _MOST_BLOCKS = 3e6, 30_000
-"""Bytes, and blocks of Python, which hold some hundred bytes each."""
+_MOST_GROWTH, _MOST_BLOCKS = 15e6, 30_000
+"""Bytes, and blocks of Python, which hold some hundred bytes each.
+
+What the panes keep of scenes before differs: over 1,200 movements of sliders 152 to 163 MB were in
+use, up and down, and 1.355 to 1.359 million blocks.
+"""
 
 
 _TRIM_THRESHOLD, _MMAP_THRESHOLD = -1, -3

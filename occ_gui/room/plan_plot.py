@@ -50,8 +50,10 @@ class PlanPlot(QWidget):
         self.ellipse = self.plot.add_curve(thin(BAND))
         self.names: list[pg.TextItem] = []
         self.found = self.plot.plot([], [], pen=None, symbol="x", symbolBrush=BAND, symbolPen=BAND)
+        self.aim = pg.TargetItem((0.0, 0.0), size=30, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
         self.camera = pg.TargetItem((0.0, 0.0), size=14, symbol="o", pen=pg.mkPen(PHOTO, width=2))
-        self.aim = pg.TargetItem((0.0, 0.0), size=12, symbol="t1", pen=pg.mkPen(PHOTO, width=2))
+        # Of a camera that looks straight up, the triangle stands around the ring: both can be held.
+        self.camera.setZValue(self.aim.zValue() + 1.0)
         self._follow(self.camera, self.camera_moved)
         self._follow(self.aim, self.aim_moved)
         self.plot.dress_with(self._dress)

@@ -49,14 +49,18 @@ def pane(bench: PaneBench, qtbot: QtBot) -> RoomPane:
     return pane
 
 
-def drag(qtbot: QtBot, view: PlotWidget, item: TargetItem, *way: tuple[float, float]) -> None:
-    """Drag what stands in a plan along some places, each in metres."""
+def drag(
+    qtbot: QtBot, view: PlotWidget, item: TargetItem, *way: tuple[float, float], below: float = 0.0
+) -> None:
+    """Drag what stands in a plan, held so far below its middle, along some places, in metres."""
     port, box = view.viewport(), view.getViewBox()
 
     def place(x: float, y: float) -> QPoint:
         return view.mapFromScene(box.mapViewToScene(QPointF(x, y)))
 
-    qtbot.mousePress(port, Qt.MouseButton.LeftButton, pos=place(item.pos().x(), item.pos().y()))
+    qtbot.mousePress(
+        port, Qt.MouseButton.LeftButton, pos=place(item.pos().x(), item.pos().y() - below)
+    )
     for at in way:
         qtbot.mouseMove(port, place(*at))
         qtbot.wait(20)  # the plot leaves out what comes sooner
@@ -88,6 +92,22 @@ def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
     for _ in range(3):
         stack.redo()
     assert pane.room.camera == turned
+
+
+def test_a_camera_that_looks_straight_up_is_moved_by_its_ring_and_turned_by_its_triangle(
+    pane: RoomPane, qtbot: QtBot
+) -> None:
+    plan, before = pane.view.plan, pane.room.camera
+    assert (plan.aim.pos().x(), plan.aim.pos().y()) == pytest.approx((before.x, before.y))
+    corner = 12.0 * plan.plot.getViewBox().viewPixelSize()[1]  # of the triangle, beyond the ring
+    drag(qtbot, plan.plot, plan.camera, (0.4, 0.4), (0.3, 0.3))
+    moved = pane.room.camera
+    assert (moved.x, moved.y) == pytest.approx((0.3, 0.3), abs=0.05)
+    assert (moved.yaw, moved.pitch) == (before.yaw, before.pitch)
+    drag(qtbot, plan.plot, plan.aim, (0.5, 0.5), (0.6, 0.6), below=corner)
+    turned = pane.room.camera
+    assert (turned.x, turned.y) == (moved.x, moved.y)
+    assert (turned.yaw, turned.pitch) != (moved.yaw, moved.pitch)
 
 
 def test_what_is_undone_while_the_pane_is_hidden_is_no_figure_any_more(

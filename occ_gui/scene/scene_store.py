@@ -52,7 +52,8 @@ class SceneStore(QObject):
             self.refused_for.emit(sentence, tuple(at_fault or changes))
             return
         labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
-        self.put(scene, f"change of {labels}", gesture)
+        workspace = replace(self.store.workspace, scene=scene)
+        self.store.put(workspace, f"change of {labels}", gesture)
 
     def force(self, effect: str, included: bool | None) -> None:
         """Switch an effect on or off, or leave it to the plan (None)."""

@@ -52,7 +52,7 @@ def test_the_sentence_goes_once_the_scene_has_a_picture_again(
     application.store.change(**BEHIND_THE_CAMERA)
     user.wait_until_idle()
     user.choose("&Undo")
-    assert user.message == ""
+    assert user.message == "Undone: change of distance and yaw."
 
 
 def test_an_intermediate_scene_without_a_picture_leaves_no_text(
@@ -70,7 +70,7 @@ def test_a_refusal_disappears_with_the_next_change(application: Application, use
     assert user.message == ""
     user.enter("distance", "-3 m")
     user.choose("&Undo")
-    assert user.message == ""
+    assert user.message == "Undone: change of distance."
     user.enter("distance", "-3 m")
     user.choose_next_preset()
     assert user.message == ""

@@ -311,7 +311,7 @@ def test_a_wrong_answer_tells_no_number() -> None:
 def test_an_answer_that_is_no_number_is_said_to_be_none(text: str) -> None:
     checked = check_answer(step(3, 1), text)
     assert checked.outcome == "unreadable"
-    assert "no number in kHz" in checked.sentence
+    assert "is not a number in kHz" in checked.sentence
     assert len(checked.sentence) < 100
 
 

@@ -63,7 +63,7 @@ def test_the_cameras_exposure_stands_under_the_fitted_one(
     assert names[place + 1] == "noted by the camera"
     lines = lines_of(out)
     assert lines["noted by the camera"] == "68 µs"
-    assert lines["duty"] == "lit for 50 % of a period"
+    assert lines["duty"] == "lit for 50 % of a period (given)"
     exposure = float(lines["exposure_time"].split()[0])
     # Written to whole microseconds and to three digits.
     chips = float(lines["exposure in chips"])

@@ -65,8 +65,10 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     assert [float(row["simulation (grey level)"]) for row in profile] == FRAME.profile.tolist()
     assert [float(row["band model (grey level)"]) for row in profile] == BAND.tolist()
     photo = np.array([float(row["photo, fitted levels (grey level)"]) for row in profile])
-    assert np.isnan(photo[:800]).all()
-    assert np.array_equal(photo[800:2000], PHOTO.photo)
+    first, last = PHOTO.first_column, PHOTO.first_column + len(PHOTO.photo)
+    assert np.isnan(photo[:first]).all()
+    assert np.array_equal(photo[first:last], PHOTO.photo)
+    assert np.isnan(photo[last:]).all()
     signal = READ.signal
     assert signal is not None
     read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]

@@ -65,10 +65,10 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     assert [float(row["simulation (grey level)"]) for row in profile] == FRAME.profile.tolist()
     assert [float(row["band model (grey level)"]) for row in profile] == BAND.tolist()
     photo = np.array([float(row["photo, fitted levels (grey level)"]) for row in profile])
-    first, last = PHOTO.first_column, PHOTO.first_column + len(PHOTO.photo)
-    assert np.isnan(photo[:first]).all()
-    assert np.array_equal(photo[first:last], PHOTO.photo)
-    assert np.isnan(photo[last:]).all()
+    begin, end = PHOTO.first_column, PHOTO.first_column + len(PHOTO.photo)
+    assert np.isnan(photo[:begin]).all()
+    assert np.array_equal(photo[begin:end], PHOTO.photo)
+    assert np.isnan(photo[end:]).all()
     signal = READ.signal
     assert signal is not None
     read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]

@@ -86,6 +86,7 @@ def try_release(release: str, folder: Path) -> tuple[str, ...]:
 def make_root(release: str, root: Path) -> None:
     """Make a root of a release anew, with a copy of the last commit and pip's settings."""
     shutil.rmtree(root, ignore_errors=True)
+    root.parent.mkdir(parents=True, exist_ok=True)
     old_dates = ['--aptopt=Acquire::Check-Valid-Until "false"']
     make = ["mmdebstrap", "--quiet", "--variant=apt", f"--include={INCLUDED}", *old_dates]
     subprocess.run([*make, release, str(root)], check=True)

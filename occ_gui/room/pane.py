@@ -29,7 +29,7 @@ class RoomPane(Pane[RoomChoice]):
     def __init__(self, store: Store) -> None:
         self.view = RoomView(rooms())
         super().__init__(ScrollPane(self.view, _LEAST))
-        self._store = store
+        self._store, self._first = store, load_room(FIRST_ROOM)
         self.look: Look | None = None
         """What is shown, or looked at."""
         self.shown: ShownRoom | None = None
@@ -59,7 +59,7 @@ class RoomPane(Pane[RoomChoice]):
     def room(self) -> Room:
         """The room that is shown, with its camera where the user has put it."""
         room = self._store.workspace.room.room
-        return load_room(FIRST_ROOM) if room is None else room
+        return self._first if room is None else room
 
     def show_part(self, part: RoomChoice) -> None:
         """Look at a room from its camera's place, or at a photo of it."""

@@ -6,6 +6,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal
 
 from occ_gui.core.store import NO_GESTURE, Store
+from occ_gui.core.workspace import Workspace
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.scene.settings_store import SettingsStore
 from occ_model.errors import OccError
@@ -52,8 +53,7 @@ class SceneStore(QObject):
             self.refused_for.emit(sentence, tuple(at_fault or changes))
             return
         labels = " and ".join(PARAMETERS[name].label.lower() for name in changes)
-        workspace = replace(self.store.workspace, scene=scene)
-        self.store.put(workspace, f"change of {labels}", gesture)
+        self.store.put(self._with(scene), f"change of {labels}", gesture)
 
     def force(self, effect: str, included: bool | None) -> None:
         """Switch an effect on or off, or leave it to the plan (None)."""
@@ -81,10 +81,14 @@ class SceneStore(QObject):
         The preset is what a whole other scene was changed from; one that is changed a little keeps
         its own.
         """
-        workspace, last = self.store.workspace, self.scene
-        changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
-        preset = preset or (workspace.preset if changed <= _MOST_OF_A_CHANGE else "")
-        workspace = replace(workspace, scene=scene, preset=preset)
+        workspace = self._with(scene, preset)
         if force is not None:
             workspace = workspace.with_force(force)
         self.store.put(workspace, title, gesture)
+
+    def _with(self, scene: Scene, preset: str = "") -> Workspace:
+        """Return the workspace with a scene, and what preset that was changed from."""
+        workspace, last = self.store.workspace, self.scene
+        changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
+        preset = preset or (workspace.preset if changed <= _MOST_OF_A_CHANGE else "")
+        return replace(workspace, scene=scene, preset=preset)

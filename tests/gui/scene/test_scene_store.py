@@ -34,6 +34,21 @@ def test_a_change_is_emitted_with_the_new_scene(
 
 
 @pytest.mark.parametrize(
+    ("changes", "preset"),
+    [
+        ({"iso": 200.0, "distance": 2.0}, "phone-68us"),
+        ({"iso": 200.0, "distance": 2.0, "exposure_time": 3e-4}, ""),
+    ],
+)
+def test_a_scene_that_is_changed_a_little_keeps_the_preset_that_it_was(
+    store: SceneStore, small_scene: Scene, changes: dict[str, float], preset: str
+) -> None:
+    store.put(small_scene.replace(code=3), "preset phone-68us", preset="phone-68us")
+    store.change(**changes)  # type: ignore[arg-type]  # no gesture is among them
+    assert store.store.workspace.preset == preset
+
+
+@pytest.mark.parametrize(
     ("changes", "named"),
     [
         ({"iso": -1.0}, "ISO speed cannot be -1;"),

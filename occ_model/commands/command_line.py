@@ -1,57 +1,44 @@
 """The command line of ``occ-model``: each command's ``add_to`` declares its options and action.
 
-The commands import all of the model. The window, which needs some of their options, does not import
-them.
+A command is imported when it is called: most need a part of the model only.
 """
 
 import argparse
+import sys
 from collections.abc import Sequence
+from importlib import import_module
 
-from occ_model.commands import (
-    accuracy,
-    animate,
-    bands,
-    bench,
-    codes,
-    decode,
-    figures,
-    film,
-    film_study,
-    limits,
-    listing,
-    match,
-    most_bits,
-    plan,
-    render,
-    room,
-    sweep,
-    transmit,
-)
 from occ_model.commands.files import check_files
 from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
-_COMMANDS = (
-    render, animate, film, film_study, plan, accuracy, sweep, limits, bench, most_bits, bands,
-    decode, match, figures, room, transmit, codes, listing,
-)  # fmt: skip
+_MODULES = {
+    "render": "render", "animate": "animate", "film": "film", "film-study": "film_study",
+    "plan": "plan", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits", "bench": "bench",
+    "most-bits": "most_bits", "bands": "bands", "decode": "decode", "match": "match",
+    "figures": "figures", "room": "room", "transmit": "transmit", "codes": "codes",
+    "presets": "listing", "parameters": "listing",
+}  # fmt: skip
+"""The module of each command."""
 
 
-def make_parser() -> Parser:
-    """Make the parser of all commands."""
+def make_parser(command: str | None = None) -> Parser:
+    """Make the parser of one command, or of all where there is no such command."""
     parser = Parser(
         prog="occ-model", description="Simulate and decode rolling-shutter pictures of a panel."
     )
     parser.add_argument("--version", action="version", version=f"%(prog)s {__version__}")
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
-    for command in _COMMANDS:
-        command.add_to(commands)
+    modules = [_MODULES[command]] if command in _MODULES else dict.fromkeys(_MODULES.values())
+    for module in modules:
+        import_module(f"occ_model.commands.{module}").add_to(commands)
     return parser
 
 
 def read_command_line(arguments: Sequence[str] | None) -> argparse.Namespace:
     """Parse a command line for :func:`run_command`."""
-    return make_parser().parse_args(arguments)
+    words = sys.argv[1:] if arguments is None else arguments
+    return make_parser(next(iter(words), None)).parse_args(arguments)
 
 
 def run_command(options: argparse.Namespace) -> int:

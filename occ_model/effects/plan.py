@@ -106,6 +106,28 @@ def plan_of(view: PaperView, settings: SimulationSettings) -> Plan:
     )
 
 
+def complete_plan(scene: Scene, settings: SimulationSettings) -> Plan:
+    """Take in every effect of a scene but those switched off by hand, without estimating any."""
+    decisions = tuple(
+        _take_in(effect, scene, settings.force.get(effect.name)) for effect in EFFECTS
+    )
+    return Plan(0.0, settings.observable, decisions, left_out=0.0, stretch=math.nan)
+
+
+def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
+    is_present = effect.is_present(scene)
+    included = is_present if by_hand is None else by_hand
+    estimate = math.inf if is_present else 0.0
+    why = "not estimated" if is_present else "none in this scene"
+    if by_hand is not None:
+        why = f"switched {'on' if included else 'off'} by hand"
+    reason = f"{why}: {'taken in' if included else 'left out'}"
+    return Decision(
+        effect.name, effect.label, effect.kind, effect.stage, estimate, estimate, included,
+        by_hand is not None, why, reason,
+    )  # fmt: skip
+
+
 def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
     """Return the sets of effects that a plan chooses among, the fastest first.
 

@@ -1,5 +1,7 @@
 """Laws of the success rate, and of the two ways to measure it."""
 
+import math
+
 import numpy as np
 import pytest
 
@@ -130,3 +132,24 @@ def test_a_panel_outside_the_picture_is_never_read(scene: Scene) -> None:
 def test_a_raw_pattern_has_no_success_rate(scene: Scene) -> None:
     with pytest.raises(occ.ParameterError, match="raw pattern"):
         occ.success_rate(scene.replace(pattern="0110"))
+
+
+def test_study_without_pixels_simulates_all_that_the_scene_has(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def refuse(*_: object) -> object:
+        raise AssertionError("estimated")
+
+    from occ_model.study import success_rate as module
+
+    monkeypatch.setattr(module, "plan_of", refuse)
+    scene = occ.load_preset("phone-136us")
+    rates = {
+        occ.success_rate(scene, 3, seed=4, tolerance=tolerance, path="profile")
+        for tolerance in (0.0, 0.5, 20.0)
+    }
+    assert len(rates) == 1
+    with pytest.raises(AssertionError, match="estimated"):
+        occ.success_rate(scene, 3, path="rows")
+    with pytest.raises(AssertionError, match="estimated"):
+        occ.success_rate(scene, 3, tolerance=math.inf)

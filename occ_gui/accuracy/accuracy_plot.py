@@ -32,7 +32,6 @@ _LEAST_HEIGHT = 56
 """Pixels: in a low window all panes share the height."""
 
 _LEGEND_HEIGHT = 220
-"""Pixels of height from which there is room for the legend."""
 
 _LABEL_GAP = 14
 """Pixels between an axis, its numbers and its label."""
@@ -161,7 +160,6 @@ class AccuracyPlot(QWidget):
         )
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the legend where there is room."""
         super().resizeEvent(event)
         self.legend.setVisible(self.height() >= _LEGEND_HEIGHT)
 
@@ -213,18 +211,15 @@ class AccuracyPlot(QWidget):
         return () if self._measuring or self._outdated else self._complete
 
     def show_study_begun(self) -> None:
-        """Show that a study of the current scene has begun."""
         self._measuring, self._outdated, self._points = True, False, []
         self._show_state("measuring…")
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        """Add a point, the given number of a total."""
         self._points.append(point)
         self._draw(self._points, 1.0)
         self._show_state(f"measuring… {number} of {total}")
 
     def show_study_finished(self) -> None:
-        """Show that the study is complete."""
         self._measuring, self._complete = False, tuple(self._points)
         self._draw(self._points, 1.0)
         self._show_state("measured")
@@ -241,7 +236,6 @@ class AccuracyPlot(QWidget):
             self._show_state("of the previous scene")
 
     def show_study_failed(self, sentence: str) -> None:
-        """Show why the study failed."""
         self.show_study_outdated()
         self._show_state(sentence)
 

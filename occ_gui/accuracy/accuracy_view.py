@@ -126,7 +126,6 @@ class AccuracyView(QWidget):
 
     @property
     def of_scene(self) -> tuple[QWidget, ...]:
-        """The parts that show results of the scene."""
         return self.table, self.detail
 
     def set_seen(self, seen: bool) -> None:
@@ -168,15 +167,12 @@ class AccuracyView(QWidget):
         self._draw()
 
     def show_study_begun(self) -> None:
-        """Show that a study of the current scene has begun."""
         self.plot.show_study_begun()
 
     def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        """Add a point of the study, the given number of a total."""
         self.plot.show_point(point, number, total)
 
     def show_study_finished(self) -> None:
-        """Show that the study is complete."""
         self.plot.show_study_finished()
 
     def show_study_outdated(self) -> None:
@@ -184,7 +180,6 @@ class AccuracyView(QWidget):
         self.plot.show_study_outdated()
 
     def show_study_failed(self, sentence: str) -> None:
-        """Show why the study failed."""
         self.plot.show_study_failed(sentence)
 
     def _redraw(self) -> None:
@@ -201,7 +196,6 @@ class AccuracyView(QWidget):
         return {decision.effect for decision in self._switched}
 
     def _draw(self) -> None:
-        """Draw all that is known of the picture that is shown."""
         snapshot = self._snapshot
         if snapshot is None or not self._seen:
             return

@@ -21,28 +21,22 @@ IDLE_MS = 700
 
 
 class AccuracyPane(Protocol):
-    """A pane that shows what is measured, as it is measured."""
-
     def show_costs(self, costs: SceneCosts) -> None:
         """Show what the effects of a scene cost and change, as far as measured."""
 
     def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
         """Show what a picture with the present settings would take, and how exact it would be."""
 
-    def show_study_begun(self) -> None:
-        """Show that a study of the current scene has begun."""
+    def show_study_begun(self) -> None: ...
 
-    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        """Add a point, the given number of a total."""
+    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None: ...
 
-    def show_study_finished(self) -> None:
-        """Show that the study is complete."""
+    def show_study_finished(self) -> None: ...
 
     def show_study_outdated(self) -> None:
         """Show that the points belong to an earlier scene, and that no more will be measured."""
 
-    def show_study_failed(self, sentence: str) -> None:
-        """Show why the study failed."""
+    def show_study_failed(self, sentence: str) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +178,6 @@ class AccuracyController(QObject):
         self._pane.show_study_failed(sentence)
 
     def stop(self) -> None:
-        """Stop measuring."""
         self._idle_timer.stop()
         self.runner.stop()
         self.forecasts.stop()

@@ -25,7 +25,6 @@ from occ_model.arrays import ByteArray
 _Index = QModelIndex | QPersistentModelIndex
 
 Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
-"""Returns the contents of all rows."""
 
 _GAP = 4
 """Pixels between two things that are drawn side by side."""
@@ -50,7 +49,6 @@ class PictureCell(QStyledItemDelegate):
 
     @guarded
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
-        """Draw both pictures, or nothing until they are there."""
         super().paint(painter, option, index)
         row = self._rows()[index.row()]
         if row.icon is None:
@@ -83,7 +81,6 @@ class TimeCell(QStyledItemDelegate):
 
     @guarded
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
-        """Draw the number, then the bar."""
         super().paint(painter, option, index)
         rows = self._rows()
         row, largest = rows[index.row()], longest_of(rows)

@@ -26,7 +26,6 @@ class CropPictures(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
 
     def show_crop(self, crop: EffectCrop | None) -> None:
-        """Show these pictures, or none."""
         self._images = ()
         if crop is not None:
             self._are_pixels = not crop.is_averaged
@@ -42,15 +41,12 @@ class CropPictures(QWidget):
         self.update()
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a size at which the captions can be read."""
         return QSize(3 * 96 + 2 * _GAP, 40 + self.fontMetrics().height())
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the least size; the layout adds what it can."""
         return self.minimumSizeHint()
 
     def height_in(self, width: int) -> int:
-        """Return the height of the pictures with their captions in a width."""
         if not self._images:
             return 0
         size = self._images[0].size()
@@ -112,7 +108,6 @@ class EffectDetail(QWidget):
         self.pictures.setMaximumHeight(self.pictures.height_in(self.width() - _GAP))
 
     def show_row(self, row: EffectRow | None, crop: EffectCrop | None) -> None:
-        """Show an effect, or ask for one to be selected."""
         self.pictures.show_crop(crop)
         if row is None:
             self.title.setText("Select an effect to see what it does.")

@@ -104,7 +104,6 @@ def rows_of(
 
 
 def longest_of(rows: Sequence[EffectRow]) -> float:
-    """Return the longest time of some rows."""
     return max((row.seconds for row in rows if row.seconds is not None), default=0.0)
 
 

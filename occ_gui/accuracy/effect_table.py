@@ -90,7 +90,6 @@ class EffectModel(QAbstractTableModel):
         }
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
-        """Show these rows in place of the last ones."""
         self._given = tuple(rows)
         present = [row.effect for row in self.rows]
         new = arranged(rows, self._order, present)
@@ -196,13 +195,10 @@ class _FlatSwitch(QComboBox):
     """A combo box as low as a row of the table."""
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the smallest size that shows the text."""
         return QSize(super().minimumSizeHint().width(), LOWEST_ROW)
 
 
 class EffectTable(QTableView):
-    """The table of effects with a switch in each row."""
-
     switched = Signal(str, object)
     """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
 
@@ -210,7 +206,6 @@ class EffectTable(QTableView):
     """The effect whose row is selected."""
 
     tolerance_dragged = Signal(float)
-    """The tolerance to which its line was dragged."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -252,7 +247,6 @@ class EffectTable(QTableView):
         self.selectionModel().currentRowChanged.connect(self._choose)
 
     def show_rows(self, rows: Sequence[EffectRow]) -> None:
-        """Show these rows in place of the last ones."""
         self.effects.show_rows(rows)
 
     def show_tolerance(self, tolerance: float) -> None:
@@ -266,12 +260,10 @@ class EffectTable(QTableView):
         self._drag(event, self.columnAt(int(event.position().x())))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Move the tolerance with the mouse that was pressed on the axis of errors."""
         if not self._drag(event, self._dragged):
             super().mouseMoveEvent(event)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Let the tolerance be where it is."""
         self._dragged = -1
         super().mouseReleaseEvent(event)
 
@@ -287,14 +279,12 @@ class EffectTable(QTableView):
         return True
 
     def bring_into_view(self, effects: Collection[str]) -> None:
-        """Scroll to the first of these effects."""
         for place, row in enumerate(self.effects.rows):
             if row.effect in effects:
                 self.scrollTo(self.effects.index(place, EFFECT))
                 return
 
     def choose(self, effect: str) -> None:
-        """Select the row of an effect."""
         for place, row in enumerate(self.effects.rows):
             if row.effect == effect:
                 self.selectRow(place)
@@ -385,12 +375,10 @@ class EffectTable(QTableView):
             self.verticalHeader().setDefaultSectionSize(height)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size at which a few rows are in view."""
         height = (1 + _LEAST_ROWS) * LOWEST_ROW + 2 * self.frameWidth()
         return QSize(super().minimumSizeHint().width(), height)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size at which the rows are as high as they can be."""
         rows = len(self.effects.rows) or _ROWS
         height = LOWEST_ROW + rows * HIGHEST_ROW + 2 * self.frameWidth()
         return QSize(super().sizeHint().width(), height)

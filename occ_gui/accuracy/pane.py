@@ -35,7 +35,6 @@ class AccuracyPane(Pane[AccuracyPart]):
         self._settings = settings
 
     def show_part(self, part: AccuracyPart) -> None:
-        """Show these settings and results."""
         settings, switched, snapshot = part
         self.view.show_settings(settings)
         self.view.show_switched(switched)

@@ -56,7 +56,6 @@ class Panels(QWidget):
         self._offer(self._panels)
 
     def show_panel(self, widget: QWidget) -> None:
-        """Bring a panel into view."""
         for place, panel in enumerate(self._offered):
             if panel.widget is widget:
                 self.tabs.setCurrentIndex(place)
@@ -67,11 +66,9 @@ class Panels(QWidget):
         return QSize(max(s.width() for s in sizes), max(s.height() for s in sizes))
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the same size."""
         return self.minimumSizeHint()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Arrange the panels in the new size."""
         super().resizeEvent(event)
         self._arrange()
 
@@ -104,14 +101,12 @@ class Panels(QWidget):
                 panel.widget.setGeometry(places[panel])
 
     def _last(self, otherwise: Panel) -> Panel:
-        """Return the panel that is chosen by tabs, where some are."""
         return self._chosen if self._offered else otherwise
 
     def _fit(self, *panels: Panel) -> bool:
         return sum(panel.width for panel in panels) + (len(panels) - 1) * _GAP <= self.width()
 
     def _offer(self, panels: tuple[Panel, ...]) -> None:
-        """Offer panels by tabs."""
         if panels == self._offered:
             return
         self._offered = panels

@@ -30,7 +30,6 @@ class PlanChanges:
         return True
 
     def forget(self) -> None:
-        """Take the latest change as known."""
         self.switched = ()
 
 

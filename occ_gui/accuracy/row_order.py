@@ -6,10 +6,8 @@ from typing import TypeAlias
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow
 
 STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
-"""The columns of the table."""
 
 SORTED = (STAGE, EFFECT, ERROR, TIME)
-"""Columns that rows can be sorted by."""
 
 LEAST_SCATTER = 0.1
 """Times that differ by less than this share of the longer one are about equal, measured or not."""

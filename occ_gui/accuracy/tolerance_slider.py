@@ -16,7 +16,6 @@ STEPS = 200
 """Positions between the slider's ends, infinity and zero, while no marks are known."""
 
 _INFINITE = ("∞", "inf", "infinity", "infinite")
-"""What people write for infinity."""
 
 
 class ToleranceEdit(QuantityEdit):
@@ -41,7 +40,6 @@ class ToleranceSlider(QWidget):
     """A slider from fast to exact, with the tolerance that it means."""
 
     edited = Signal(float)
-    """The tolerance that the user has chosen."""
 
     refused = Signal(str)
     """Why an entered value is refused."""
@@ -79,7 +77,6 @@ class ToleranceSlider(QWidget):
         return least.expandedTo(QSize(0, self.field.minimumSizeHint().height()))
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a size that is not lower."""
         return super().sizeHint().expandedTo(QSize(0, self.minimumSizeHint().height()))
 
     def show_value(self, tolerance: float) -> None:
@@ -140,7 +137,6 @@ def tolerance_at(position: int, marks: Sequence[float] = ()) -> float:
 
 
 def position_of(tolerance: float, marks: Sequence[float] = ()) -> int:
-    """Return the position of the slider for a tolerance: of the plan that it has."""
     if tolerance == math.inf:
         return 0
     if tolerance == 0.0:

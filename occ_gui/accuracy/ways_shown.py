@@ -11,8 +11,6 @@ _EVERY = 4
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """A way to compute that is shown as a point."""
-
     point: AccuracyPoint
     name: str
 

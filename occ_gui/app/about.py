@@ -6,7 +6,6 @@ import occ_model as occ
 
 
 def show_about(window: QWidget) -> None:
-    """Show the dialog over a window."""
     QMessageBox.about(
         window,
         "About",

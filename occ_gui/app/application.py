@@ -161,17 +161,14 @@ class Application(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all requested results are shown."""
         parts = (self.simulation.runner, self.outdated, self.pins, self.shell)
         return all(part.is_idle for part in parts)
 
     def _has_picture(self) -> bool:
-        """Return whether the first picture is there, or there is none of this scene."""
         return self.present.latest is not None or self.simulation.runner.is_idle
 
     @property
     def is_measured(self) -> bool:
-        """Whether the processes have measured all that is seen."""
         return self.measuring.is_idle and self.shell.is_measured
 
     def view(self, name: str) -> Any:
@@ -228,7 +225,6 @@ class Application(QObject):
         self.lessons.end()
 
     def stop(self) -> None:
-        """Stop all work in the background."""
         for part in (self.simulation, self.pins.runner, self.shell, self.measuring):
             part.stop()
         self.error_reports.remove()

@@ -46,16 +46,13 @@ PANES = (
     "controls", "decode", "photo", "photos", "profile", "accuracy", "map", "bench", "bands",
     "equations", "spectrum", "compare", "lessons", "video", "room",
 )  # fmt: skip
-"""Names of the panes."""
 
 MODES = ("explore", "photo", "limits", "effects", "lessons", "video", "room")
-"""Names of the modes."""
 
 OVERLAYS = ("beside", "blend", "split", "difference")
 """Ways to show a photo with the simulated picture."""
 
 THEMES = ("system", "light", "dark")
-"""Names of the colour themes."""
 
 _TURN_MS = 200
 

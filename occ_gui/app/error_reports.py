@@ -57,7 +57,6 @@ class ErrorReports(QObject):
     """
 
     reported = Signal(str)
-    """A sentence that describes the error."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -57,7 +57,6 @@ class LessonsInWindow(QObject):
         self.photo_explained.emit(name == "photo")
 
     def users_own(self) -> Workspace | None:
-        """Return what the user was working on, if a lesson is under way."""
         pane = self._shell.made_pane("lessons")
         own: Workspace | None = None if pane is None else pane.controller.users_own()
         return own

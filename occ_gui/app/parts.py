@@ -28,8 +28,6 @@ from occ_gui.window.main_window import MainWindow
 
 
 class Parts(Protocol):
-    """The parts of the application."""
-
     store: SceneStore
     editor: SceneEditor
     preferences: Preferences

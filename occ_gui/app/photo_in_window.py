@@ -58,7 +58,6 @@ class PhotoInWindow(QObject):
         self._front_next = path is None
 
     def match(self) -> None:
-        """Match the photo in front."""
         self._parts.window.bring_to_front("photo")
         self.pane.match()
 

@@ -63,7 +63,6 @@ def _version(package: str) -> str:
 
 
 def show_report(window: QWidget, text: str) -> None:
-    """Show a report over a window, to be copied."""
     dialog = QDialog(window)
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
     dialog.setWindowTitle("Report")

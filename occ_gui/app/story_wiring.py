@@ -70,7 +70,6 @@ def story_menu(parts: Parts) -> QMenu:
 
 
 def _before(pane: "PicturesPane") -> QAbstractButton:
-    """Return the button of the picture that shows it beside that of before."""
     return pane.view.before.chosen
 
 
@@ -106,7 +105,6 @@ class _SimulationNaming(QObject):
             self._photo.verdict.show_simulation(verdict.state, verdict.heading)
 
     def note_step(self, about_photo: bool) -> None:
-        """Note whether the step of a lesson is about the photo."""
         self._is_step_about_photo = about_photo
         self.show()
 

@@ -59,7 +59,6 @@ def missing_libraries(*platforms: str) -> dict[str, str]:
 
 
 def install_line(packages: Iterable[str]) -> str:
-    """Return one line for a shell that installs these packages."""
     sudo = "sudo " if shutil.which("sudo") else ""
     return f"{sudo}apt-get update && {sudo}{shlex.join([*APT_INSTALL, *packages])}"
 

@@ -58,7 +58,6 @@ class VideoPane(QObject):
         return self._store.workspace.film.path
 
     def open(self, path: Path) -> None:
-        """Open a film in front."""
         if self._made is None:
             workspace = self._store.workspace
             self._store.put(replace(workspace, film=workspace.film.opened(path)))
@@ -71,7 +70,6 @@ class VideoPane(QObject):
         self.wiring.save(path)
 
     def close(self) -> None:
-        """Close the film."""
         if self._made is None:
             workspace = self._store.workspace
             self._store.put(replace(workspace, film=workspace.film.opened(None)))

@@ -21,10 +21,7 @@ class FileWriter(QObject, Generic[Request]):
     """
 
     status_message = Signal(str)
-    """The outcome."""
-
     written = Signal(Path)
-    """The file is there."""
 
     def __init__(
         self, write: Callable[[Request, Report], Path], name: str, bar: WorkBar, given_up: str
@@ -38,7 +35,6 @@ class FileWriter(QObject, Generic[Request]):
         bar.cancelled.connect(self.cancel)
 
     def start(self, request: Request) -> None:
-        """Begin to write."""
         self._bar.begin()
         self.runner.ask(request)
 

@@ -135,7 +135,6 @@ class WorkQueue(QObject):
         return None if self._scheduler is None else self._scheduler.workers
 
     def counted(self, counter: int) -> int:
-        """Return the number of heartbeats in a counter."""
         workers = self.workers
         return 0 if workers is None else workers.counted(counter)
 
@@ -151,7 +150,6 @@ class WorkQueue(QObject):
             self._thread.join()
 
     def results_ready(self, channel: int, run: int, results: list[Any]) -> None:
-        """Send results to the window's thread."""
         self._results_ready.emit(channel, run, results)
 
     def finished(self, channel: int, run: int) -> None:

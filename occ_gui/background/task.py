@@ -76,10 +76,7 @@ class Task(QObject, Generic[Request, Result]):
     """
 
     reported = Signal(object)
-    """What the work has reported."""
-
     finished = Signal(object)
-    """A result."""
 
     failed = Signal(str)
     """A sentence that says why there is none."""

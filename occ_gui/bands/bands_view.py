@@ -100,7 +100,6 @@ class BandsView(QWidget):
         self.headline.setText(sentence)
 
     def show_bands(self, found: ShownBands) -> None:
-        """Show the bars of a scene."""
         self.headline.setText(self._headline(found))
         self.sentences.setText("\n".join(self._sentences(found)))
         self.map.show_depths(found)

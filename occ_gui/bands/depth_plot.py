@@ -16,7 +16,6 @@ _VALLEYS = 8
 """Lines that are drawn: those above lie closer than the cells."""
 
 _DEPTHS = (1e-3, 1.0)
-"""Depths at the ends of the colours."""
 
 _KINDS = (1.0, 2.0, 5.0)
 
@@ -56,7 +55,6 @@ class DepthPlot(QWidget):
         self.plot.scene().sigMouseClicked.connect(self._on_click)
 
     def show_depths(self, found: ShownBands) -> None:
-        """Show the map of a scene."""
         low, high = np.log10(_DEPTHS)
         shares = (np.log10(np.maximum(found.map.least, _DEPTHS[0])) - low) / (high - low)
         self.image.setImage(np.clip(255.0 * shares, 0.0, 255.0), levels=(0.0, 255.0))

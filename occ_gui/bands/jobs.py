@@ -23,7 +23,6 @@ class ShownBands:
 
 
 def shown_bands(scene: Scene) -> ShownBands:
-    """Count the bars of a scene."""
     return ShownBands(
         scene, band_depth(scene), band_advice(scene), depth_map(scene), eye_flicker(scene),
         risk_lines(),

@@ -30,7 +30,6 @@ class BandsPane(Pane[Scene]):
         self.view.exposure_chosen.connect(self._take)
 
     def show_part(self, part: Scene) -> None:
-        """Count the bars of this scene."""
         self._ages.begin(part)
         self._mark("computing…")
         self._task.ask(part)

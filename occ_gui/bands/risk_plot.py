@@ -63,7 +63,6 @@ class RiskPlot(QWidget):
         layout.addWidget(self.source)
 
     def show_flicker(self, found: ShownBands) -> None:
-        """Show the flicker of a scene's lamp."""
         eye = found.eye
         for curve, line in (
             (self.no_effect, found.lines.no_effect), (self.low_risk, found.lines.low_risk)

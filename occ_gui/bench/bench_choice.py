@@ -11,8 +11,6 @@ BITS = (2_560, 10_240, 102_400)
 
 @dataclass(frozen=True, slots=True)
 class BenchChoice:
-    """The choices of the pane."""
-
     whose: str = PUBLISHED
     decoders: tuple[str, ...] = ()
     bits: int = BITS[1]

@@ -55,7 +55,6 @@ class BenchController(QObject):
         self._mark()
 
     def start(self) -> None:
-        """Measure what is chosen."""
         self.channel.cancel()
         try:
             request = request_of(self._choice, self._scenes.scene)

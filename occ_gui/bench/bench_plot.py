@@ -40,8 +40,6 @@ _FARTHEST_POWER, _LEAST_POWERS = 12.0, 0.01
 
 @dataclass(eq=False, slots=True)
 class _Curve:
-    """The items of a decoder in one plot."""
-
     line: pg.PlotCurveItem
     intervals: pg.PlotCurveItem
     seen: pg.ScatterPlotItem
@@ -49,7 +47,6 @@ class _Curve:
 
     @property
     def items(self) -> tuple[pg.GraphicsObject, ...]:
-        """All items, the lowest first."""
         return self.intervals, self.line, self.seen, self.unseen
 
 
@@ -72,7 +69,6 @@ class Drawn:
 
 
 def drawn(point: BenchPoint, what: str, frames_a_second: float) -> Drawn:
-    """Place a point in a plot."""
     errors, floor = point.errors, _FLOOR[what]
     if what == RATES:
         value = _power(errors.rate, floor) if errors.errors else math.nan
@@ -173,7 +169,6 @@ class BenchPlots(QWidget):
         self._fit()
 
     def show_points(self, points: Sequence[BenchPoint], frames_a_second: float) -> None:
-        """Draw these points."""
         for axis in AXES:
             for decoder, curve in zip(self._decoders, self._curves[axis], strict=True):
                 some = [

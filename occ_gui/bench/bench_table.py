@@ -28,7 +28,6 @@ class BenchTable(QTableWidget):
         self.verticalHeader().hide()
 
     def show_begun(self, request: BenchRequest) -> None:
-        """Prepare a row for each place of a request."""
         self.clear()
         self._decoders = request.decoders
         self._places = {point[1:]: row for row, point in enumerate(request.points)}

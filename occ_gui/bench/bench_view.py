@@ -36,13 +36,10 @@ _SAMPLE = QSize(14, 14)
 
 
 class BenchView(QWidget):
-    """The bench."""
-
     choice_changed = Signal(object)
     """The user has chosen what is measured next: a BenchChoice."""
 
     asked = Signal()
-    """The user measures."""
 
     cancelled = Signal()
     """The user stops the measurement."""
@@ -159,12 +156,10 @@ class BenchView(QWidget):
         column.addLayout(foot)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the table where there is space for it below the plots."""
         super().resizeEvent(event)
         self._show_page()
 
     def choice(self) -> BenchChoice:
-        """Return what the user has chosen to measure."""
         decoders = tuple(name for name, box in self.decoders.items() if box.isChecked())
         return BenchChoice(self.whose.key(), decoders, int(self.effort.key()))
 
@@ -227,7 +222,6 @@ class BenchView(QWidget):
             self.legend.show_line("unseen", self.what.key() == RATES)
 
     def show_bounds(self, bounds: BenchBounds) -> None:
-        """Show what theory says."""
         self._bounds = bounds
         self._draw()
 
@@ -245,7 +239,6 @@ class BenchView(QWidget):
             self.table.show_points(self._points, what, self._rate)
 
     def show_progress(self, done: int, of: int) -> None:
-        """Show how many places are measured."""
         self.work.show_progress(done / of)
         self._progress = f"{done} of {of} places measured"
         self._show_state()

@@ -10,7 +10,6 @@ from occ_gui.shell.feature import Pane
 from occ_model.receiver.decoders import decoders
 
 FIRST_DECODERS = ("threshold", "equalizer", "sequence")
-"""Decoders of payloads of any length."""
 
 
 class BenchPane(Pane[None]):

@@ -21,7 +21,6 @@ class StepChange:
 
     @classmethod
     def between(cls, title: str, before: Step, after: Step) -> "StepChange":
-        """Note the step from one state to another."""
         old, new = before.scene, after.scene
         values = {
             name: new.value(name) for name in PARAMETERS if new.value(name) != old.value(name)

@@ -23,7 +23,6 @@ class Selection(QObject, Generic[T]):
     """A part of the workspace, or of the results, which tells when it differs."""
 
     changed = Signal(object)
-    """The new value."""
 
     def __init__(self, of: Callable[[Any], T], whole: object) -> None:
         super().__init__()
@@ -53,7 +52,6 @@ class Store(QObject):
         self.undo_stack.indexChanged.connect(self._on_index)
 
     def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
-        """Look at a part of the workspace from now on."""
         selection = Selection(of, self.workspace)
         self._selections.append(selection)  # type: ignore[arg-type]  # it gives what it was given
         return selection

@@ -60,7 +60,6 @@ class Workspace:
     preset: str = ""
     """The preset that the scene is, or was before some of its values were changed; or empty."""
     scene_file: Path | None = None
-    """The file that the scene is saved to."""
 
     @property
     def step(self) -> Step:

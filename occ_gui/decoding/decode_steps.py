@@ -172,7 +172,6 @@ class RunLengthPlot(QWidget):
             bars.setOpts(brush=seen_on(palette, colour), pen=seen_on(palette, colour))
 
     def show_result(self, result: DecodeResult) -> None:
-        """Show the histograms of this result, if it has any."""
         self.setVisible(result.histograms is not None)
         if result.histograms is None:
             return

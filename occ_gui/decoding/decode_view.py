@@ -98,7 +98,6 @@ class DecodeView(QWidget):
         return form
 
     def show_reading(self, reading: Reading) -> None:
-        """Show this reading in place of the previous one."""
         before = self._reading
         if before is not None and before.request == reading.request:
             self._early = before if before.source != reading.source else self._early
@@ -123,7 +122,6 @@ class DecodeView(QWidget):
         self._show_chosen()
 
     def offer(self, decoders: Sequence[str]) -> None:
-        """Offer these decoders in place of the former ones."""
         self._names = tuple(decoders)
         if self._reading is not None:
             self.show_reading(self._reading)

@@ -26,7 +26,6 @@ class DecodePane(Pane[tuple[Reading | None, str]]):
         view.decoder_chosen.connect(lambda name: store.put(replace(store.workspace, decoder=name)))
 
     def show_part(self, part: tuple[Reading | None, str]) -> None:
-        """Show this reading of the chosen decoder."""
         reading, decoder = part
         if reading is not None and reading is not self._reading:
             self._reading = reading

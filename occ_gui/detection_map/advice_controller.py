@@ -25,7 +25,6 @@ RATE = 99.0
 """Success rate, in percent, from which a decoder counts as reading."""
 
 IMAGES = 20
-"""Images at each value that is tried."""
 
 _USUAL = len(SEARCHED) * usual_images(IMAGES, RATE)
 """Images that a decoder's search usually reads, from which its progress is estimated."""
@@ -39,8 +38,6 @@ before further images of them."""
 
 @dataclass(frozen=True, slots=True)
 class AdviceRequest:
-    """What the advice depends on."""
-
     scene: Scene
     settings: SimulationSettings
     with_image_effects: bool
@@ -51,7 +48,6 @@ class AdviceRequest:
         return replace(self, scene=scene)
 
     def stages(self, rank: int) -> Iterator[Stage]:
-        """Give one job for each decoder."""
         jobs = []
         for counter, decoder in enumerate(DECODERS, 1):
             settings = rate_settings(self.settings, IMAGES, (decoder,), self.with_image_effects)
@@ -113,7 +109,6 @@ class AdvisorController(QObject):
         self._look.start()
 
     def cancel(self) -> None:
-        """Stop the search."""
         if not self.channel.is_idle:
             self.channel.cancel()
             self._end("Cancelled.")

@@ -38,8 +38,6 @@ class AdviceLine:
 
 
 class AdviceSentences:
-    """Writes advice in sentences."""
-
     frames_a_second = FRAMES_A_SECOND
     """Pictures a second by which bits a second are counted."""
 
@@ -77,7 +75,6 @@ class AdviceSentences:
         return own_text(found, self.frames_a_second)
 
     def on_highest_frequency(self, advice: Advice) -> AdviceLine:
-        """Write the line on the highest frequency that is read, or that there is none."""
         end = highest_frequency(advice)
         if end is None:
             return AdviceLine(self._nowhere(advice.limits, advice.frequency.found))
@@ -96,7 +93,6 @@ class AdviceSentences:
         return f"{text} Its limits of the {names} still hold."
 
     def left_out(self, effects: tuple[str, ...]) -> str:
-        """Say which of the scene's effects the advice leaves out."""
         return "This advice leaves out: {effects}.".format(effects=", ".join(effects))
 
     def _nowhere(self, limits: Limits, found: WorkingRange) -> str:
@@ -132,6 +128,5 @@ class AdviceSentences:
 
 
 def highest_frequency(advice: Advice) -> EndFacts | None:
-    """Return the facts on the highest frequency that is read, None if none is."""
     ends = (end for end in advice.frequency.ends if end.side == "highest")
     return next(ends, None)

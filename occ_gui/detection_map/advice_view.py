@@ -29,10 +29,7 @@ class AdviceView(QWidget):
     """The user asks for advice on the current scene."""
 
     cancelled = Signal()
-    """The user cancels the search."""
-
     back_asked = Signal()
-    """The user returns to the map."""
 
     destination_chosen = Signal(str, float, str)
     """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
@@ -112,7 +109,6 @@ class AdviceView(QWidget):
         self.progress.setValue(round(100 * share))
 
     def show_advice(self, advice: Advice) -> None:
-        """Add the advice on one decoder."""
         self.cards.show_advice(advice)
         for line in self._sentences.lines(advice):
             if not line.is_common:
@@ -145,11 +141,9 @@ class AdviceView(QWidget):
             self._beside[button].setEnabled(holds)
 
     def sentences(self) -> list[str]:
-        """Return all sentences that are shown."""
         return [label.text() for line in self._lines for label in line.findChildren(QLabel)]
 
     def _add_common(self, line: AdviceLine) -> None:
-        """Add a line below those of all decoders."""
         self._common.append(line.text)
         self._insert(self._column.count() - 1, line)
 

@@ -13,7 +13,6 @@ from occ_gui.widgets.guarded_paint import guarded
 from occ_model.arrays import ByteArray, FloatArray
 
 RATES, DIFFERENCES = "viridis", "CET-CBD1"
-"""The colour maps of rates, and of their differences."""
 
 _STEPS = 256
 
@@ -89,18 +88,15 @@ class ColourBar(QWidget):
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the width of the bar and its widest number."""
         metrics = self.fontMetrics()
         widest = max((metrics.horizontalAdvance(text) for _, text in self._numbers), default=0)
         return QSize(_BAR + 2 * _GAP + widest, 6 * metrics.height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the same width at a smaller height."""
         return QSize(self.sizeHint().width(), 3 * self.fontMetrics().height())
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the bar and its numbers."""
         painter = QPainter(self)
         line = self.fontMetrics().height()
         bar = QRectF(_GAP, line / 2, _BAR, self.height() - line)

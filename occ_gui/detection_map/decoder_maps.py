@@ -31,8 +31,6 @@ _MOST_IN_A_ROW, _LEAST_OF_TWO_ROWS = 2, 360
 
 
 class MapPlots(QWidget):
-    """The maps of the decoders, or of their difference."""
-
     picked = Signal(object)
     """The point that the user chose, by its indices along both axes."""
 
@@ -91,7 +89,6 @@ class MapPlots(QWidget):
         return plot
 
     def _names(self) -> tuple[str, ...]:
-        """Return the names of the maps that are shown."""
         if self._what == "both":
             return self._decoders
         return (self._what,)
@@ -124,7 +121,6 @@ class MapPlots(QWidget):
         self._redraw()
 
     def show_limit(self, limit: str, shown: bool) -> None:
-        """Show or hide the line of a limit."""
         if shown:
             self._hidden.discard(limit)
         else:
@@ -132,11 +128,9 @@ class MapPlots(QWidget):
         self._show_lines()
 
     def limits(self) -> Collection[str]:
-        """Return the limits whose lines cross the map."""
         return [key for key in LINES if self._lines.get(key)]
 
     def show_axes(self, x: str, y: str) -> None:
-        """Set the parameters of the axes, and remove the previous maps."""
         self._rates = self._theory = None
         self._lines = {}
         for plot in self.plots:
@@ -149,7 +143,6 @@ class MapPlots(QWidget):
             plot.update()
 
     def show_map(self, rates: RateMap) -> None:
-        """Show the rates that are known so far."""
         self._rates = rates
         if rates.theory is not None and rates.theory is not self._theory:
             self._theory = rates.theory

@@ -55,16 +55,13 @@ class LimitCards(QWidget):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether the limits are about to be asked for."""
         return self._waiting.isActive()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Ask for the limits, if they are not known."""
         super().showEvent(event)
         self._plan()
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
-        """Ask for nothing that is not seen."""
         super().hideEvent(event)
         self._waiting.stop()
 
@@ -81,14 +78,12 @@ class LimitCards(QWidget):
             self.asked.emit()
 
     def show_begun(self) -> None:
-        """Show that the limits are searched."""
         self._waiting.stop()
         self._is_running, self._is_outdated = True, False
         for card in self.cards.values():
             card.show_searching()
 
     def show_advice(self, advice: Advice) -> None:
-        """Show the limit of one decoder."""
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
             line = self._sentences.on_highest_frequency(advice)
@@ -182,7 +177,6 @@ class LimitCard(QFrame):
             self.name.set_full_text(why)
 
     def show_searching(self) -> None:
-        """Show that the limit is searched."""
         self._show("…", "Searching for the highest frequency that is read.", None)
         self.set_outdated(False)
 

@@ -32,14 +32,11 @@ FIRST_AXES = ("switching_frequency", "distance")
 class MapPane(Protocol):
     """A pane that shows a map while it is measured."""
 
-    def show_axes(self, x: str, y: str) -> None:
-        """Show the parameters of the axes."""
+    def show_axes(self, x: str, y: str) -> None: ...
 
-    def show_map(self, rates: RateMap) -> None:
-        """Show the rates that are known by now."""
+    def show_map(self, rates: RateMap) -> None: ...
 
-    def show_scene(self, scene: Scene) -> None:
-        """Mark the current setting."""
+    def show_scene(self, scene: Scene) -> None: ...
 
     def show_progress(self, known: int, total: int, images: int) -> None:
         """Show how many points are known, and the least number of images of any of them."""
@@ -50,11 +47,9 @@ class MapPane(Protocol):
     def show_age(self, age: float) -> None:
         """Show for how many seconds the map has been of an earlier scene; zero if it is not."""
 
-    def show_left_out(self, effects: tuple[str, ...]) -> None:
-        """Show which of the scene's image effects the map leaves out."""
+    def show_left_out(self, effects: tuple[str, ...]) -> None: ...
 
-    def show_facts(self, facts: PointFacts | None) -> None:
-        """Show what is known of the point under the mouse."""
+    def show_facts(self, facts: PointFacts | None) -> None: ...
 
     def show_bits(self, shown: Shown, frames_a_second: float) -> None:
         """Show success rates, or bits a second at so many pictures a second."""
@@ -135,7 +130,6 @@ class DetectionMapController(QObject):
 
     @property
     def is_current(self) -> bool:
-        """Whether the map that is shown is of the current scene."""
         return self.map is not None and self._shown == self._request()
 
     @property

@@ -62,7 +62,6 @@ class MapLegend(QWidget):
         return button
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the palette and the screen's scale."""
         super().changeEvent(event)
         if event.type() in _REDRAWN_AT:
             self._draw_samples()

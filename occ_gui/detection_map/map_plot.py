@@ -79,15 +79,12 @@ class MapPlot(QWidget):
         self.setCursor(Qt.CursorShape.CrossCursor)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a size for a usual map."""
         return QSize(320, 200)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of the axes and a few cells."""
         return QSize(150, 90)
 
     def show_axes(self, x: Quantity, y: Quantity) -> None:
-        """Set the parameters of the axes, and remove the previous map."""
         self._axes = (x, y)
         self._image, self._refused, self.lines = QImage(), (), {}
         self._cursor = None
@@ -136,7 +133,6 @@ class MapPlot(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the map."""
         painter = QPainter(self)
         area = self.area()
         painter.fillRect(area, self.palette().color(QPalette.ColorRole.Base))
@@ -189,7 +185,6 @@ class MapPlot(QWidget):
         painter.restore()
 
     def _title_within(self, quantity: Quantity, width: float) -> str:
-        """Return the longest title of an axis that fits."""
         metrics = self.fontMetrics()
         whole = axis_title(quantity)
         if metrics.horizontalAdvance(whole) <= width:
@@ -247,16 +242,13 @@ class MapPlot(QWidget):
         painter.drawEllipse(at, 4.0, 4.0)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Report the point under the mouse."""
         self._point_at(self.cell_at(event.position()))
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Report that no point is under the mouse."""
         super().leaveEvent(event)
         self._point_at(None)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Choose the point under a click."""
         cell = self.cell_at(event.position())
         if cell is not None and event.button() == Qt.MouseButton.LeftButton:
             self.picked.emit(*cell)

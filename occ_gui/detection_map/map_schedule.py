@@ -38,7 +38,6 @@ def map_request(
     images: int = IMAGES[0],
     with_image_effects: bool = True,
 ) -> SweepRequest:
-    """Make the request for a map's sweep."""
     axes = {x: lattice(x, SHAPE[0]), y: lattice(y, SHAPE[1])}
     measured = rate_settings(settings, images, decoders, with_image_effects)
     return SweepRequest(scene, axes, measured)
@@ -79,7 +78,6 @@ def _theory(request: SweepRequest, shape: tuple[int, int]) -> Job:
 
 
 def _on_lattice(shape: tuple[int, ...], stride: int) -> IndexArray:
-    """Return for each point, by its index, whether it is on a coarser lattice."""
     along = [np.arange(n) % stride == 0 for n in shape]
     return np.asarray(np.logical_and.outer(*along).ravel())
 

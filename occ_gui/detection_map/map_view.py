@@ -156,7 +156,6 @@ class MapView(QWidget):
         layout.addWidget(self._pages)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the limits above the map where there is space for both."""
         super().resizeEvent(event)
         with_cards = self.height() >= _LEAST_WITH_CARDS
         for card in (self.cards, self.most_bits):
@@ -196,13 +195,11 @@ class MapView(QWidget):
         self.show_facts(None)
 
     def show_map(self, rates: RateMap) -> None:
-        """Show the rates that are known so far."""
         self._refusal = rates.refusal()
         self.plots.show_map(rates)
         self.legend.enable_limits(self.plots.limits())
 
     def show_scene(self, scene: Scene) -> None:
-        """Mark the current setting."""
         x, y = (quantity(name).fraction(float(scene.value(name))) for name in self._axes)
         self.plots.show_setting((x, y))
 
@@ -230,7 +227,6 @@ class MapView(QWidget):
         self._show_status()
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
-        """Show which of the scene's image effects the map leaves out."""
         self.left_out.setVisible(bool(effects))
         self.left_out.set_full_text(
             "The map leaves out: {effects}.".format(effects=", ".join(effects))
@@ -245,7 +241,6 @@ class MapView(QWidget):
         self._show_status()
 
     def show_facts(self, facts: PointFacts | None) -> None:
-        """Show the results at the point under the mouse."""
         self._facts = facts
         self._show_status()
 

@@ -14,10 +14,7 @@ class MostBitsCard(QFrame):
     """One line: the best that was found, a button to search or cancel, and one to go there."""
 
     asked = Signal()
-    """The user asks for the search."""
-
     cancelled = Signal()
-    """The user cancels it."""
 
     chosen = Signal(object)
     """The user goes to what was found, a :class:`~occ_model.results.MostBits`."""
@@ -59,13 +56,11 @@ class MostBitsCard(QFrame):
         return button
 
     def show_begun(self) -> None:
-        """Show that a search has begun."""
         self._best, self._failures, self._state = None, [], ""
         self._is_running, self._is_outdated = True, False
         self._show()
 
     def show_tried(self, decoder: str, pictures: int) -> None:
-        """Show with which decoder the search is busy, and how many pictures it has tried."""
         self._state = f"searching with {decoder}, {pictures} pictures tried"
         self._show()
 

@@ -27,8 +27,6 @@ _LOOK_MS = 200
 
 @dataclass(frozen=True, slots=True)
 class MostBitsRequest:
-    """What the search depends on."""
-
     scene: Scene
     frames_a_second: float
 
@@ -86,7 +84,6 @@ class MostBitsController(QObject):
             self._end("cancelled")
 
     def go(self, found: MostBits) -> None:
-        """Let the scene be what was found, in one step."""
         scene = example_of(found)
         if scene is not None:
             self._scenes.change(NO_GESTURE, **{name: scene.value(name) for name in VARIED})

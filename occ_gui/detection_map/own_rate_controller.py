@@ -78,7 +78,6 @@ class OwnRateController(RestingController):
 
 
 def own_rate_stages(request: RateRequest) -> Iterator[Stage]:
-    """Give the one job that measures the rate."""
     settings = rate_settings(request.settings, IMAGES, (request.decoder,), True)
     yield Stage(_RANK, (Job(measure_points, (request.scene, settings, ((0, {}),))),))
 

@@ -23,7 +23,6 @@ STRIDES = (6, 3, 1)
 """Spacing of the points that are measured, in steps of the lattice, from coarse to fine."""
 
 LINES = ("band", "null", "packets", "saturation")
-"""The theoretical limits."""
 
 
 def lattice(name: str, count: int) -> tuple[float, ...]:
@@ -129,7 +128,6 @@ class RateMap:
         return len(self.x_values), len(self.y_values)
 
     def enter(self, points: list[SweepPoint], images: int) -> None:
-        """Enter points measured with this number of images."""
         for point in points:
             place = divmod(point.index, len(self.y_values))
             self.sent[place] = point.sent
@@ -141,12 +139,10 @@ class RateMap:
 
     @property
     def known(self) -> int:
-        """Number of points that are known."""
         return int(np.count_nonzero(self.images))
 
     @property
     def least_images(self) -> int:
-        """Smallest number of images at any point."""
         return int(self.images.min())
 
     def rates(self, decoder: str) -> FloatArray:

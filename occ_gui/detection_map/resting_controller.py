@@ -18,8 +18,6 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 @dataclass(frozen=True, slots=True)
 class RateRequest:
-    """What a measured rate depends on."""
-
     scene: Scene
     settings: SimulationSettings
     decoder: str
@@ -54,7 +52,6 @@ class RestingController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that is measured is shown."""
         return self._channel.is_idle and not self._resting.isActive()
 
     def set_seen(self, seen: bool) -> None:

@@ -102,11 +102,9 @@ class SliderStrip(QWidget):
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a small size; the strip expands along the slider."""
         return QSize(40, _HEIGHT)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the smallest size, as high as always."""
         return QSize(20, _HEIGHT)
 
     def span(self) -> tuple[float, float]:
@@ -116,7 +114,6 @@ class SliderStrip(QWidget):
         return first + away, last + away
 
     def _at_handle(self) -> QRectF:
-        """Return the part of the strip at the handle."""
         left, right = slider_handle(self._slider)
         away = self._slider.x() - self.x()
         return QRectF(left + away, 0, right - left, self.height()).adjusted(
@@ -125,7 +122,6 @@ class SliderStrip(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the bar."""
         painter = QPainter(self)
         first, last = self.span()
         count = max(2, len(self.shares))
@@ -166,13 +162,11 @@ class SliderStrips(QObject):
         next(iter(self.strips.values())).installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Report when the first strip is shown or hidden."""
         if event.type() in (QEvent.Type.Show, QEvent.Type.Hide):
             self.seen.emit(event.type() == QEvent.Type.Show)
         return super().eventFilter(watched, event)
 
     def set_shown(self, shown: bool) -> None:
-        """Show or hide the strips."""
         for name, strip in self.strips.items():
             strip.setVisible(shown)
             self._rows[name].show_track(shown)

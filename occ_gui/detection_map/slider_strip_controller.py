@@ -15,7 +15,6 @@ from occ_model.parallel.job import Job, Stage
 from occ_model.results.sweep_request import SweepPoint
 
 POSITIONS = 29
-"""Positions along a slider."""
 
 STRIDES = (4, 1)
 """Distances between measured positions: a coarse strip first, then all positions."""
@@ -25,8 +24,6 @@ RANKS = (3, 3)
 
 
 class SliderStripPane(Protocol):
-    """Strips, one a slider."""
-
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of correct bits at positions along a slider, None: not known."""
 

@@ -27,7 +27,6 @@ class StripLegend(QWidget):
         self.setToolTip(meaning)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of the line."""
         return QSize(120, self.fontMetrics().height() + 2)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name

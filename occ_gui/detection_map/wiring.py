@@ -25,7 +25,6 @@ START_MS = 400
 
 
 def new_workers() -> "Workers":
-    """Make the worker processes."""
     # Importing what starts processes takes time.
     from occ_gui.detection_map.worker import PRELOAD
     from occ_model.parallel.process_pool import ProcessPool
@@ -55,7 +54,6 @@ class Measuring(QObject):
 
     @cached_property
     def queue(self) -> "WorkQueue":
-        """The work of the processes."""
         from occ_gui.background.signals import WorkQueue
 
         # Looked up when it is called, so that another one can be put in its place.
@@ -63,17 +61,14 @@ class Measuring(QObject):
 
     @property
     def for_map(self) -> "JobChannel":
-        """The channel of the map."""
         return self.queue.channels[0]
 
     @property
     def for_advice(self) -> "JobChannel":
-        """The channel of the advice."""
         return self.queue.channels[1]
 
     @property
     def for_bench(self) -> "JobChannel":
-        """The channel of the bench."""
         return self.queue.channels[2]
 
     @property
@@ -83,7 +78,6 @@ class Measuring(QObject):
 
     @cached_property
     def slider_strips(self) -> "SliderStripController":
-        """What measures along the sliders."""
         from occ_gui.detection_map.slider_strip_controller import SliderStripController
 
         scenes, strips = self._scenes, self._strips
@@ -92,7 +86,6 @@ class Measuring(QObject):
 
     @cached_property
     def own_rate(self) -> "OwnRateController":
-        """What measures the rate of the present scene."""
         from occ_gui.detection_map.own_rate_controller import OwnRateController
 
         own = OwnRateController(self._scenes, self._scenes.settings, self.queue.channels[5])
@@ -102,7 +95,6 @@ class Measuring(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that is seen is measured, and nothing is about to be."""
         if self._start.isActive():
             return False
         return "own_rate" not in vars(self) or (
@@ -130,7 +122,6 @@ class Measuring(QObject):
             self._set_seen(False)
 
     def stop(self) -> None:
-        """Stop measuring and end the processes."""
         self._start.stop()
         if "queue" in vars(self):
             self.queue.stop()

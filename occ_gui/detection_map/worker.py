@@ -84,7 +84,6 @@ def measure_along(
     points: tuple[tuple[int, dict[str, ParameterValue]], ...],
     heartbeat: Heartbeat,
 ) -> Along:
-    """Measure positions along one slider."""
     return Along(name, measure_points(scene, settings, points, heartbeat).points)
 
 

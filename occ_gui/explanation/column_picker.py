@@ -20,16 +20,12 @@ class ColumnPicker(QObject):
     """Marks a column of a plot, and emits a signal for the column that the user picks."""
 
     hovered = Signal(int)
-    """The column under the mouse."""
-
     clicked = Signal(int)
-    """The column that was clicked on."""
 
     stepped = Signal(int)
     """The number of columns to move on, negative to the left."""
 
     released = Signal()
-    """The user releases the held column."""
 
     def __init__(self, plot: Plot) -> None:
         super().__init__(plot)

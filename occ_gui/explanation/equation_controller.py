@@ -14,8 +14,6 @@ _NAMES = tuple(name for names in GROUPS.values() for name in names)
 
 
 class EquationPane(Protocol):
-    """A pane that shows equations."""
-
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
         """Show these equations, with the terms of the changed parameters marked."""
 

@@ -10,8 +10,6 @@ from occ_model.teaching.exposure_window import exposure_window
 
 
 class ExposurePane(Protocol):
-    """A pane that shows a column's exposure."""
-
     def show_column(self, column: int, columns: int, held: bool) -> None:
         """Show which of the picture's columns is chosen, without emitting a signal."""
 
@@ -20,13 +18,10 @@ class ExposurePane(Protocol):
 
 
 class ColumnMark(Protocol):
-    """A plot that marks a column."""
-
     def set_active(self, active: bool) -> None:
         """Let the user pick columns, or not."""
 
-    def show_column(self, column: int, held: bool) -> None:
-        """Mark a column."""
+    def show_column(self, column: int, held: bool) -> None: ...
 
 
 class ExposureController(QObject):
@@ -61,14 +56,12 @@ class ExposureController(QObject):
             self._choose(column, held=False)
 
     def click(self, column: int) -> None:
-        """Hold a column, or release it if it is the held one."""
         if self._held and column == self._column:
             self._choose(column, held=False)
         else:
             self.choose(column)
 
     def step(self, columns: int) -> None:
-        """Move by some columns, and hold the column there."""
         if self._column is not None:
             self.choose(self._column + columns)
 
@@ -77,7 +70,6 @@ class ExposureController(QObject):
         self.held.emit(self._column)
 
     def follow(self, column: int) -> None:
-        """Show the column that was chosen in another pane."""
         if column != self._column:
             self._choose(column, held=self._held)
 

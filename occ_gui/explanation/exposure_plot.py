@@ -33,7 +33,6 @@ class ExposurePlot(QWidget):
     """The chips as a step curve, the exposure shaded, its lit parts hatched, and a sentence."""
 
     column_chosen = Signal(int)
-    """The column that the user chose."""
 
     hold_chosen = Signal(bool)
     """Whether the column stays chosen when the mouse moves."""

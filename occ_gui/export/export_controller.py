@@ -127,7 +127,6 @@ class ExportController(Service):
         self._present.ask(partial(self._draw, name, None))
 
     def copy_current(self) -> None:
-        """Copy the figure of the current pane."""
         pane = self._current_pane()
         if pane == "decode":
             self.copy(f"decoding-{self._shown_decoder()}")

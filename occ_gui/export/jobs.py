@@ -21,15 +21,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FigureRequest:
-    """What a figure is drawn from, as it was when the figure was asked for."""
-
     scene: Scene
     settings: SimulationSettings
     date: str
     draw: Draw
 
     def provenance(self, drawing: "Drawing") -> Provenance:
-        """Say where the figure's numbers come from."""
         if drawing.provenance is not None:
             return drawing.provenance(self.date)
         from occ_model.figures.drawing import settings_notes
@@ -56,8 +53,6 @@ class ExportJob:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Exported:
-    """What became of a job."""
-
     job: ExportJob
     files: Sequence[Path] = ()
     png: bytes = b""

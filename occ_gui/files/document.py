@@ -48,7 +48,6 @@ class Document(QObject):
             self._files.save_scene(self.path)
 
     def show_photo(self, photo: "Photo | None") -> None:
-        """Show the name of the open photo in the title, if any."""
         self._photo = "" if photo is None else photo.path.name
         self._show_title()
 

@@ -83,22 +83,14 @@ class FileController(QObject):
     """
 
     status_message = Signal(str)
-    """The outcome of a command."""
-
     scene_opened = Signal(Path)
-    """The scene file that has been opened."""
 
     several_opened = Signal(list)
     """The paths of the photos that were dropped together, of which the first is opened."""
 
     film_asked = Signal(Path)
-    """The film that is to be opened."""
-
     film_save_asked = Signal(Path)
-    """The file that the simulated film is to be written to."""
-
     scene_saved = Signal(Path)
-    """The file that the scene has been saved to."""
 
     def __init__(
         self,
@@ -180,7 +172,6 @@ class FileController(QObject):
         self.status_message.emit(f"{one_line(str(path))} is no longer there.")
 
     def open_sample(self, path: Path) -> None:
-        """Open a sample photo with its scene."""
         scene = path.with_suffix(SCENE_ENDING)
         if scene.is_file():
             self._put_scene(scene)
@@ -237,7 +228,6 @@ class FileController(QObject):
         return True
 
     def ask_to_save_scene(self) -> None:
-        """Let the user choose where to save the scene."""
         name, _ = QFileDialog.getSaveFileName(
             self._window, "Save scene", self._in_folder("scene.occ.toml"),
             "Scenes (*.toml)",

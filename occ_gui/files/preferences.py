@@ -40,7 +40,6 @@ class Preferences(QObject):
 
     @property
     def files(self) -> tuple[Path, ...]:
-        """The recent files, the latest first."""
         return self._files
 
     @property
@@ -66,7 +65,6 @@ class Preferences(QObject):
 
     @property
     def slider_strips(self) -> bool:
-        """Whether the strips under the sliders are shown."""
         return self._value(_MARGINS) != _NO
 
     def keep_slider_strips(self, shown: bool) -> None:
@@ -88,7 +86,6 @@ class Preferences(QObject):
         self._keep(())
 
     def visit(self, path: Path) -> None:
-        """Store the folder of a file."""
         self._visit(_FOLDER, path)
 
     def visit_export(self, path: Path) -> None:
@@ -111,7 +108,6 @@ class Preferences(QObject):
         return value if isinstance(value, str) and len(value) <= _MAX_TEXT_LENGTH else ""
 
     def keep(self, key: str, text: str) -> None:
-        """Store a text under a key."""
         self._write(key, text)
 
     def _value(self, key: str) -> object:

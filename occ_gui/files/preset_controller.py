@@ -29,10 +29,7 @@ class PresetController(QObject):
     """Keeps the list of presets and carries out the commands for them."""
 
     status_message = Signal(str)
-    """The outcome of a command."""
-
     changed = Signal()
-    """The list of presets has changed."""
 
     def __init__(self, window: QWidget, store: SceneStore) -> None:
         super().__init__(window)
@@ -56,7 +53,6 @@ class PresetController(QObject):
 
     @property
     def own(self) -> tuple[str, ...]:
-        """Names of the user's presets."""
         return self._own
 
     def name_of(self, scene: Scene) -> str:
@@ -65,7 +61,6 @@ class PresetController(QObject):
 
     @property
     def shown(self) -> tuple[str, str]:
-        """The preset that the scene is, and in place of it the one that it was changed from."""
         name = self.name_of(self._store.scene)
         return name, "" if name else self._store.store.workspace.preset
 
@@ -133,7 +128,6 @@ class PresetController(QObject):
         return answer == QMessageBox.StandardButton.Yes
 
     def report_saved(self, name: str) -> None:
-        """List a preset that was saved from a match."""
         self._update()
         self.status_message.emit(f"Saved the preset {name}")
 

@@ -51,7 +51,6 @@ class Session(QObject):
     """What has been restored, or why the session cannot be written; the latter is not repeated."""
 
     written = Signal()
-    """The session is on the disk."""
 
     def __init__(self, store: Store, own: Callable[[], Workspace]) -> None:
         super().__init__()
@@ -95,7 +94,6 @@ class Session(QObject):
             self._timer.start()
 
     def write(self) -> None:
-        """Write the session now."""
         own = self._own()
         self._write(Kept(own, self._store.history(own.step)), in_use=True)
 

@@ -45,7 +45,6 @@ class SessionFile:
         self._lock: QLockFile | None = None
         self._path: Path | None = None
         self.crashed: Kept | None = None
-        """What a window that crashed has left in this file."""
         self.last: Kept | None = None
         """What was written last, whichever window wrote it."""
         # If the folder cannot be made, the first writing reports it.
@@ -99,7 +98,6 @@ class SessionFile:
         write_whole(self._path, json.dumps(record, indent=1).encode("ascii"))
 
     def close(self) -> None:
-        """Release the file for other windows."""
         self._path = None
         if self._lock is not None:
             self._lock.unlock()

@@ -322,7 +322,6 @@ def _region(values: Any) -> Region | None:
 
 
 def _file(text: object) -> Path | None:
-    """Return the path of a file that still exists."""
     try:
         path = Path(text) if isinstance(text, str) and text else None
         return path if path is not None and path.is_absolute() and path.is_file() else None

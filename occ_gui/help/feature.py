@@ -12,8 +12,6 @@ _CONTROLS = {"controls": "guide.md#set-up-a-scene"}
 
 
 def manual(window: QMainWindow, shell: Shell, current_pane: Callable[[], str]) -> Feature[None]:
-    """Declare the manual, which explains each pane of the shell."""
-
     def make() -> Service:
         from occ_gui.help.manual import Manual
 

@@ -27,8 +27,6 @@ _FILE = Qt.ItemDataRole.UserRole
 
 
 class HelpWindow(QMainWindow):
-    """Shows the pages of the manual."""
-
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._folder = folder

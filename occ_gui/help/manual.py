@@ -23,7 +23,6 @@ class Manual(Service):
         self._help: HelpWindow | None = None
 
     def show_pane(self) -> None:
-        """Open the manual where it explains the current pane."""
         self.show_page(self.pages.get(self._current_pane(), GUIDE))
 
     def show_page(self, page: str = GUIDE) -> None:

@@ -6,10 +6,8 @@ from pathlib import Path
 from occ_model.files.resources import resource_path
 
 CONTENTS = "index.md"
-"""The page that lists the others."""
 
 GUIDE = "guide.md"
-"""The page to begin with."""
 
 _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 

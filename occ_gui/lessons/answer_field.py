@@ -19,7 +19,6 @@ class AnswerField(QWidget):
     """A field for a number or for words, with a button and a sentence."""
 
     checked = Signal(str)
-    """The text that is to be checked."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -79,7 +78,6 @@ class AnswerField(QWidget):
         self.sentence.show()
 
     def show_waiting(self) -> None:
-        """Show that the model computes the answer."""
         self.check.setEnabled(False)
         self._said = ""
         self.sentence.setForegroundRole(QPalette.ColorRole.WindowText)

@@ -13,8 +13,6 @@ from occ_model.teaching.answers import check_answer
 
 @dataclass(frozen=True, slots=True)
 class MatchedPhoto:
-    """The photo that is open, with its match."""
-
     name: str = ""
     match: Match | None = None
 
@@ -60,7 +58,6 @@ class LessonAnswers(QObject):
             self._check_next()
 
     def is_checking(self, lesson: Lesson) -> bool:
-        """Return whether an answer to a lesson is still being checked."""
         return any(asked.lesson.name == lesson.name for asked in self._waiting)
 
     def of(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
@@ -76,7 +73,6 @@ class LessonAnswers(QObject):
         return given[1] == step.judged_at(scene)
 
     def all_of(self, lesson: Lesson) -> tuple[AnsweredStep, ...]:
-        """Return the steps of a lesson with their answers."""
         found = []
         for place, step in enumerate(lesson.steps):
             answer, scene, photo = self._given.get(

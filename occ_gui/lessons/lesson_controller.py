@@ -57,7 +57,6 @@ class LessonController(QObject):
     """What a step has a button for, as the step names it."""
 
     report_asked = Signal(Lesson)
-    """The lesson whose report is to be written."""
 
     def __init__(
         self,
@@ -106,13 +105,11 @@ class LessonController(QObject):
             )
 
     def begin_first(self) -> None:
-        """Begin the first lesson."""
         self.set_seen(True)
         if self._all.lessons:
             self.choose(self._all.lessons[0].name)
 
     def choose(self, name: str) -> None:
-        """Continue a lesson at the step reached."""
         for lesson in self._all.lessons:
             if lesson.name == name:
                 self._begin()
@@ -243,7 +240,6 @@ class LessonController(QObject):
         return self._current
 
     def _step(self) -> Step | None:
-        """Return the step under way."""
         lesson = self._current
         return None if lesson is None else lesson.steps[self._places[lesson.name]]
 

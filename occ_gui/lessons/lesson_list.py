@@ -54,7 +54,6 @@ class LessonList(QWidget):
         failure: str,
         problems: Mapping[str, str],
     ) -> None:
-        """List lessons with the steps reached, or the reason why there are none."""
         self.message.setText(
             failure
             or (

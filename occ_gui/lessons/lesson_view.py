@@ -15,8 +15,6 @@ _WANTED_HEIGHT = 320
 
 
 class LessonView(QWidget):
-    """The pages of the lessons, one at a time."""
-
     list_asked = Signal()
     """The list is to be shown again."""
 
@@ -39,7 +37,6 @@ class LessonView(QWidget):
         failure: str = "",
         problems: Mapping[str, str] | None = None,
     ) -> None:
-        """List lessons with the steps reached, or the reason why there are none."""
         self.list.show_lessons(found, reached, failure, problems or {})
         self._pages.setCurrentIndex(0)
 
@@ -50,10 +47,8 @@ class LessonView(QWidget):
     def show_end(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
     ) -> None:
-        """Show that a lesson is done, and the title of the one that follows."""
         self.end.show_answers(lesson, answers, following)
         self._pages.setCurrentIndex(2)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a size that fits the list, or a step with its question."""
         return QSize(super().sizeHint().width(), _WANTED_HEIGHT)

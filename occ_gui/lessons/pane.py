@@ -64,7 +64,6 @@ class LessonPane(Pane[None]):
             speaker.status_message.connect(self.noted)
 
     def set_seen(self, seen: bool) -> None:
-        """Explain the step that is seen."""
         self.controller.set_seen(seen)
 
     def open_folder(self) -> None:
@@ -78,7 +77,6 @@ class LessonPane(Pane[None]):
             self.noted.emit(f"Your own lessons belong into {folder}")
 
     def end(self) -> None:
-        """Restore what the user was working on."""
         self.spotlight.end()
         self.controller.restore_user()
 

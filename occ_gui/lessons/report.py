@@ -26,10 +26,7 @@ class _Job:
 
 
 class LessonReports(QObject):
-    """Writes the reports of lessons."""
-
     status_message = Signal(str)
-    """The outcome."""
 
     def __init__(self, window: QWidget | None, preferences: Preferences) -> None:
         super().__init__()
@@ -44,7 +41,6 @@ class LessonReports(QObject):
         return self._preferences.recall(_AUTHOR)
 
     def keep_author(self, author: str) -> None:
-        """Keep the name of the student for the reports to come."""
         self._preferences.keep(_AUTHOR, one_line(author.strip()))
 
     def ask(self, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
@@ -61,7 +57,6 @@ class LessonReports(QObject):
             self.write(path, lesson, steps, self.author)
 
     def write(self, path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], author: str) -> None:
-        """Write the report of a lesson to a file."""
         self.status_message.emit("Drawing…")
         self.runner.ask(_Job(path, lesson, tuple(steps), author))
 

@@ -51,16 +51,13 @@ class ShutterAnimation(QWidget):
 
     @property
     def is_playing(self) -> bool:
-        """Whether the animation runs."""
         return self._turns.isActive()
 
     def show_shutter(self, shutter: RollingShutter) -> None:
-        """Show these exposures, from where the animation stands."""
         self._shutter = shutter
         self.update()
 
     def toggle(self) -> None:
-        """Stop, or go on."""
         self._is_stopped = not self._is_stopped
         self._run()
 
@@ -75,29 +72,24 @@ class ShutterAnimation(QWidget):
         self.update()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Begin to move when visible."""
         super().showEvent(event)
         self._run()
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
-        """Rest while hidden."""
         super().hideEvent(event)
         self._turns.stop()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Stop, or go on."""
         self.toggle()
         event.accept()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
-        """Stop, or go on, by the keys of a button."""
         if event.key() in _KEYS:
             self.toggle()
         else:
             super().keyPressEvent(event)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a size that fits a narrow column."""
         return QSize(280, 200)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
@@ -106,7 +98,6 @@ class ShutterAnimation(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the present moment."""
         if self._shutter is None:
             return
         painter = QPainter(self)
@@ -115,8 +106,6 @@ class ShutterAnimation(QWidget):
 
 
 class _Drawing:
-    """One moment of the animation."""
-
     def __init__(
         self, painter: QPainter, widget: QWidget, shutter: RollingShutter, moment: float
     ) -> None:

@@ -26,25 +26,15 @@ _ANIMATION_HEIGHT = 200
 
 
 class StepPage(QWidget):
-    """One step of a lesson."""
-
     moved = Signal(int)
     """The number of steps to go forward; negative to go back."""
 
     list_asked = Signal()
     again_asked = Signal()
-
     control_asked = Signal()
-    """The control that the step speaks of is to be shown."""
-
     action_asked = Signal()
-    """What the step has a button for is to be done."""
-
     answer_given = Signal(str)
-    """An answer that is to be checked."""
-
     explained = Signal(bool)
-    """Whether the explanation is shown."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -133,7 +123,6 @@ class StepPage(QWidget):
             layout.addLayout(_row(buttons))
 
     def show_step(self, lesson: Lesson, place: int, before: CheckedAnswer | None) -> None:
-        """Show a step of a lesson, with the answer given to it before."""
         step, count = lesson.steps[place], len(lesson.steps)
         self.place.setText(f"{lesson.title} · step {place + 1} of {count}")
         self.progress.setRange(0, count)
@@ -162,7 +151,6 @@ class StepPage(QWidget):
         self.changed.setVisible(bool(sentence))
 
     def show_explanation(self, text: str) -> None:
-        """Put this explanation where it is shown on demand."""
         self.answer.setText(typeset(text))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:

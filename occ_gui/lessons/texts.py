@@ -8,7 +8,6 @@ from PySide6.QtWidgets import QLabel, QPushButton
 
 _INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
 _HEADING = 1.25
-"""Size of a heading relative to the text's."""
 
 
 def typeset(text: str) -> str:
@@ -33,7 +32,6 @@ def typeset_paragraph() -> QLabel:
 
 
 def heading(text: str = "") -> QLabel:
-    """Make a label for a heading."""
     label = paragraph(text)
     font = label.font()
     font.setBold(True)
@@ -43,7 +41,6 @@ def heading(text: str = "") -> QLabel:
 
 
 def bold(label: QLabel) -> QLabel:
-    """Set a label in bold."""
     font = label.font()
     font.setBold(True)
     label.setFont(font)
@@ -51,7 +48,6 @@ def bold(label: QLabel) -> QLabel:
 
 
 def button(text: str, tip: str) -> QPushButton:
-    """Make a button with a tooltip."""
     made = QPushButton(text)
     made.setToolTip(tip)
     return made

@@ -42,7 +42,6 @@ class WipedImage(AveragedImage):
         option: QStyleOptionGraphicsItem,
         widget: QWidget | None = None,
     ) -> None:
-        """Draw the part left of the line."""
         rect = QRectF(self.boundingRect())
         rect.setRight(min(rect.right(), self._last_column))
         if rect.width() <= 0.0:
@@ -103,7 +102,6 @@ class BeforeWipe(QObject):
         self._take_picture()
 
     def choose_picture(self, whose: str) -> None:
-        """Compare the pictures of the camera or of the receiver."""
         self._whose = whose
         self._take_picture()
 

@@ -41,16 +41,13 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 
     @property
     def gain(self) -> int:
-        """The factor by which the difference is multiplied."""
         return self._gain
 
     def set_gain(self, gain: int) -> None:
-        """Set the factor by which the difference is multiplied."""
         self._gain = gain
         self.update()
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
-        """Return the rectangle where the images overlap."""
         (_, first), (_, second) = self._layers
         return first.intersected(second)
 
@@ -164,7 +161,6 @@ def _span(edges: FloatArray) -> float:
 
 
 def _interpolated(values: FloatArray, places: FloatArray) -> FloatArray:
-    """Interpolate between the rows of an array."""
     below = np.minimum(places.astype(np.intp), len(values) - 2)
     share = (places - below)[:, None]
     return np.asarray(values[below] * (1 - share) + values[below + 1] * share, dtype=np.float64)

@@ -160,7 +160,6 @@ class ImageView(QWidget):
         self.show_reading(snapshot)
 
     def show_reading(self, reading: Reading) -> None:
-        """Show the region that was decoded."""
         self.simulation.show_region(reading.decoded.region)
 
     def show_picture(self, picture: Picture) -> None:
@@ -187,7 +186,6 @@ class ImageView(QWidget):
         return self._whose
 
     def choose_picture(self, whose: str) -> None:
-        """Show the picture of the camera or of the receiver."""
         if whose == self._whose:
             return
         self._whose = whose
@@ -209,7 +207,6 @@ class ImageView(QWidget):
         return {whose: int(frame.picture(whose)[row, column]) for whose in PICTURES}
 
     def show_photo(self, photo: Photo | None) -> None:
-        """Show this photo in place of the previous one, or none."""
         self.shown_photo = photo
         if photo is not None:
             self.photo.show_picture(photo.image)

@@ -31,7 +31,6 @@ class PicturesPane(Pane[PicturePart]):
         view.mode_chosen.connect(lambda mode: store.put(replace(store.workspace, overlay=mode)))
 
     def show_part(self, part: PicturePart) -> None:
-        """Draw what differs from what is drawn."""
         view, shown, self._shown = self.view, self._shown, part
         picture, snapshot, reading, before, whose, overlay = part
         view.choose_picture(whose)

@@ -73,13 +73,11 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_placement(self, placement: Placement) -> None:
-        """Move and scale the photo."""
         self._placement = placement
         self._arrange()
 
     @property
     def times(self) -> int:
-        """The factor by which the difference is drawn."""
         return self.difference.gain
 
     def set_mode(self, mode: str) -> None:
@@ -104,7 +102,6 @@ class PhotoOverlay(QObject):
 
     @property
     def placement(self) -> Placement:
-        """Where the photo lies."""
         return self._placement
 
     @property
@@ -114,7 +111,6 @@ class PhotoOverlay(QObject):
 
     @property
     def split_row(self) -> float:
-        """The row from which downwards the photo is seen where the picture is split."""
         return float(self.line.value())
 
     def _arrange(self) -> None:
@@ -147,7 +143,6 @@ class PhotoOverlay(QObject):
         self._over.show_from(self.line.value() if self._mode == "split" else -math.inf)
 
     def _keep_line(self) -> None:
-        """Keep the line where the user dragged it."""
         self._line_is_centred = False
 
     def _follow_frame(self) -> None:

@@ -92,7 +92,6 @@ class PicturePane(QWidget):
             self.graphics.setBackground(self.palette().dark().color())
 
     def show_region(self, region: Region | None) -> None:
-        """Draw the rectangle that was decoded, or none."""
         self._region.setVisible(region is not None)
         if region is not None:
             self._region.setRect(

@@ -35,10 +35,7 @@ class CompareView(QWidget):
     """The user pins the current state as "A" or "B"."""
 
     go_asked = Signal(str)
-    """The user returns to the scene of "A" or "B"."""
-
     clear_asked = Signal()
-    """The user clears both."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -69,7 +69,6 @@ class PinController(QObject):
 
     @property
     def _kept(self) -> dict[str, PinnedScene]:
-        """What is pinned, by the names A and B."""
         pins = zip(_NAMES, self._store.workspace.pins, strict=True)
         return {name: pin for name, pin in pins if pin is not None}
 
@@ -80,7 +79,6 @@ class PinController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all that is pinned can be compared."""
         return not self._missing
 
     def _keep(self, name: str, pin: PinnedScene | None) -> None:
@@ -130,7 +128,6 @@ class PinController(QObject):
             self.status_message.emit(f"{name} is not pinned: this scene has no picture.")
 
     def pin(self, name: str) -> None:
-        """Keep the current state as A or as B."""
         snapshot = self._snapshot
         if snapshot is None:
             self.status_message.emit("There is no picture to pin yet.")
@@ -152,7 +149,6 @@ class PinController(QObject):
         self.status_message.emit(told.format(name=name, other=other))
 
     def clear(self) -> None:
-        """Forget both."""
         self._store.put(replace(self._store.workspace, pins=(None, None)))
         self.status_message.emit("Nothing is pinned any more.")
 

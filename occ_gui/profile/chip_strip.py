@@ -43,7 +43,6 @@ class ChipStrip(QWidget):
         self.hide()
 
     def show_chips(self, reading: ChipReading | None) -> None:
-        """Show these chips in place of the previous ones, or none."""
         self.cells.reading = reading
         self.setVisible(reading is not None)
         if reading is not None:
@@ -67,8 +66,6 @@ class ChipStrip(QWidget):
 
 
 class _Cells(QWidget):
-    """The cells."""
-
     def __init__(self, plot: Plot) -> None:
         super().__init__()
         self._plot = plot
@@ -85,7 +82,6 @@ class _Cells(QWidget):
         return QSize(100, self.fontMetrics().height() + 6)
 
     def rectangles(self) -> list[tuple[int, QRectF]]:
-        """Return the chips in view, each with its rectangle."""
         if self.reading is None:
             return []
         first, scale = self.placement
@@ -98,7 +94,6 @@ class _Cells(QWidget):
         return found
 
     def _pixel(self, column: float) -> float:
-        """Return where a column of the plot lies in this widget."""
         at = self._plot.getViewBox().mapViewToScene(QPointF(column, 0.0))
         in_plot = self._plot.mapFromScene(at)
         return float(self.mapFromGlobal(self._plot.mapToGlobal(in_plot)).x())

@@ -29,7 +29,6 @@ class ProfilePane(Pane[ProfilePart]):
         view.enhanced_chosen.connect(lambda on: store.put(replace(store.workspace, is_enhanced=on)))
 
     def show_part(self, part: ProfilePart) -> None:
-        """Draw what differs from what is drawn."""
         view, shown, self._shown = self.view, self._shown, part
         reading, before, photo, chips, is_enhanced = part
         view.enhanced.setChecked(is_enhanced)

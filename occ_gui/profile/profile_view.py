@@ -38,7 +38,6 @@ _SHADE = 20
 """Opacity of the text's colour over the columns that are not read, of 255."""
 
 _BEYOND_ANY_PICTURE = 1e7
-"""Column beyond any picture."""
 
 
 class ProfileView(QWidget):
@@ -207,7 +206,6 @@ class ProfileView(QWidget):
             self._redraw()
 
     def show_photo_profile(self, profile: PhotoProfile | None) -> None:
-        """Show this profile of a photo in place of the previous one, or none."""
         self._photo = profile
         self.photo_shown.emit(profile)
         if profile is not None:

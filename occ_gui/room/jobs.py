@@ -83,8 +83,6 @@ class ShownRoom:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FloorMap:
-    """A map over the floor of a room."""
-
     request: RoomMapRequest
     points: tuple[RoomPoint, ...]
 

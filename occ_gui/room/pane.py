@@ -31,7 +31,6 @@ class RoomPane(Pane[RoomChoice]):
         super().__init__(ScrollPane(self.view, _LEAST))
         self._store, self._first = store, load_room(FIRST_ROOM)
         self.look: Look | None = None
-        """What is shown, or looked at."""
         self.shown: ShownRoom | None = None
         """The last picture of the present place, once it is read."""
         self._look: Task[Look, ShownRoom] = Task(show_room, "room")
@@ -96,7 +95,6 @@ class RoomPane(Pane[RoomChoice]):
         self._edit(title, gesture, room=room, photo=None, focal_length=None)
 
     def open_photo(self, path: Path) -> None:
-        """Show a photo of the room, and where it was taken."""
         self._edit(f"photo {path.name}", photo=path, focal_length=None)
 
     def _close_photo(self) -> None:

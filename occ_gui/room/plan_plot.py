@@ -30,8 +30,6 @@ _DASHES = Qt.PenStyle.DashLine
 
 
 class PlanPlot(QWidget):
-    """The room from above."""
-
     camera_moved = Signal(float, float, int)
     """The user drags the camera: x and y in metres, and the gesture."""
 

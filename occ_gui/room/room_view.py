@@ -123,7 +123,6 @@ class RoomView(QWidget):
         self.sentences.setText("")
 
     def show_picture(self, shown: ShownRoom, *, is_present: bool) -> None:
-        """Show a picture, and what is read of it if that is of the present place."""
         self.picture.show_room(shown)
         self._show_photo(shown)
         if shown.reading is None or not is_present:
@@ -146,16 +145,13 @@ class RoomView(QWidget):
         self.sentences.setText("")
 
     def show_progress(self, share: float) -> None:
-        """Show how much of the map is measured."""
         self.floor.setText(f"Measuring the floor: {100.0 * share:.0f} %")
 
     def show_no_map(self, sentence: str) -> None:
-        """Show why there is no map."""
         self.plan.show_map(None)
         self.floor.setText(sentence)
 
     def show_map(self, found: FloorMap | None) -> None:
-        """Show a map over the floor, or none."""
         self.plan.show_map(found)
         self.floor.setText(_floor(found) if found else "")
 

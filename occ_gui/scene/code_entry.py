@@ -101,7 +101,6 @@ class CodeEntry(QWidget):
         self._write()
 
     def _write(self) -> None:
-        """Write what is sent in the field of the bits."""
         self.bits.setText(self._written)
         self.bits.setCursorPosition(0)
         self.notices[1].end()
@@ -111,7 +110,6 @@ class CodeEntry(QWidget):
         return payload_parameter().format(self._payload) or f"{self._code:0{self._bits}b}"
 
     def show_problem(self, sentence: str) -> None:
-        """Show why a code was refused, or what is wrong with it."""
         self.notices[0].show_problem(sentence)
 
     def end_refusal(self) -> None:

@@ -37,7 +37,6 @@ class ControlPanel(QWidget):
     """
 
     preset_chosen = Signal(str)
-    """The name of a preset to load."""
 
     def __init__(
         self,
@@ -95,7 +94,6 @@ class ControlPanel(QWidget):
             self._show_bits(self._scene)
 
     def _headings(self, stages: Mapping[str, str]) -> dict[str, str]:
-        """Return the headings of the stages, by the first parameter of each."""
         words = {
             "light": "Light: LED and room",
             "optics": "Optics: from the panel through the lens",
@@ -152,7 +150,6 @@ class ControlPanel(QWidget):
         self.preset.setCurrentIndex(-1)
 
     def _list(self, text: str, name: str | None, tip: str) -> int:
-        """Add an entry and return its index."""
         self.preset.addItem(text, name)
         place = self.preset.count() - 1
         tip = in_tool_tip(one_line(tip, LONGEST))
@@ -186,7 +183,6 @@ class ControlPanel(QWidget):
             row.show_instead(*((sent.payload_length, reason) if sent.payload else (None,)))
 
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
-        """Show marks at values of a parameter, if its slider has a scale."""
         self._main.show_marks(name, marks)
 
     def show_problem(self, sentence: str, names: Iterable[str]) -> None:
@@ -208,7 +204,6 @@ class ControlPanel(QWidget):
         return self._fields_of(wanted)
 
     def _fields_of(self, names: Iterable[str]) -> list[CodeEntry | ParameterRow]:
-        """Return the controls of some parameters."""
         fields = self._fields()
         return [fields[name] for name in names if name in fields]
 

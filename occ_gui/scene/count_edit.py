@@ -33,7 +33,6 @@ class CountEdit(QSpinBox):
         select_numbers_whole(self)
 
     def limit(self, high: int) -> None:
-        """Set the largest number that is allowed."""
         self._declared = replace(self._declared, high=high)
         self.setRange(self._declared.low, high)
 

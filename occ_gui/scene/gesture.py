@@ -13,7 +13,6 @@ _numbers = count()
 
 
 def new_gesture() -> int:
-    """Return the number of a new gesture."""
     return next(_numbers)
 
 

@@ -14,7 +14,6 @@ class HoldBrightness(QObject):
     """While it is on, the product S t of equation (1) stays constant as the exposure changes."""
 
     switched = Signal(bool)
-    """Whether the brightness is held from now on."""
 
     status_message = Signal(str)
     """The reason why the brightness could not be held."""
@@ -34,7 +33,6 @@ class HoldBrightness(QObject):
         return self._on
 
     def switch(self, on: bool) -> None:
-        """Hold the brightness of the scene as it is now, or stop holding it."""
         self._asked = None
         self._note_product(self._store.scene)
         if on != self._on:

@@ -9,8 +9,6 @@ from occ_model.teaching.marked_values import marked_values
 
 
 class MarkController(QObject):
-    """Moves the marks with the scene."""
-
     def __init__(self, scenes: SceneStore, controls: ControlPanel) -> None:
         super().__init__(controls)
         self._controls = controls

@@ -31,7 +31,6 @@ class ParameterPage(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
 
     def panel(self) -> ParameterPanel:
-        """Give the controls."""
         if self.content is None:
             self.content = self._make()
             self.setWidget(self.content)

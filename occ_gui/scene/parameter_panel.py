@@ -64,7 +64,6 @@ class ParameterPanel(QWidget):
             line.addWidget(self.play_buttons[name])
 
     def add_foot(self, widget: QWidget) -> None:
-        """Add a widget at the lower end."""
         foot = self.layout()
         if foot is not None:
             foot.addWidget(widget)
@@ -77,7 +76,6 @@ class ParameterPanel(QWidget):
                 row.show_value(value)
 
     def show_marks(self, name: str, marks: Sequence[MarkedValue]) -> None:
-        """Show marks at values of a parameter, if its slider has a scale."""
         if name in self._scales:
             self._scales[name].show_marks(marks)
 

@@ -61,7 +61,6 @@ class ParameterRow(QWidget):
         self.notice.show_problem(sentence)
 
     def end_refusal(self) -> None:
-        """Remove the sentence."""
         self.notice.end()
 
     def show_value(self, value: ParameterValue) -> None:
@@ -206,8 +205,6 @@ class CountRow(ParameterRow):
 
 
 class ChoiceRow(ParameterRow):
-    """A list of choices."""
-
     def __init__(
         self, declared: Choice, parent: QWidget | None = None, field: QComboBox | None = None
     ) -> None:
@@ -292,7 +289,6 @@ class PatternRow(ParameterRow):
 
 
 def row_for(declared: Parameter) -> ParameterRow:
-    """Create the row for a declaration."""
     match declared:
         case Quantity():
             return QuantityRow(declared)

@@ -31,7 +31,6 @@ class PlayButton(IconButton):
         self.customContextMenuRequested.connect(self._ask)
 
     def show_playing(self, playing: bool) -> None:
-        """Show whether the slider runs."""
         self.setChecked(playing)
         self.show_drawing("pause" if playing else "play")
 

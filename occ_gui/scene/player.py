@@ -14,7 +14,6 @@ SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}
 """Seconds from one end to the other."""
 
 _RELATIVE_TOLERANCE = 1e-9
-"""Relative difference of a value that the player itself has set."""
 
 
 class Player(QObject):
@@ -67,7 +66,6 @@ class Player(QObject):
         self._turns.start()
 
     def stop(self) -> None:
-        """Let the slider stand where it is."""
         self._turns.stop()
         if self.playing:
             self._rows[self.playing].end_run()
@@ -76,7 +74,6 @@ class Player(QObject):
             self.run_changed.emit("")
 
     def heed(self, scene: Scene) -> None:
-        """Stop if a scene has another value than the player has set."""
         if not self.playing or self._set is None:
             return
         value = float(scene.value(self.playing))

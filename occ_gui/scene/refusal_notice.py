@@ -75,7 +75,6 @@ class RefusalNotice(QLabel):
         self.setGeometry(_MARGIN, top, width, height)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Follow the field, and be seen only where it is."""
         if self.text() and self.parentWidget() is not self._field:
             if watched is self._field and event.type() in {QEvent.Type.Hide, QEvent.Type.Show}:
                 self.setVisible(event.type() == QEvent.Type.Show)

@@ -20,10 +20,7 @@ _MOST_OF_A_CHANGE = 2
 
 
 class SceneStore(QObject):
-    """The scene of a workspace, and the edits of it."""
-
     changed = Signal(object)
-    """The new scene."""
 
     refused = Signal(str)
     """The reason why a change was not made; the scene is unchanged."""
@@ -87,7 +84,6 @@ class SceneStore(QObject):
         self.store.put(workspace, title, gesture)
 
     def _with(self, scene: Scene, preset: str = "") -> Workspace:
-        """Return the workspace with a scene, and what preset that was changed from."""
         workspace, last = self.store.workspace, self.scene
         changed = sum(scene.value(name) != last.value(name) for name in PARAMETERS)
         preset = preset or (workspace.preset if changed <= _MOST_OF_A_CHANGE else "")

@@ -23,7 +23,6 @@ class SettingsStore(QObject):
     """
 
     changed = Signal(object)
-    """The new settings."""
 
     refused = Signal(str)
     """The reason why a change was not made; the settings are unchanged."""
@@ -50,7 +49,6 @@ class SettingsStore(QObject):
         self._put(replace(self.settings, observable=observable))
 
     def set_noise(self, noise: NoiseSource) -> None:
-        """Change the source of the noise."""
         self._put(replace(self.settings, noise=noise))
 
     def restore(self, settings: SimulationSettings) -> None:

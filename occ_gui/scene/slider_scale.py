@@ -20,7 +20,6 @@ _OVER = 3.0
 
 _DIGITS = 4
 _Text: TypeAlias = tuple[str, QRectF]
-"""A text with its place."""
 
 _TOOLTIP_DISTANCE = 6.0
 """Pixels from a mark within which its tooltip is shown."""
@@ -137,7 +136,6 @@ class SliderScale(QWidget):
         return best
 
     def _ends(self, metrics: QFontMetricsF) -> tuple[_Text, _Text]:
-        """Return the values at both ends with their places."""
         low, high = (self._quantity.format(value, _DIGITS) for value in self._quantity.slider)
         height, width = metrics.height(), metrics.horizontalAdvance(high)
         return (

@@ -26,7 +26,6 @@ class Spotlight(QObject):
 
     @property
     def is_on(self) -> bool:
-        """Whether a control is marked."""
         return self._frame is not None
 
     def show_only(self, name: str) -> None:
@@ -37,7 +36,6 @@ class Spotlight(QObject):
                 self._mark(panel, name)
 
     def end(self) -> None:
-        """Show all controls alike."""
         for widget in self._dimmed:
             # PySide takes None here, which removes the effect, whatever its stubs say.
             widget.setGraphicsEffect(None)  # type: ignore[arg-type]

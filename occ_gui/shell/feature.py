@@ -27,21 +27,16 @@ class VerdictView(Protocol):
 
 
 class Work(Protocol):
-    """What goes on in the background."""
-
     @property
-    def is_idle(self) -> bool:
-        """Whether nothing comes any more."""
+    def is_idle(self) -> bool: ...
 
-    def stop(self) -> None:
-        """End it."""
+    def stop(self) -> None: ...
 
 
 class Service(QObject):
     """What is made of a feature when it is first wanted: what carries out its commands."""
 
     status_message = Signal(str)
-    """A sentence for the status line."""
 
     tasks: tuple[Task[Any, Any], ...] = ()
     """The work that is waited for, and that ends with it."""
@@ -51,12 +46,10 @@ class Service(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing is at work."""
         return all(task.is_idle for task in self.tasks)
 
     @property
     def is_measured(self) -> bool:
-        """Whether all is measured."""
         return all(work.is_idle for work in self.measures)
 
     def stop(self) -> None:

@@ -20,8 +20,6 @@ class NothingToDraw(OccError):  # noqa: N818 - not an error: the data are not co
 
 @dataclass(frozen=True, kw_only=True)
 class Figure:
-    """A figure that can be exported."""
-
     name: str
     title: str
     draw: Callable[[Any, Snapshot], Draw]

@@ -64,7 +64,6 @@ class OutdatedMarks(QObject):
         self._update()
 
     def take(self, _name: str, pane: Pane[Any]) -> None:
-        """Mark from now on a pane that has been made."""
         self.mark_pane(pane)
 
     def mark_pane(self, pane: Pane[Any]) -> None:
@@ -115,7 +114,6 @@ class OutdatedMarks(QObject):
     def _run_values(
         self, read: SimulationRequest, pictured: SimulationRequest | None
     ) -> tuple[str, str]:
-        """Write the values of the slider that runs, of the reading and of the picture."""
         declared = quantity(self._run)
         texts = [
             ""

@@ -51,13 +51,11 @@ class Results:
     """The photo that was read last; another one may be on its way."""
 
     lamps: "tuple[Lamp, ...]" = ()
-    """The lamps that were found in it."""
 
     stripes: "StripeSearch | None" = None
     """Its stripes, or those of the part that is matched."""
 
     chips: "ChipReading | None" = None
-    """The chips in them."""
 
     match: "FoundMatch | None" = None
     """What the match that was asked for last has come to."""
@@ -73,7 +71,6 @@ class Results:
 
     @property
     def photo(self) -> "Photo | None":
-        """The photo that is shown."""
         return None if self.opened is None else self.opened.photo
 
 
@@ -97,10 +94,7 @@ def of_picture(results: Results) -> SimulationRequest | None:
 
 
 class Board(QObject):
-    """Holds the results."""
-
     changed = Signal()
-    """There are others."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -114,7 +108,6 @@ class Board(QObject):
         return selection
 
     def put(self, results: Results) -> None:
-        """Put these in place of the last ones."""
         self.results = results
         self.changed.emit()
         for selection in self._selections:
@@ -132,7 +125,6 @@ class Board(QObject):
         self.put(replace(self.results, picture=picture))
 
     def show_reading(self, reading: Reading) -> None:
-        """Put a reading in place of the last one."""
         self.put(replace(self.results, reading=reading))
 
     def show_before(self, snapshot: Snapshot) -> None:

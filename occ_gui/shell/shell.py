@@ -19,8 +19,7 @@ class DockWindow(Protocol):
     """A window that panes can be added to."""
 
     @property
-    def actions_by_name(self) -> Mapping[str, QAction]:
-        """The menu entries, by name."""
+    def actions_by_name(self) -> Mapping[str, QAction]: ...
 
     def add_pane(self, name: str, title: str, content: QWidget) -> QDockWidget:
         """Add a pane, and its entry in the view menu, before the window is shown."""
@@ -99,12 +98,10 @@ class Shell(QObject):
 
     @property
     def figures(self) -> dict[str, Figure]:
-        """The figures of all panes, by name."""
         return {name: figure for name, (figure, _) in self._figures.items()}
 
     @property
     def different_figures(self) -> list[Figure]:
-        """The figures that differ from each other at the moment."""
         return [figure for figure, place in self._figures.values() if figure.is_another(place.pane)]
 
     def draw(self, name: str, shown: Snapshot) -> Draw:
@@ -124,11 +121,9 @@ class Shell(QObject):
 
     @property
     def is_measured(self) -> bool:
-        """Whether all panes have measured what they show."""
         return all(work.is_measured for work in self._made)
 
     def stop(self) -> None:
-        """End the work of all features."""
         for work in self._made:
             work.stop()
 
@@ -137,7 +132,6 @@ class _Place(QWidget):
     """The place of a pane, empty until it is first seen."""
 
     shown = Signal(bool)
-    """Whether it has been shown or hidden."""
 
     def __init__(self, feature: Feature[Any], shell: Shell) -> None:
         super().__init__()
@@ -168,12 +162,10 @@ class _Place(QWidget):
         pane.set_seen(seen)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Tell that it is shown."""
         super().showEvent(event)
         self.shown.emit(True)
 
     def hideEvent(self, event: QHideEvent) -> None:  # noqa: N802 - Qt's name
-        """Tell that it is hidden."""
         super().hideEvent(event)
         self.shown.emit(False)
 

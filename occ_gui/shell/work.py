@@ -28,7 +28,6 @@ class Work(QObject, Generic[Request, Result]):
     """
 
     begun = Signal()
-    """The task has begun to work on a request."""
 
     ended = Signal()
     """The request was met, has failed, or is not wanted any more."""

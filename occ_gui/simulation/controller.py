@@ -61,8 +61,7 @@ def _go_on() -> None:
 class ReadingView(Protocol):
     """A pane that shows what is read of a scene, with or without its picture."""
 
-    def show_reading(self, reading: Reading) -> None:
-        """Show this reading in place of the last one."""
+    def show_reading(self, reading: Reading) -> None: ...
 
 
 class SnapshotView(Protocol):

@@ -8,7 +8,6 @@ from occ_gui.simulation.controller import SimulationController
 from occ_gui.simulation.snapshot import Snapshot
 
 Use = Callable[[Snapshot], None]
-"""Uses the results of the present scene."""
 
 
 class PresentResults(QObject):
@@ -34,7 +33,6 @@ class PresentResults(QObject):
         simulation.failed.connect(self._on_failure)
 
     def is_present(self, snapshot: Snapshot) -> bool:
-        """Return whether results are those of the present scene and settings."""
         return snapshot.request == self._ages.present
 
     def ask(self, use: Use) -> None:

@@ -11,10 +11,8 @@ from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 
 Source: TypeAlias = Literal["profile", "draft", "picture"]
-"""What a reading was read from."""
 
 SOURCES: tuple[Source, ...] = ("profile", "draft", "picture")
-"""The sources, the surest last."""
 
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
@@ -57,7 +55,6 @@ class ColumnView:
 
     @property
     def results(self) -> tuple[DecodeResult, ...]:
-        """The result of every decoder, the paper's first."""
         return (self.decoded, *self.others)
 
     def result_of(self, decoder: str) -> DecodeResult | None:
@@ -103,5 +100,4 @@ class Snapshot(Reading):
 
     @property
     def simulation_seconds(self) -> float:
-        """Computing time of the picture."""
         return sum(self.frame.timings.values())

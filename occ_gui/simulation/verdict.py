@@ -43,7 +43,6 @@ class Verdict:
 
     @property
     def heading(self) -> str:
-        """The verdict in one line, with the beginning of the reason where there is one."""
         if not self.reason or self.state is not State.BAD:
             return self.title
         cause = _CLAUSE_END.split(self.reason, maxsplit=1)[0]
@@ -69,7 +68,6 @@ def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
 
 
 def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
-    """Return whether a code was read, and it is the one sent."""
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
 
 

@@ -20,7 +20,6 @@ class SpectrumPane(Pane[Snapshot]):
         self.made_of = {view: of_snapshot}
 
     def show_part(self, part: Snapshot) -> None:
-        """Measure these results."""
         left, top = np.maximum(part.corners.min(axis=0), 0.0).astype(int).tolist()
         right, bottom = np.maximum(part.corners.max(axis=0) + 1.0, 0.0).astype(int).tolist()
         try:

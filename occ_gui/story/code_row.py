@@ -59,7 +59,6 @@ class CodeRow(StoryRow):
         self._form = ""
 
     def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
-        """Show the chips and bits of one decoder's result."""
         payload = reading.scene.transmitter.payload if reading.sent else ""
         looks = (*_looks(decoded), reading.sent, received_fields(decoded, reading.scene), payload)
         if are_same(looks, self._drawn_from):
@@ -109,11 +108,9 @@ class CodeRow(StoryRow):
         return int(decoded.chips[place]), next(bits, None)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of all lines."""
         return QSize(200, self._lines()[-1][1] + 2 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of all lines."""
         return QSize(160, self._lines()[-1][1] + 2 * _GAP)
 
     def _lines(self) -> tuple[tuple[int, int], tuple[int, int], tuple[int, int]]:
@@ -218,7 +215,6 @@ class CodeRow(StoryRow):
         return [(left + bit * width, left + (bit + 1) * width) for bit in range(count)]
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
-        """Name the lines."""
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         is_text = bool(self.letters) and self._form == "text"
@@ -229,7 +225,6 @@ class CodeRow(StoryRow):
 
 
 def _looks(decoded: DecodeResult) -> tuple[object, ...]:
-    """Return what of a result is drawn here."""
     return (
         decoded.region, decoded.failure, decoded.code, decoded.chips, decoded.bits,
         decoded.chip_starts, decoded.headers,

@@ -25,7 +25,6 @@ class ColumnAxis(QObject):
     """
 
     changed = Signal()
-    """Other columns are in view."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -35,11 +34,9 @@ class ColumnAxis(QObject):
         self.gutter = GUTTER
         """Pixels at the left of each row."""
         self.is_following = True
-        """Whether the range is the one that is set for the results."""
 
     @property
     def span(self) -> float:
-        """The number of columns in view."""
         return self.last - self.first
 
     def pixel(self, column: float, width: float) -> float:
@@ -61,7 +58,6 @@ class ColumnAxis(QObject):
             self.changed.emit()
 
     def set_home(self, first: float, last: float, columns: int) -> None:
-        """Set the range to return to, and the number of columns of the picture."""
         self._home = (first, last)
         self._ends = (-0.5, columns - 0.5)
         if self.is_following:
@@ -70,7 +66,6 @@ class ColumnAxis(QObject):
             self._put(*self._within(self.first, self.last))
 
     def fit(self) -> None:
-        """Return to the range that is set for the results, and follow it."""
         self.is_following = True
         self._put(*self._home)
 
@@ -116,7 +111,6 @@ class Crosshair(QObject):
     """The mouse is at another column, or at none."""
 
     chosen = Signal()
-    """Another column is chosen."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -142,7 +136,6 @@ class Crosshair(QObject):
             self.pointed_at.emit()
 
     def choose(self, column: float) -> None:
-        """Choose the nearest column of the picture."""
         if not self.columns:
             return
         nearest = min(max(round(column), 0), self.columns - 1)

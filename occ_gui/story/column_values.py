@@ -64,7 +64,6 @@ def values_at(
 
 
 def in_words(values: ColumnValues, scene: Scene) -> str:
-    """Write the values of a column in one line."""
     parts = [
         f"column {values.column}",
         f"{values.time * _MICRO:.1f} µs",

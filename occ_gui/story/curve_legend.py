@@ -36,7 +36,6 @@ class CurveLegend(QWidget):
         self.setAccessibleName("Curves of the profile")
 
     def rename(self, key: str, name: str) -> None:
-        """Give a line another name."""
         pen, before = self._lines[key]
         if name != before:
             self._lines[key] = (pen, name)
@@ -77,15 +76,12 @@ class CurveLegend(QWidget):
         return max(map(self._width, self._usual), default=0)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of the lines at the present width."""
         return QSize(120, self.heightForWidth(self.width()))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size of the first sample."""
         return QSize(_SAMPLE, self.fontMetrics().height() + 2)
 
     def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's name
-        """Return the height of the lines at a width."""
         usual = self._placed([self._width(key) for key in self._usual], width)
         shown = self._placed(self._widths(), width)
         lines = 1 + max((line for _, line in (*usual, *shown)), default=0)
@@ -95,7 +91,6 @@ class CurveLegend(QWidget):
         return _SAMPLE + _GAP + self.fontMetrics().horizontalAdvance(self._lines[key][1])
 
     def _widths(self) -> list[int]:
-        """Return the widths of the entries, that of the remark last."""
         note = [self.fontMetrics().horizontalAdvance(self.note)] if self.note else []
         return [*map(self._width, self.shown), *note]
 
@@ -112,7 +107,6 @@ class CurveLegend(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the entries."""
         painter = QPainter(self)
         text = self.palette().color(QPalette.ColorRole.WindowText)
         places, height = self._placed(self._widths(), self.width()), painter.fontMetrics().height()

@@ -15,7 +15,6 @@ class LegendLine(QWidget):
         super().__init__(parent)
         self._legend = legend
         self.controls = QHBoxLayout()
-        """Where the controls are added."""
         self.controls.setSpacing(_SPACING)
         self.controls.addStretch(0)
         self._layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)

@@ -30,7 +30,6 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
 _GLOW = {False: QColor("#ffd95e"), True: QColor("#7d6208")}
-"""Colours of the light, in the light and the dark theme."""
 
 _LEAST_HEIGHT = 40
 _STRIP, _LABEL = 18, 15
@@ -56,7 +55,6 @@ class LightRow(StoryRow):
     """
 
     window_dragged = Signal()
-    """The user has moved the window."""
 
     def __init__(
         self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
@@ -75,7 +73,6 @@ class LightRow(StoryRow):
         self._grabbed: float | None = None
 
     def show_reading(self, reading: ColumnView) -> None:
-        """Show the light of this reading's scene."""
         if reading.scene != self._scene:
             self.update()  # the window, at least
         self._scene, self._sent = reading.scene, reading.sent
@@ -111,7 +108,6 @@ class LightRow(StoryRow):
         return line_height(self.fontMetrics(), _STRIP) * (2 if self.letters else 1)
 
     def _label_height(self) -> int:
-        """Return the height of the window's length above it."""
         return line_height(self.fontMetrics(), _LABEL, 0)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
@@ -306,14 +302,12 @@ class LightRow(StoryRow):
         return left - _GRIP <= place.x() <= right + _GRIP
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Grab the window where the mouse is on it."""
         super().mousePressEvent(event)
         place, column = event.position(), self.crosshair.column
         if event.button() == Qt.MouseButton.LeftButton and self._is_on_window(place):
             self._grabbed = None if column is None else self.column_at(place.x()) - column
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Show that the window can be dragged."""
         super().mouseMoveEvent(event)
         if event.buttons() == Qt.MouseButton.NoButton:
             if self._is_on_window(event.position()):
@@ -330,7 +324,6 @@ class LightRow(StoryRow):
             self.window_dragged.emit()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Let go of the window."""
         super().mouseReleaseEvent(event)
         self._grabbed = None
 

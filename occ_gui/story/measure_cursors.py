@@ -30,7 +30,6 @@ class MeasureCursors(QObject):
         self.changed.emit()
 
     def move(self, place: int, column: float, columns: int) -> None:
-        """Move a cursor within a picture of so many columns."""
         if self.columns:
             self.columns[place] = min(max(column, 0.0), columns - 1.0)
             self.changed.emit()

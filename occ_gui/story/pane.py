@@ -28,8 +28,6 @@ _REST_MS = 250
 
 
 class StoryPane(Pane[StoryPart]):
-    """From the light to the bits."""
-
     def __init__(
         self,
         scenes: SceneStore,
@@ -58,7 +56,6 @@ class StoryPane(Pane[StoryPart]):
         simulation.submitted.connect(view.verdict.end_failure)
 
     def show_part(self, part: StoryPart) -> None:
-        """Draw what differs from what is drawn."""
         view, shown, self._shown = self.view, self._shown, part
         reading, picture, photo, decoder, whose = part
         if decoder != shown[3]:
@@ -80,7 +77,6 @@ class StoryPane(Pane[StoryPart]):
         self.view.offer(decoders())
 
     def choose_decoder(self, name: str) -> None:
-        """Show what this decoder reads, everywhere."""
         store = self._scenes.store
         store.put(replace(store.workspace, decoder=name))
 

@@ -55,17 +55,14 @@ class ProfileRow(StoryRow):
         """The levels between which the decoder's threshold lies; None where it has none."""
 
     def show_reading(self, reading: ColumnView, decoded: DecodeResult) -> None:
-        """Show this reading, and the threshold of one decoder's result."""
         self._reading, self._decoded = reading, decoded
         self._fit()
 
     def show_photo(self, photo: PhotoProfile | None) -> None:
-        """Show this photo's profile in place of the previous one, or none."""
         self._photo = photo
         self._fit()
 
     def choose_picture(self, whose: str) -> None:
-        """Show the columns of the camera's picture or of the receiver's."""
         self._whose = whose
         self._fit()
 
@@ -133,7 +130,6 @@ class ProfileRow(StoryRow):
         return inner.bottom() - level / self._top * inner.height()
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
-        """Draw the curves, and the threshold below them."""
         reading, levels = self._reading, self.levels
         if reading is None or levels is None:
             return

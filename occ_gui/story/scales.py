@@ -38,23 +38,18 @@ class Scale(QWidget):
         axis.changed.connect(self.update)
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of a line of numbers."""
         return QSize(200, line_height(self.fontMetrics(), _HEIGHT))
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of a line of numbers."""
         return QSize(160, line_height(self.fontMetrics(), _HEIGHT))
 
     def value_of(self, column: float) -> float:
-        """Return the number at a column."""
         return column
 
     def column_of(self, value: float) -> float:
-        """Return the column at a number."""
         return value
 
     def ticks(self) -> list[tuple[float, str]]:
-        """Return the columns of the ticks with their numbers."""
         low, high = self.value_of(self.axis.first), self.value_of(self.axis.last)
         per_pixel = (high - low) / self.axis.plot_width(self.width())
         step = self.least_step(round_step(_SPACING * per_pixel))
@@ -64,7 +59,6 @@ class Scale(QWidget):
         return [(self.column_of(value), f"{value:.{digits}f}") for value in values]
 
     def least_step(self, step: float) -> float:
-        """Return the step of the ticks in place of this one."""
         return step
 
     @guarded
@@ -90,15 +84,12 @@ class Scale(QWidget):
 
 
 class ColumnScale(Scale):
-    """The numbers of the columns."""
-
     def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
         super().__init__("", axis, is_above=False, parent=parent)
         self._name = "column"
         self.setAccessibleName(self._name)
 
     def least_step(self, step: float) -> float:
-        """Return a whole number of columns."""
         return max(step, 1.0)
 
 
@@ -112,7 +103,6 @@ class TimeScale(Scale):
         self._start, self._step = 0.0, 1.0
 
     def show_scene(self, scene: Scene) -> None:
-        """Count from the start time of this scene, by its readout time."""
         counted = (scene.model.start_time * _MICRO, scene.camera.readout_time * _MICRO)
         if counted != (self._start, self._step):
             self._start, self._step = counted

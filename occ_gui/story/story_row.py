@@ -73,12 +73,10 @@ class StoryRow(QWidget):
         crosshair.cursors.changed.connect(self.update)
 
     def redraw(self) -> None:
-        """Draw the row anew."""
         self._is_drawn = False
         self.update()
 
     def plot_area(self) -> QRectF:
-        """Return the part of the row that shows columns."""
         width = self.axis.plot_width(self.width())
         return QRectF(self.axis.gutter, 0.0, width, float(self.height()))
 
@@ -109,12 +107,10 @@ class StoryRow(QWidget):
         """Draw what follows the column that is read out."""
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the row anew in another size."""
         super().resizeEvent(event)
         self._is_drawn = False
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
         super().changeEvent(event)
         if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange):
             self.redraw()
@@ -199,7 +195,6 @@ class StoryRow(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
 
     def _draw_cursors(self, painter: QPainter, area: QRectF) -> None:
-        """Draw the measuring cursors, with their names at the top."""
         colour = self.colour(QPalette.ColorRole.Highlight)
         metrics = painter.fontMetrics()
         for name, column in zip(NAMES, self.crosshair.cursors.columns, strict=False):
@@ -216,7 +211,6 @@ class StoryRow(QWidget):
         return self.crosshair.cursors.near(self.column_at(x), reach)
 
     def colour(self, role: QPalette.ColorRole) -> QColor:
-        """Return a colour of the theme."""
         return self.palette().color(role)
 
     # The mouse and the keys.
@@ -233,7 +227,6 @@ class StoryRow(QWidget):
         event.accept()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Begin a drag or a click."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._held = self._cursor_at(event.position().x())
             self._press = self._last = event.position()
@@ -258,11 +251,9 @@ class StoryRow(QWidget):
             self.setCursor(Qt.CursorShape.ClosedHandCursor)
 
     def moved_from_press(self, place: QPointF) -> bool:
-        """Return whether the mouse has moved farther than in a click."""
         return self._press is not None and (place - self._press).manhattanLength() > _CLICK
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Choose the column that was clicked on."""
         if event.button() != Qt.MouseButton.LeftButton or self._press is None:
             return
         place = event.position()
@@ -273,16 +264,13 @@ class StoryRow(QWidget):
         self.unsetCursor()
 
     def click(self, place: QPointF) -> None:
-        """Choose the column at a place."""
         self.crosshair.choose(self.column_at(place.x()))
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the first range again."""
         if event.button() == Qt.MouseButton.LeftButton:
             self.axis.fit()
 
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Point at no column."""
         super().leaveEvent(event)
         self.crosshair.point_at(None)
 

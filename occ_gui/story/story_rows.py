@@ -76,7 +76,6 @@ class StoryRows(QWidget):
         self.crosshair.cursors.changed.connect(self._measure)
 
     def _legend_line(self) -> QWidget:
-        """Make the legend of the profile, above its curves."""
         line = Qt.PenStyle
         self.legend = CurveLegend(
             {
@@ -125,12 +124,10 @@ class StoryRows(QWidget):
         self.legend.show_lines(keys, note, why)
 
     def show_picture(self, picture: Picture | PictureView) -> None:
-        """Show the stripes of this picture in place of the previous ones."""
         self._picture = picture
         self.stripes.show_picture(picture.seen_by(self._whose))
 
     def show_reading(self, reading: ColumnView) -> None:
-        """Show this reading in place of the previous one."""
         was_seen = self._sees_chosen()
         self._reading = reading
         self.time.show_scene(reading.scene)
@@ -146,7 +143,6 @@ class StoryRows(QWidget):
         self._read_out()
 
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
-        """Show this profile of a photo in place of the previous one, or none."""
         self.profile.show_photo(photo)
         self._show_legend()
 
@@ -181,7 +177,6 @@ class StoryRows(QWidget):
 
     @property
     def decoded(self) -> DecodeResult | None:
-        """The result of the chosen decoder."""
         if self._reading is None:
             return None
         return result_of(self._reading, self._decoder or self._reading.decoded.decoder)

@@ -37,15 +37,12 @@ class _Held(QWidget):
         self.setSizePolicy(content.sizePolicy())
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size that suits the content."""
         return self._content.sizeHint()
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the least size of the content."""
         return self._content.minimumSizeHint()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Fill the place with the content."""
         super().resizeEvent(event)
         self._content.setGeometry(self.rect())
 
@@ -57,7 +54,6 @@ class StoryView(QWidget):
     """Whose picture and profile the user chose, the ``"camera"``'s or the ``"receiver"``'s."""
 
     decoder_chosen = Signal(str)
-    """The decoder that the user chose."""
 
     def __init__(
         self, picture: QWidget, decoders: Sequence[str] = (), parent: QWidget | None = None
@@ -158,7 +154,6 @@ class StoryView(QWidget):
 
     @property
     def shows_whole_picture(self) -> bool:
-        """Whether the whole picture is shown in place of the rows."""
         return self._pages.currentWidget() is self._picture
 
     def show_whole_picture(self, shown: bool) -> None:
@@ -176,7 +171,6 @@ class StoryView(QWidget):
         self._show_verdicts()
 
     def take_photo_verdict(self, bar: QWidget) -> None:
-        """Take the verdict on a photo, which stands in place of that on the simulation."""
         self._photo_verdict = bar
         self._layout.insertWidget(0, bar)
         self._show_verdicts()
@@ -197,18 +191,15 @@ class StoryView(QWidget):
         return self.rows.stripes.rows_per_pixel()
 
     def show_picture(self, picture: Picture) -> None:
-        """Show this picture in place of the previous one."""
         self.rows.show_picture(picture)
 
     def show_reading(self, reading: Reading) -> None:
-        """Show this reading in place of the previous one."""
         self.verdict.show_reading(reading)
         self.rows.show_reading(reading)
         self._has_packets = not reading.scene.transmitter.pattern
         self._name_first()
 
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
-        """Show this profile of a photo in place of the previous one, or none."""
         self.rows.show_photo_profile(photo)
 
     def choose_decoder(self, name: str) -> None:
@@ -234,7 +225,6 @@ class StoryView(QWidget):
         self._name_first()
 
     def _name_first(self) -> None:
-        """Name on the button of the first packets what it shows."""
         button = self.ranges[RANGES[0]]
         text, tip = first_periods(self._has_packets)
         if self._held is not None:

@@ -38,7 +38,6 @@ class StripesRow(StoryRow):
         axis.changed.connect(self._mark_view)
 
     def show_picture(self, picture: PictureView) -> None:
-        """Show this picture in place of the previous one."""
         self._image, self._corners, self._rows = picture.image, picture.corners, picture.rows
         self._all_rows = range(picture.size[0])
         self.thumbnail.show_image(picture.smallest, *picture.size)
@@ -62,7 +61,6 @@ class StripesRow(StoryRow):
         return (0, 0) if self._corners is None else _showing(self._corners, self._rows)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
-        """Draw the columns in view, as high as the row."""
         if self._image is None:
             return
         painter.fillRect(area, self.colour(QPalette.ColorRole.Mid))
@@ -87,7 +85,6 @@ class StripesRow(StoryRow):
         painter.drawImage(QRectF(pixels[0], area.top(), cells / ratio, rows / ratio), image)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Place the thumbnail under the row's name."""
         super().resizeEvent(event)
         height = max(self.height() - _NAME - 3, 0)
         self.thumbnail.setGeometry(4, _NAME, GUTTER - 12, height)
@@ -126,13 +123,11 @@ class FrameThumbnail(QAbstractButton):
         )
 
     def show_image(self, pixels: ByteArray, rows: int, columns: int) -> None:
-        """Show a frame of so many rows and columns, or a smaller copy of it."""
         self._size = (rows, columns)
         self._pixels, self._image = pixels, None
         self.update()
 
     def _scaled(self, pixels: ByteArray, place: QRectF) -> QImage:
-        """Return the frame at its size on the screen."""
         ratio = self.devicePixelRatioF()
         width, height = max(1, round(place.width() * ratio)), max(1, round(place.height() * ratio))
         small = shrunk(pixels, height, width)
@@ -141,21 +136,17 @@ class FrameThumbnail(QAbstractButton):
         return image
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Scale the frame to another size."""
         super().resizeEvent(event)
         self._image = None
 
     def show_view(self, first: float, last: float, first_row: int, last_row: int) -> None:
-        """Mark the columns and rows that are in view."""
         self._view = QRectF(first, first_row, last - first, last_row - first_row)
         self.update()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a small size."""
         return QSize(GUTTER - 12, _LEAST_HEIGHT)
 
     def place(self) -> QRectF:
-        """Return where the frame is drawn."""
         rows, columns = self._size
         if not rows or not columns:
             return QRectF()
@@ -164,7 +155,6 @@ class FrameThumbnail(QAbstractButton):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the frame, the part in view and a border."""
         painter = QPainter(self)
         place = self.place()
         if self._pixels is None or place.width() < 4:

@@ -43,7 +43,6 @@ class VerdictBar(StateBar):
         self._write()
 
     def show_reading(self, reading: Reading) -> None:
-        """Show the verdict on this reading in place of the previous one."""
         self._reading, self._failure = reading, ""
         self._write()
 

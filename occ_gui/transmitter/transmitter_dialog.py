@@ -24,13 +24,11 @@ class TransmitterDialog(QDialog):
     """Shows what a board makes of the present scene."""
 
     board_chosen = Signal(str)
-    """The name of the board that the user has chosen."""
 
     frequency_asked = Signal()
     """The scene is to take the frequency that is sent."""
 
     save_asked = Signal()
-    """The files are to be written."""
 
     def __init__(self, boards: Mapping[str, str], parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -80,7 +78,6 @@ class TransmitterDialog(QDialog):
         return buttons
 
     def show_sent(self, facts: str, differs: bool) -> None:
-        """Say what is sent, and whether its frequency differs from the scene's."""
         self.facts.setText(facts)
         self.take.setEnabled(differs)
         self.save.setEnabled(True)
@@ -107,7 +104,6 @@ class TransmitterDialog(QDialog):
         self._say_of_wiring(sentence)
 
     def show_note(self, text: str) -> None:
-        """Say what became of saving."""
         self.note.setText(text)
 
     def _say_of_wiring(self, text: str) -> None:

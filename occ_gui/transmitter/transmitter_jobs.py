@@ -31,7 +31,6 @@ class Saved:
 
 
 def draw_wiring(sent: Transmission) -> Drawn:
-    """Draw how the board is wired to the light."""
     from occ_model.figures.transmitter_files import wiring_bytes
     from occ_model.figures.wiring import notes
 

@@ -51,5 +51,4 @@ class FilmChoice:
         return None if self.path is None else FilmSource(self.path, self.axis, self.opening)
 
     def opened(self, path: Path | None, axis: str = SCAN_AXES[0]) -> Self:
-        """Open a film, or close it."""
         return replace(self, path=path, axis=axis, opening=next(_openings))

@@ -131,7 +131,6 @@ class PhotoChoice:
         return opened if is_listed or path == self.path else opened.uncertain()
 
     def closed(self) -> Self:
-        """Close the photo."""
         return replace(self, path=None, parts={}).uncertain()
 
     def shown_by(self, frequency: float) -> Self:
@@ -144,7 +143,6 @@ class PhotoChoice:
         return replace(self, certain={}, forgotten={**self.forgotten, **self.certain})
 
     def with_certain(self, name: str, value: float | None) -> Self:
-        """Take a known value as certain, or as assumed."""
         others = {known: other for known, other in self.certain.items() if known != name}
         forgotten = {known: other for known, other in self.forgotten.items() if known != name}
         certain = others if value is None else {**others, name: value}

@@ -16,14 +16,11 @@ if TYPE_CHECKING:  # a window without a photo starts without them
 
 @dataclass(frozen=True, eq=False, slots=True)
 class OpenPhoto:
-    """A photo that was read, and what of."""
-
     photo: "Photo"
     source: PhotoSource
 
     @property
     def frame(self) -> PhotoFrame:
-        """What the parts of it are known by."""
         return PhotoFrame(self.photo.path, self.photo.image.shape, self.photo.turned)
 
 
@@ -58,7 +55,6 @@ class FoundMatch:
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None
     is_listed: bool = False
-    """Whether the table of photos has found it."""
 
     def refusal_of(self, part: "Lamp | Region | None") -> tuple[str, ...]:
         """Give the reasons why there is no match of this part; empty where it was not refused."""
@@ -80,7 +76,6 @@ class ListedRows:
     given: float
 
     def match_of(self, opened: OpenPhoto) -> FoundMatch | None:
-        """Give the match of a photo that is read as those of the table."""
         rows = (row for row in self.rows if row.path == opened.photo.path)
         row = next(rows, None)
         if row is None or row.match is None or opened.source.reading != self.reading:

@@ -7,7 +7,6 @@ MODES = ("beside", "blend", "split", "difference")
 """Ways of showing a photo with the simulated picture."""
 
 LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
-"""Smallest and largest scale of a photo."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,6 @@ if TYPE_CHECKING:  # a window that shows none starts without them
     from occ_model.room.room import Room
 
 FIRST_ROOM = "office"
-"""The name of the room that is shown at first."""
 
 
 @dataclass(frozen=True, slots=True)

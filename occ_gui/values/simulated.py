@@ -38,4 +38,3 @@ class PinnedScene:
 
 
 Pins: TypeAlias = tuple[PinnedScene | None, PinnedScene | None]
-"""What is pinned as A and as B; None for nothing."""

@@ -15,7 +15,6 @@ from occ_model.errors import VideoError, one_line
 from occ_model.video.file.quiet import quiet_opencv
 
 _DEVICES = Path("/sys/class/video4linux")
-"""Where Linux lists video devices."""
 
 _IS_LINUX = platform.system() == "Linux"
 
@@ -79,8 +78,6 @@ def _probed() -> Iterator[CameraDevice]:
 
 
 class CameraSource:
-    """The pictures of a camera."""
-
     def __init__(self, device: CameraDevice) -> None:
         self.title, self.axis = device.name, "lines"
         self._device = device
@@ -132,7 +129,6 @@ class CameraSource:
         return abs(capture.get(cv2.CAP_PROP_AUTO_EXPOSURE) - wanted) < 0.01
 
     def close(self) -> None:
-        """Release the camera for other programs."""
         if self._capture is not None:
             self._capture.release()
             self._capture = None

@@ -39,7 +39,6 @@ class DataView(QWidget):
         self.sentences.setAccessibleName("What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.labels: dict[str, QLabel] = {}
-        """The values of the facts, by what they are."""
         self._names: dict[str, QLabel] = {}
         self._present: list[str] = []
         self._grid = QGridLayout()
@@ -58,7 +57,6 @@ class DataView(QWidget):
         self.show_reading(FilmReading.nothing())
 
     def show_reading(self, reading: FilmReading) -> None:
-        """Show this reading in place of the previous one."""
         self._show_text(reading.text[-_MOST_TEXT:])
         self._show_facts(reading.facts)
         self.sentences.setText("\n".join(reading.sentences))

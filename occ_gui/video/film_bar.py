@@ -21,10 +21,7 @@ from occ_gui.widgets.plain_text import in_menu
 
 
 class FilmBar(QWidget):
-    """Buttons for the film, and below them what it is."""
-
     open_asked = Signal()
-    """The user opens a film."""
 
     close_asked = Signal()
     """The user closes the film, or stops the camera."""
@@ -33,7 +30,6 @@ class FilmBar(QWidget):
     """The user wants to see which cameras there are."""
 
     camera_chosen = Signal(object)
-    """The CameraDevice that is to be read."""
 
     read_asked = Signal()
     """The user begins to read the film, or stops it."""
@@ -96,7 +92,6 @@ class FilmBar(QWidget):
         self.read.setVisible(not is_live)
 
     def show_reading(self, reading: bool, done: bool = False) -> None:
-        """Show whether the film is being read, or has been."""
         self.read.setText("Stop reading" if reading else "Read again" if done else "Read the film")
         self.read.setToolTip(
             "Leave it at what has been read."

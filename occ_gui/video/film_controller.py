@@ -40,7 +40,6 @@ class FilmController(QObject):
     """Why a film cannot be opened; what was open stays."""
 
     frame_shown = Signal(object)
-    """The ShownFrame that is shown from now on."""
 
     frame_failed = Signal(str)
     """Why a frame cannot be shown; the last one stays."""
@@ -77,7 +76,6 @@ class FilmController(QObject):
 
     @property
     def choice(self) -> FilmChoice:
-        """What is set about films."""
         return self._store.workspace.film
 
     @property
@@ -124,7 +122,6 @@ class FilmController(QObject):
         self.edit(lambda choice: choice.opened(path, axis))
 
     def edit(self, change: Callable[[FilmChoice], FilmChoice]) -> None:
-        """Change what is set about films."""
         if self.opener.task.is_idle:
             self._settled = self.choice
         workspace = self._store.workspace
@@ -149,7 +146,6 @@ class FilmController(QObject):
         self.show()
 
     def put_live(self, film: Video) -> None:
-        """Show the film of a camera in place of a file's."""
         self.is_live = True
         self.edit(lambda choice: choice.opened(None))
         self.put(film, is_live=True)
@@ -162,7 +158,6 @@ class FilmController(QObject):
             self.put(None)
 
     def show_live(self, frame: VideoFrame) -> None:
-        """Show a frame of a camera."""
         self.last_live = frame
         if self.loader.is_idle:  # else the next one is shown
             self.show()
@@ -193,7 +188,6 @@ class FilmController(QObject):
         self.show()
 
     def take_recording(self) -> None:
-        """Simulate the film as it is recorded now."""
         if self.film is None:
             index = self.player.index
             self.player.set_film(self.count, self.rate)

@@ -81,19 +81,15 @@ class FilmPictures(QWidget):
         layout.addWidget(self.split)
 
     def show_film(self, picture: ShownPicture | None, instead: str = "") -> None:
-        """Show a frame of the film, or a sentence in its place."""
         self._film.show_picture(picture, instead)
 
     def show_simulated(self, picture: ShownPicture | None, instead: str = "") -> None:
-        """Show the simulated frame, or a sentence in its place."""
         self._simulated.show_picture(picture, instead)
 
     @property
     def shown(self) -> tuple[bool, bool]:
-        """Whether there is a picture of the film, and a simulated one."""
         return self._film.is_shown, self._simulated.is_shown
 
     def fit(self) -> None:
-        """Show the whole pictures."""
         self.film.fit()
         self.simulated.fit()

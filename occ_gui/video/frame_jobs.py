@@ -188,14 +188,12 @@ def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose:
 
 
 def _in_words(decoded: DecodeResult) -> str:
-    """Say what was read of a frame by itself."""
     if decoded.failure is not None:
         return decoded.failure
     return f"{decoded.payload or f'code {decoded.code}'} read."
 
 
 def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
-    """Return the scene the size of the picture, where that is one that a scene can have."""
     rows, columns = image.shape
     rows = scene.camera.rows if step > 1 else rows
     if (rows, columns) == (scene.camera.rows, scene.camera.columns):
@@ -204,7 +202,6 @@ def _with_size(scene: Scene, image: ByteArray, step: int) -> Scene:
 
 
 def _in_whole_picture(decoded: DecodeResult, step: int, rows: int) -> DecodeResult:
-    """Return the region of a draft in the rows of the whole picture."""
     region = decoded.region
     if region is None or step == 1:
         return decoded

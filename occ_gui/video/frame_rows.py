@@ -65,7 +65,6 @@ class FrameRows(QWidget):
         self.show_story(None)
 
     def show_story(self, story: FrameStory | None, instead: str = "") -> None:
-        """Show the rows of this frame, or a sentence in their place."""
         self.rows.setVisible(story is not None)
         if story is None:
             self.title.set_full_text(instead)

@@ -29,13 +29,11 @@ class FrameSource(Protocol):
     """What gives pictures one after the other; used by one thread at a time."""
 
     title: str
-    """Its name."""
 
     axis: str
     """What of its pictures the rolling shutter usually scans: ``"lines"`` or ``"columns"``."""
 
-    def open(self) -> None:
-        """Begin to film."""
+    def open(self) -> None: ...
 
     def read(self) -> LivePicture | None:
         """Wait for the next picture; None where there are no more, as of a camera unplugged."""
@@ -68,7 +66,6 @@ class FilmSource:
         self.is_locked = False
 
     def open(self) -> None:
-        """Begin at the first frame."""
         self._left, self._began = iter(self._frames), monotonic()
 
     def read(self) -> LivePicture | None:
@@ -86,5 +83,4 @@ class FilmSource:
         return True
 
     def close(self) -> None:
-        """End at this frame."""
         self._left = None

@@ -25,7 +25,6 @@ class LiveController(QObject):
     """A camera that is read while it films."""
 
     devices_found = Signal(object)
-    """The cameras that there are."""
 
     ended = Signal(str)
     """Why the camera gives no more pictures; empty where it was stopped."""
@@ -59,16 +58,13 @@ class LiveController(QObject):
 
     @property
     def is_filming(self) -> bool:
-        """Whether a camera films."""
         return self.video is not None
 
     def find(self) -> None:
-        """Look for cameras."""
         if self.finder.is_idle:
             self.finder.ask(None)
 
     def start_camera(self, device: CameraDevice) -> None:
-        """Read what a camera sees."""
         self.start(CameraSource(device))
 
     def start(self, source: FrameSource, axis: str = "") -> None:
@@ -93,7 +89,6 @@ class LiveController(QObject):
             self.start(self.video.source, axis)
 
     def read(self) -> None:
-        """Read from now on for the present scene."""
         if self.video is not None:
             self._readings.start(self.video, self._scene(), is_live=True)
 

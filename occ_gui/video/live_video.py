@@ -39,7 +39,6 @@ class LiveVideo(Video):
         self.shape = (0, 0)
         self.frame_rate = self.frame_count = None
         self.source = source
-        """What gives the pictures."""
         self.axis = axis
         """What of its pictures the rolling shutter scans, one of AXES."""
         self._after = after
@@ -48,7 +47,6 @@ class LiveVideo(Video):
         self._arrived = 0
         self._has_ended = self._is_stopped = False
         self.last: VideoFrame | None = None
-        """The frame that was given last."""
         self._problem: str | None = None
         self._orders: list[Callable[[], None]] = []
         self._thread = Thread(target=self._film, name="camera", daemon=True)
@@ -74,7 +72,6 @@ class LiveVideo(Video):
         return self._has_ended
 
     def start(self) -> None:
-        """Begin to film."""
         self._thread.start()
 
     def end(self) -> None:

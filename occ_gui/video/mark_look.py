@@ -33,7 +33,6 @@ _LEAST_OUTLINE = 4.0
 
 
 def ink_of(state: MarkState, palette: QPalette) -> QColor:
-    """Return the colour of a state's marks."""
     return colours_of(_STATES[state], palette).ink
 
 
@@ -62,8 +61,6 @@ def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPale
 
 
 class MarkLegend(LineLegend):
-    """Samples of the marks with their names."""
-
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName("Legend of the timeline")

@@ -14,7 +14,6 @@ class MarkState(IntEnum):
     """Whether a frame or a packet was read."""
 
     PENDING = 0
-    """Not looked at yet."""
     READ = 1
     """Read: a frame whose place in what is sent is known, a packet that is as all others."""
     UNCHECKED = 2
@@ -48,7 +47,6 @@ class Marks:
     states: ByteArray = field(default_factory=_no_states)
 
     def __len__(self) -> int:
-        """Return the number of marks."""
         return len(self.starts)
 
     def counted(self, edges: FloatArray) -> IndexArray:

@@ -16,7 +16,6 @@ class FilmPlayer(QObject):
     """The number of the frame that is to be shown."""
 
     playing_changed = Signal(bool)
-    """Whether the film plays."""
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -33,7 +32,6 @@ class FilmPlayer(QObject):
 
     @property
     def is_playing(self) -> bool:
-        """Whether the film plays."""
         return self._turns.isActive()
 
     def set_film(self, count: int, rate: float | None) -> None:
@@ -49,7 +47,6 @@ class FilmPlayer(QObject):
             self.seek(count - 1)
 
     def toggle(self) -> None:
-        """Start to play, or stop."""
         if self.is_playing:
             self.pause()
         else:
@@ -67,7 +64,6 @@ class FilmPlayer(QObject):
         self.playing_changed.emit(True)
 
     def pause(self) -> None:
-        """Stop at the frame that is shown."""
         if self.is_playing:
             self._turns.stop()
             self.playing_changed.emit(False)
@@ -81,7 +77,6 @@ class FilmPlayer(QObject):
             self._show(index)
 
     def step(self, frames: int) -> None:
-        """Stop, and show the frame so many after this one."""
         self.pause()
         self.seek(self.index + frames)
 

@@ -21,7 +21,6 @@ class ReadingController(QObject):
     def __init__(self) -> None:
         super().__init__()
         self.reading = FilmReading.nothing()
-        """What has been read so far."""
         self._request: ReadingRequest | None = None
         self._is_done = False
         self.runner: Task[ReadingRequest, FilmReading] = Task(
@@ -33,12 +32,10 @@ class ReadingController(QObject):
 
     @property
     def is_running(self) -> bool:
-        """Whether the film is being read."""
         return not self.runner.is_idle
 
     @property
     def is_done(self) -> bool:
-        """Whether the film has been read to its end."""
         return self._is_done
 
     @property
@@ -47,14 +44,12 @@ class ReadingController(QObject):
         return None if self._request is None else self._request.scene
 
     def start(self, film: Video, scene: Scene, is_live: bool = False) -> None:
-        """Read a film for a scene, from its first frame."""
         self._request, self._is_done = ReadingRequest(film, scene, is_live), False
         self.reading = FilmReading.nothing()
         self.runner.ask(self._request)
         self.changed.emit()
 
     def cancel(self) -> None:
-        """Leave it at what has been read."""
         if not self.runner.is_idle:
             self.runner.cancel()
             self.changed.emit()

@@ -86,7 +86,6 @@ class _Collected:
         return reader
 
     def add(self, frame: VideoFrame) -> None:
-        """Read the next frame."""
         if self._request.is_live and self._frames == MOST_LIVE:
             # What it knows grows with every frame.
             self.look()
@@ -115,7 +114,6 @@ class _Collected:
         self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_SHARE)
 
     def reading(self) -> FilmReading:
-        """Return what is known so far."""
         known = self._known
         if known is None:
             problem = self._request.film.problem
@@ -144,7 +142,6 @@ def state_of_frame(frame: FrameReading) -> MarkState:
 
 
 def state_of_packet(packet: PacketReading) -> MarkState:
-    """Return whether a packet was read, and is as the payload of all together has it."""
     if not packet.is_read or packet.correct is False:
         return MarkState.LOST
     return MarkState.UNCHECKED if packet.correct is None else MarkState.READ

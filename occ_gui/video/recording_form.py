@@ -80,12 +80,10 @@ class RecordingForm(QWidget):
 
     @property
     def recording(self) -> Recording:
-        """The recording that the fields show."""
         return self._recording
 
     @property
     def frames(self) -> int:
-        """How many frames the simulated film has."""
         return self.count.value()
 
     def show_recording(self, recording: Recording) -> None:

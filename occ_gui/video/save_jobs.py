@@ -10,8 +10,6 @@ from occ_model.results.video import Video
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmToSave:
-    """A film, and the file to write it to."""
-
     path: Path
     film: Video
 

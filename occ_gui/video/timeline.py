@@ -46,7 +46,6 @@ class Timeline(QWidget):
         super().__init__(parent)
         self.frames, self.packets = Marks(), Marks()
         self.index = 0
-        """The frame that is shown."""
         self._scale = TimelineScale()
         self._drawn: QPixmap | None = None
         self.setAccessibleName("Timeline")
@@ -59,27 +58,22 @@ class Timeline(QWidget):
         self._describe()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the height of both rows and the times."""
         return QSize(400, _FRAMES + _PACKETS + _TICKS + 3 * _GAP)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return a width that fits any pane."""
         return QSize(200, self.sizeHint().height())
 
     def show_frames(self, frames: Marks) -> None:
-        """Show these frames in place of the previous ones."""
         self.frames = frames
         self._scale = TimelineScale.of(frames)
         self.index = min(self.index, max(len(frames) - 1, 0))
         self._redraw()
 
     def show_packets(self, packets: Marks) -> None:
-        """Show these packets in place of the previous ones."""
         self.packets = packets
         self._redraw()
 
     def show_index(self, index: int) -> None:
-        """Mark the frame that is shown."""
         if index != self.index:
             self.index = index
             self._describe()
@@ -91,7 +85,6 @@ class Timeline(QWidget):
         self.update()
 
     def _describe(self) -> None:
-        """Say in words what is shown."""
         count = len(self.frames)
         if not 0 <= self.index < count:
             self.setAccessibleDescription("no film")
@@ -252,7 +245,6 @@ class Timeline(QWidget):
         self._drawn = None
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the theme."""
         super().changeEvent(event)
         if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange):
             self._redraw()
@@ -260,12 +252,10 @@ class Timeline(QWidget):
     # The mouse and the keys.
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Seek the frame at the mouse."""
         if event.button() == Qt.MouseButton.LeftButton:
             self._seek(self.frame_at(event.position().x()))
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Follow the mouse while its button is pressed."""
         if event.buttons() & Qt.MouseButton.LeftButton:
             self._seek(self.frame_at(event.position().x()))
 

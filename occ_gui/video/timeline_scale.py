@@ -18,14 +18,12 @@ class TimelineScale:
 
     @classmethod
     def of(cls, frames: Marks) -> "TimelineScale":
-        """Return the scale that shows all frames of a film."""
         if not len(frames):
             return cls()
         return cls(float(frames.starts.min()), float(frames.ends.max()))
 
     @property
     def span(self) -> float:
-        """The time from end to end."""
         return self.last - self.first
 
     def share(self, time: float) -> float:

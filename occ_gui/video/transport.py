@@ -10,8 +10,6 @@ _ICON = 16
 
 
 class TransportButton(IconButton):
-    """A button that acts on the film."""
-
     def __init__(
         self, drawing: str, name: str, meaning: str, parent: QWidget | None = None
     ) -> None:
@@ -19,7 +17,6 @@ class TransportButton(IconButton):
         self.rename(drawing, name, meaning)
 
     def rename(self, drawing: str, name: str, meaning: str) -> None:
-        """Give the button another icon and meaning."""
         self.show_drawing(drawing)
         self.setAccessibleName(name)
         self.setToolTip(meaning)
@@ -55,7 +52,6 @@ class Transport(QWidget):
         self.show_playing(False)
 
     def show_playing(self, playing: bool) -> None:
-        """Show whether the film plays."""
         if playing:
             self.play.rename("pause", "Pause", "Stop at this frame (Space).")
         else:

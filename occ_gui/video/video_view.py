@@ -79,7 +79,6 @@ class VideoView(QWidget):
         self.pictures.fit()
 
     def show_reading(self, reading: FilmReading, frames: Marks) -> None:
-        """Show what has been read, and the marks of the film's frames."""
         self.data.show_reading(reading)
         self.timeline.show_frames(frames)
         self.timeline.show_packets(reading.packets)

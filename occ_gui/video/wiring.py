@@ -27,13 +27,8 @@ _USUAL_RATE = 30.0
 
 
 class VideoWiring(Pane[FilmChoice]):
-    """The pane of the films with its controllers."""
-
     status_message = Signal(str)
-    """The outcome of an action."""
-
     open_asked = Signal()
-    """The user opens a film."""
 
     save_asked = Signal()
     """The user writes the simulated film to a file."""
@@ -66,7 +61,6 @@ class VideoWiring(Pane[FilmChoice]):
         self.films.put(board.results.film)
 
     def show_part(self, part: FilmChoice) -> None:
-        """Show how the simulated film is recorded now."""
         form = self.view.form
         if (form.recording, form.frames) != (part.recording, part.frames):
             form.show_recording(part.recording)
@@ -105,7 +99,6 @@ class VideoWiring(Pane[FilmChoice]):
 
     @property
     def path(self) -> Path | None:
-        """The file of the film that is open."""
         film = self.films.film
         return None if film is None or self.films.is_live else film.path
 
@@ -123,12 +116,10 @@ class VideoWiring(Pane[FilmChoice]):
         self.films.set_seen(seen)
 
     def open(self, path: Path) -> None:
-        """Open a film."""
         self.live.stop_filming()
         self.films.open(path)
 
     def close(self) -> None:
-        """Stop the camera, or close the film."""
         if self.live.is_filming:
             self.live.stop_filming()
             self._show_bar()
@@ -136,7 +127,6 @@ class VideoWiring(Pane[FilmChoice]):
             self.films.close()
 
     def read_or_stop(self) -> None:
-        """Read the film that is shown, or stop reading it."""
         if self.readings.is_running:
             self.readings.cancel()
             return

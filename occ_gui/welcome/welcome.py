@@ -12,8 +12,6 @@ _MODES = {"learn": "lessons", "photo": "photo", "explore": "explore"}
 
 
 class Welcome(Service):
-    """The welcome page of a window."""
-
     def __init__(
         self, window: MainWindow, shell: Shell, preferences: Preferences, files: FileController
     ) -> None:
@@ -30,7 +28,6 @@ class Welcome(Service):
             self.show()
 
     def show(self) -> None:
-        """Show the page in front of the window."""
         if self.dialog is None:
             self.dialog = WelcomeDialog(self._window)
             self.dialog.chosen.connect(self.enter)

@@ -27,7 +27,6 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
     def paint(
         self, painter: QPainter, option: QStyleOptionGraphicsItem, widget: QWidget | None
     ) -> None:
-        """Draw the axis, its ticks and its numbers."""
         super().paint(painter, option, widget)
 
     def generateDrawSpecs(  # noqa: N802 - pyqtgraph's name

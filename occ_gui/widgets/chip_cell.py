@@ -9,7 +9,6 @@ from PySide6.QtGui import QColor, QPainter, QPalette, QPen, QStaticText
 from occ_gui.widgets.contrast import seen_on
 
 _LEAST_FOR_DIGIT = 7.5
-"""Pixels of a chip from which its digit is drawn."""
 
 _MIN_FITTING_FRACTION = 0.6
 """Fraction of the cells that must have room for a digit: at the edges are parts of cells."""

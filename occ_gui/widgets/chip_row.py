@@ -49,7 +49,6 @@ class ChipLabel(QWidget):
         self._take(chip)
 
     def show_chip(self, chip: Chip) -> None:
-        """Show this chip in place of the previous one."""
         if chip != self.chip:
             self.chip = chip
             self._take(chip)
@@ -105,7 +104,6 @@ class ChipRow(QWidget):
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
 
     def show_chips(self, chips: Sequence[Chip]) -> None:
-        """Show these chips in place of the previous ones."""
         if tuple(chips) == self.chips:
             return
         self.chips = tuple(chips)

@@ -8,7 +8,6 @@ from PySide6.QtGui import QColor, QIcon, QPainter, QPalette, QPixmap
 from occ_model.files.resources import resource_text
 
 PROGRAM = "occ-explorer"
-"""The program's icon, and its name for desktops."""
 
 PROGRAM_SIZES = (16, 32, 48, 64, 128, 256)
 """Sides of the program's icon in pixels."""

@@ -15,7 +15,6 @@ class KeyedComboBox(QComboBox):
     """A combo box that emits the key of the chosen word."""
 
     chosen = Signal(str)
-    """The key that the user has chosen."""
 
     def __init__(
         self, name: str, meaning: str, words: Mapping[str, str], parent: QWidget | None = None

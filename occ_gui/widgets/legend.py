@@ -53,7 +53,6 @@ class LineLegend(QWidget):
         self._entries[key] = entry
 
     def show_line(self, key: str, visible: bool) -> None:
-        """Show or hide an entry."""
         self._entries[key].setVisible(visible)
 
 

@@ -34,7 +34,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     _dressed: tuple[Callable[[QPalette], None], ...] = ()
 
     def dress(self, palette: QPalette) -> None:
-        """Apply the colours of a palette."""
         self.setBackground(palette.color(QPalette.ColorRole.Base))
         for side in ("bottom", "left"):
             axis = self.getAxis(side)
@@ -92,7 +91,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
             self.dress(self.palette())
 
     def name_bottom(self, wanted: bool) -> None:
-        """Set whether the lower axis has a name."""
         self._is_named = wanted
         self._show_name()
 

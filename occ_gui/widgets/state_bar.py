@@ -111,7 +111,6 @@ class StateBar(QWidget):
             self.updateGeometry()
 
     def _lines_of(self, text: str, room: int) -> int:
-        """Return how many lines a text would take."""
         metrics = self.sentence.fontMetrics()
         if room <= 0 or metrics.horizontalAdvance(text) <= room:
             return 1
@@ -135,13 +134,11 @@ class StateBar(QWidget):
 
     @property
     def state(self) -> State:
-        """The state that colour and icon show."""
         return self.icon.state
 
     def show_state(
         self, state: State, title: str, *sentences: str, chips: Sequence[Chip] = ()
     ) -> None:
-        """Show a state in place of the previous one."""
         shown = (state, title, sentences, tuple(chips))
         if shown == self._shown:
             return

@@ -15,8 +15,6 @@ _ROLE = QPalette.ColorRole
 
 
 class State(Enum):
-    """What a result is worth."""
-
     GOOD = "good"
     DOUBTFUL = "doubtful"
     WAITING = "waiting"
@@ -26,8 +24,6 @@ class State(Enum):
 
 @dataclass(frozen=True, slots=True)
 class StateColours:
-    """The colours of a state."""
-
     ink: QColor
     paper: QColor
 
@@ -55,7 +51,6 @@ def is_dark(palette: QPalette) -> bool:
 
 
 def colours_of(state: State, palette: QPalette) -> StateColours:
-    """Return the colours of a state in the light or the dark theme."""
     return _colours(state, is_dark(palette))
 
 
@@ -130,8 +125,6 @@ _SIGNS: dict[State, Callable[[QPainter], None]] = {
 
 
 class StateIcon(QWidget):
-    """The icon of a state."""
-
     def __init__(self, side: int, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._state = State.NEUTRAL
@@ -143,7 +136,6 @@ class StateIcon(QWidget):
         return self._state
 
     def show_state(self, state: State) -> None:
-        """Show this state in place of the previous one."""
         if state is not self._state:
             self._state = state
             self.update()

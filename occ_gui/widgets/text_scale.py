@@ -15,7 +15,6 @@ class TextSize(Enum):
 
 
 def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
-    """Return a font of one of the sizes."""
     found = QFont(font)
     if font.pointSizeF() > 0.0:
         found.setPointSizeF(size.value * font.pointSizeF())

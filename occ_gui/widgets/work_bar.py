@@ -4,7 +4,6 @@ from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
 
 _STEPS = 1000
-"""Steps of the progress bar."""
 
 _PATIENCE_MS = 300
 """Work that takes less time is not shown: the bar would only flash."""

@@ -110,7 +110,6 @@ class CommandPalette(QDialog):
 
 
 def entries(menu: QMenu | QMenuBar, path: str = "") -> Iterator[tuple[str, QAction]]:
-    """Return the entries of a menu and its submenus, each with the path of menus to it."""
     for action in menu.actions():
         inner = action.menu()
         if isinstance(inner, QMenu):

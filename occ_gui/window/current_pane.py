@@ -6,7 +6,6 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QWidget
 
 PICTURE = "picture"
-"""Name of the pane in the middle."""
 
 
 class CurrentPane(QObject):
@@ -17,7 +16,6 @@ class CurrentPane(QObject):
         self._window = window
         self._docks = docks
         self.name = PICTURE
-        """The name of the pane: PICTURE, or that of a dock."""
         for name, dock in docks.items():
             dock.visibilityChanged.connect(lambda seen, name=name: self._on_seen(name, seen))
         application = QApplication.instance()

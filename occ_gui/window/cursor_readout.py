@@ -25,7 +25,6 @@ class _Follower(QObject):
         view.viewport().installEventFilter(self)
 
     def text_at(self, point: QPointF) -> str:
-        """Return the text for a point of the graphics scene."""
         raise NotImplementedError
 
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name

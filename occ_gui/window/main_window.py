@@ -40,7 +40,6 @@ class MainWindow(QMainWindow):
     """Docks, menus and status bar; :mod:`occ_gui.app.application` connects them."""
 
     closing = Signal()
-    """The window is about to close."""
 
     dropped = Signal(list)
     """The paths of the files that were dropped on the window; empty if none is a file."""
@@ -170,7 +169,6 @@ class MainWindow(QMainWindow):
             self.docks[name].hide()
 
     def is_put_away(self, name: str) -> bool:
-        """Return whether a pane is hidden."""
         return self.docks[name].isHidden()
 
     def _show_page(self, page: str) -> None:
@@ -180,7 +178,6 @@ class MainWindow(QMainWindow):
             self._story.show_whole_picture(page == PICTURE)
 
     def show_photo_name(self, name: str | None) -> None:
-        """Show in the menus whether a photo is open."""
         self.menus.show_photo_open(name is not None)
 
     def say(self, sentence: str, until: str = "") -> None:

@@ -29,8 +29,6 @@ _WITH_MATCH = ("apply_match", "save_match")
 
 
 class Menus(QObject):
-    """The menus of a window."""
-
     def __init__(
         self, window: QMainWindow, undo_stack: QUndoStack, docks: Iterable[QDockWidget]
     ) -> None:
@@ -99,7 +97,6 @@ class Menus(QObject):
         self._add(self._export, "export_all", "A&ll figures…", keys)
 
     def add_figures(self, titles: Mapping[str, str], ask: Callable[[str], None]) -> None:
-        """Offer figures in the export menu."""
         for name, title in titles.items():
             action = QAction(f"{title}…", self._export)
             action.setToolTip("As PNG, SVG, PDF or CSV, with the scene inside.")
@@ -233,7 +230,6 @@ class Menus(QObject):
             self.add_dock(dock)
 
     def add_dock(self, dock: QDockWidget) -> None:
-        """Add an entry to the view menu that shows and hides a dock."""
         self._view.addAction(dock.toggleViewAction())
 
     def _make_help_menu(self) -> None:
@@ -278,7 +274,6 @@ class Menus(QObject):
     def show_recent(
         self, files: Iterable[Path], open_file: Callable[[Path], None], clear: Callable[[], None]
     ) -> None:
-        """List the recently opened files."""
         self.recent.clear()
         for path in files:
             _add_file(self.recent, path, path.name, open_file)

@@ -51,7 +51,6 @@ def bring_into_view(widget: QWidget) -> None:
 
 
 def _children(widget: QWidget) -> list[QWidget]:
-    """Return what can be reached in a widget."""
     found = [
         child
         for child in widget.children()

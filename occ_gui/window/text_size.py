@@ -27,11 +27,9 @@ class TextSize(QObject):
         self.percent = SIZES[0]
 
     def larger(self) -> None:
-        """Take the next larger size, if there is one."""
         self.choose(SIZES[min(SIZES.index(self.percent) + 1, len(SIZES) - 1)])
 
     def smaller(self) -> None:
-        """Take the next smaller size, if there is one."""
         self.choose(SIZES[max(SIZES.index(self.percent) - 1, 0)])
 
     def normal(self) -> None:

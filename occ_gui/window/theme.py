@@ -38,7 +38,6 @@ _FADED = (_ROLE.WindowText, _ROLE.Text, _ROLE.ButtonText)
 
 
 def palette_of(theme: str) -> QPalette:
-    """Make the palette of the light or the dark theme."""
     palette = QPalette()
     for role, colour in (_DARK if theme == "dark" else _LIGHT).items():
         palette.setColor(role, QColor(colour))

@@ -35,7 +35,6 @@ class Mode:
 
     @property
     def panes(self) -> tuple[str, ...]:
-        """Names of the panes that it shows at first."""
         groups = (*self.left, *self.right, *self.bottom)
         return tuple(name for group in groups for name in group)
 
@@ -90,7 +89,6 @@ MODES: Mapping[str, Mode] = MappingProxyType(
         "room": Mode(centre="", main="room", right=(("room",),)),
     }
 )
-"""The modes, in the order shown."""
 
 HOMES: Mapping[str, str] = MappingProxyType(
     {mode.main: name for name, mode in MODES.items() if mode.main != PICTURE}

@@ -59,7 +59,6 @@ class ModeBar(QTabBar):
         self._fit()
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the size with all icons, also while there is no room for them."""
         hint = super().sizeHint()
         return QSize(max(hint.width(), self._whole), hint.height())
 

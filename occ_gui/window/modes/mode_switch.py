@@ -25,7 +25,6 @@ class ModeSwitch(QObject):
     """
 
     changed = Signal(str)
-    """The mode that is shown from now on."""
 
     def __init__(
         self,
@@ -36,7 +35,6 @@ class ModeSwitch(QObject):
         super().__init__(window)
         self._window, self._docks, self._show_page = window, docks, show_page
         self.mode = next(iter(MODES))
-        """The name of the present mode."""
         self.layouts: dict[str, QByteArray] = {}
         """What the other modes' layouts were when they were left, by name."""
         self.is_shown = False
@@ -67,7 +65,6 @@ class ModeSwitch(QObject):
         self._enter()
 
     def present_layouts(self) -> dict[str, QByteArray]:
-        """Return the layouts of all modes that were used, by name."""
         if not self.is_shown:
             return dict(self.layouts)
         return {**self.layouts, self.mode: self._window.saveState(self.version)}

@@ -43,7 +43,6 @@ class ToolBar(QToolBar):
         self.toggleViewAction().setVisible(False)
         known = {**actions, **{name: menu.menuAction() for name, menu in menus.items()}}
         self.buttons: dict[str, ToolButton] = {}
-        """The buttons, by the names of their entries."""
         self._is_drawn = False
         self.modes = ModeBar(modes)
         self.addWidget(self.modes)

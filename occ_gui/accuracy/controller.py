@@ -64,10 +64,7 @@ class AccuracyController(QObject):
     It never runs during the simulation of a picture: both would be slower, and its times wrong.
     What the next picture would take is predicted at every change.
 
-    Parameters
-    ----------
-    pane
-        Shows what is measured; nothing is measured while it is hidden.
+    ``pane``: shows what is measured; nothing is measured while it is hidden.
     """
 
     def __init__(

@@ -21,16 +21,11 @@ _RUNS, _PATIENCE = 5, 1.0
 
 @dataclass(frozen=True, slots=True)
 class SceneCosts:
-    """What has been measured of the effects of a scene.
-
-    Parameters
-    ----------
-    pictures
-        The times of pictures that were made in turn: with the effects of the request's plan, with
-        all of the scene, with none.
-    """
+    """What has been measured of the effects of a scene."""
 
     request: SimulationRequest
+    # The times of pictures that were made in turn: with the effects of the request's plan, with all
+    # of the scene, with none
     pictures: tuple[TimeShares, ...] = ()
     differences: Mapping[str, EffectDifference] = field(default_factory=dict)
     errors: Mapping[frozenset[str], float] = field(default_factory=dict)

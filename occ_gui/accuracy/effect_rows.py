@@ -13,55 +13,28 @@ ELSE = "everything else"
 
 @dataclass(frozen=True, slots=True)
 class EffectRow:
-    """Contents of one row.
+    """Contents of one row."""
 
-    Parameters
-    ----------
-    effect
-        The effect's name; ``ELSE`` in the last row.
-    stage
-        The stage of the light's way; empty in the last row.
-    label
-        The effect's name on the screen.
-    levels, error, error_meaning
-        What leaving it out would change, None where the scene does not have it; the same as text,
-        and how that is known, as a sentence.
-    estimate
-        What the plan estimates of that.
-    seconds, scatter
-        Its time, None where there is none of its own; and by how much it was longer at other times.
-    time
-        The same as text.
-    reason
-        The plan's reason, as a sentence.
-    included
-        Whether it is in the picture.
-    absent
-        Whether the scene does not have the effect and it is not simulated.
-    new
-        Whether the plan has just switched it.
-    pending
-        Whether it would be switched on (True) or off (False) by what the controls show.
-    icon
-        How it looks, None where that is not known yet.
-    """
-
-    effect: str
-    stage: str
-    label: str
+    effect: str  # the effect's name; ``ELSE`` in the last row
+    stage: str  # the stage of the light's way; empty in the last row
+    label: str  # the effect's name on the screen
+    # What leaving it out would change, None where the scene does not have it; the same as text, and
+    # how that is known, as a sentence
     levels: float | None = None
     estimate: float | None = None
     error: str = ""
     error_meaning: str = ""
+    # Its time, None where there is none of its own; and by how much it was longer at other times
     seconds: float | None = None
     scatter: float = 0.0
-    time: str = ""
-    reason: str = ""
+    time: str = ""  # the same as text
+    reason: str = ""  # the plan's reason, as a sentence
     included: bool = True
-    absent: bool = False
-    new: bool = False
+    absent: bool = False  # whether the scene does not have the effect and it is not simulated
+    new: bool = False  # whether the plan has just switched it
+    # Whether it would be switched on (True) or off (False) by what the controls show
     pending: bool | None = None
-    icon: EffectCrop | None = None
+    icon: EffectCrop | None = None  # how it looks, None where that is not known yet
 
 
 def rows_of(
@@ -69,16 +42,9 @@ def rows_of(
 ) -> tuple[EffectRow, ...]:
     """Return the rows: the effects in the order that light travels, then everything else.
 
-    Parameters
-    ----------
-    frame
-        The picture.
-    costs
-        Its times, and what was measured of its scene.
-    new
-        The effects that the plan has just switched.
-    forecast
-        What the controls would make of it.
+    ``costs``: its times, and what was measured of its scene.
+    ``new``: the effects that the plan has just switched.
+    ``forecast``: what the controls would make of it.
     """
     words = stage_words()
     rows = []

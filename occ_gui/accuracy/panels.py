@@ -20,20 +20,12 @@ _TOP_SHARE = 0.56
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """A panel.
-
-    Parameters
-    ----------
-    width
-        The width in pixels that it needs beside others.
-    weight
-        Its share of the width that is left over.
-    """
+    """A panel."""
 
     title: str
     widget: QWidget
-    width: int
-    weight: int
+    width: int  # the width in pixels that it needs beside others
+    weight: int  # its share of the width that is left over
 
 
 class Panels(QWidget):

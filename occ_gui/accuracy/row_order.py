@@ -23,13 +23,9 @@ def arranged(
 ) -> tuple[EffectRow, ...]:
     """Arrange rows.
 
-    Parameters
-    ----------
-    order
-        What to sort by. Rows without a value come last.
-    present
-        The effects in their present order. Rows whose times are about equal keep it: a time that
-        is measured again is another, and would shuffle them.
+    ``order``: what to sort by. Rows without a value come last.
+    ``present``: the effects in their present order. Rows whose times are about equal keep it: a
+    time that is measured again is another, and would shuffle them.
     """
     column, falls = order
     kept = [row for row in rows if row.effect == ELSE]
@@ -59,10 +55,8 @@ def are_about_equal(one: EffectRow, other: EffectRow) -> bool:
 def slowest_of(rows: Sequence[EffectRow], before: str = "") -> str:
     """Return the effect in the picture that takes most time; empty where there is none.
 
-    Parameters
-    ----------
-    before
-        The effect that took most time so far: it still does where another takes about as much.
+    ``before``: the effect that took most time so far: it still does where another takes about as
+    much.
     """
     timed = [r for r in rows if r.seconds is not None and r.included and r.effect != ELSE]
     if not timed:

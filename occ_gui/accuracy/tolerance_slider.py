@@ -89,10 +89,8 @@ class ToleranceSlider(QWidget):
 
         Between two marks every tolerance has the same plan.
 
-        Parameters
-        ----------
-        marks
-            The tolerances between infinity and zero from which a plan holds, the largest first.
+        ``marks``: the tolerances between infinity and zero from which a plan holds, the largest
+        first.
         """
         if marks == self.marks:
             return

@@ -45,12 +45,7 @@ from occ_model.scene.parameters import PARAMETERS
 class Application(QObject):
     """Stores, features and window, connected.
 
-    Parameters
-    ----------
-    workspace
-        What is set at first.
-    preferences
-        The stored preferences; by default nothing is stored.
+    ``preferences``: the stored preferences; by default nothing is stored.
     """
 
     def __init__(self, workspace: Workspace, preferences: QSettings | None = None) -> None:
@@ -178,14 +173,8 @@ class Application(QObject):
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:
         """Open a photo.
 
-        Parameters
-        ----------
-        path
-            The file.
-        match
-            Whether to match it and to apply the result to the scene.
-        front
-            Whether to bring its pane to the front.
+        ``match``: whether to match it and to apply the result to the scene.
+        ``front``: whether to bring its pane to the front.
         """
         self.photo.open(path, match, front)
 

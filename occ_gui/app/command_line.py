@@ -69,10 +69,7 @@ _PATIENCE_MS = 60_000
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the application and return its exit code.
 
-    Parameters
-    ----------
-    arguments
-        The words of the command line; by default those of this process.
+    ``arguments``: the words of the command line; by default those of this process.
     """
     is_process = arguments is None
     work = partial(read_command_line, arguments)
@@ -245,14 +242,7 @@ def start(
 ) -> "tuple[QApplication, Application]":
     """Create the application, with its window not shown yet.
 
-    Parameters
-    ----------
-    workspace
-        What is set at first.
-    arguments
-        The command line for Qt.
-    preferences
-        The stored preferences; by default nothing is stored.
+    ``preferences``: the stored preferences; by default nothing is stored.
     """
     if sys.platform == "linux" and not any(os.environ.get(name) for name in _DISPLAYS):
         # Qt would print several lines about it.
@@ -301,17 +291,9 @@ def _end_without_display() -> NoReturn:
 def wait_until_shown(application: "Application", measured: bool = False) -> None:
     """Process events until all requested results are shown.
 
-    Parameters
-    ----------
-    application
-        The application.
-    measured
-        Whether to wait also for the detection map and the strips under the sliders.
-
-    Raises
-    ------
-    OccError
-        The scene has no picture, or it took too long; a map that is not complete is shown as it is.
+    ``measured``: whether to wait also for the detection map and the strips under the sliders.
+    Raises OccError where the scene has no picture, or it took too long; a map that is not complete
+    is shown as it is.
     """
     from PySide6.QtCore import QDeadlineTimer, QEventLoop, QTimer
     from PySide6.QtWidgets import QApplication

@@ -112,11 +112,8 @@ def _place(trace: TracebackType | None) -> tuple[str, int]:
 def log_qt_messages(give_up: Callable[[], NoReturn] | None = None) -> None:
     """Send Qt's messages to the logger ``qt``.
 
-    Parameters
-    ----------
-    give_up
-        Ends the process after a fatal message, in place of Qt, which would write a core dump. It
-        must not raise: an exception cannot pass through Qt.
+    ``give_up``: ends the process after a fatal message, in place of Qt, which would write a core
+    dump. It must not raise: an exception cannot pass through Qt.
     """
 
     def log(kind: QtMsgType, _context: QMessageLogContext, message: str) -> None:

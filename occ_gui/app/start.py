@@ -30,27 +30,15 @@ class DefaultOption(str):
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What a window starts with.
+    """What a window starts with."""
 
-    Parameters
-    ----------
-    workspace
-        What the command line asks for, or the last session has left.
-    is_scene_asked
-        Whether the command line names a scene, which takes precedence over the last session's.
-    preferences
-        The stored preferences; None where nothing is stored.
-    session_file
-        The file of this window's session; None where nothing is stored.
-    fresh
-        Whether nothing of the last session is to be restored.
-    """
-
-    workspace: Workspace
+    workspace: Workspace  # what the command line asks for, or the last session has left
+    # Whether the command line names a scene, which takes precedence over the last session's
     is_scene_asked: bool
-    preferences: "QSettings | None" = None
+    preferences: "QSettings | None" = None  # the stored preferences; None where nothing is stored
+    # The file of this window's session; None where nothing is stored
     session_file: "SessionFile | None" = None
-    fresh: bool = False
+    fresh: bool = False  # whether nothing of the last session is to be restored
 
     @property
     def is_new(self) -> bool:
@@ -80,14 +68,8 @@ class Start:
 def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own: bool) -> Start:
     """Determine what the window starts with.
 
-    Parameters
-    ----------
-    options
-        The command line.
-    scene, settings
-        The scene and the settings that follow from it.
-    own
-        Whether the settings are the defaults, as the command line names none.
+    ``options``: the command line.
+    ``own``: whether the settings are the defaults, as the command line names none.
     """
     asked = bool(options.scene or options.settings or not isinstance(options.preset, DefaultOption))
     first = Workspace(scene, settings)

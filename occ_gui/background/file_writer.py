@@ -14,10 +14,7 @@ from occ_model.errors import one_line
 class FileWriter(QObject, Generic[Request]):
     """Writes one file at a time; one that is still being written is given up.
 
-    Parameters
-    ----------
-    write
-        Writes what a request asks for and returns the file; what is given up leaves nothing.
+    ``write``: writes what a request asks for and returns the file; what is given up leaves nothing.
     """
 
     status_message = Signal(str)

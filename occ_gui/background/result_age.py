@@ -48,10 +48,7 @@ class ResultAges(Generic[Request]):
     def rest(self, pause: float = PAUSE) -> float:
         """Return for how many seconds the movement may go on; zero after a single change.
 
-        Parameters
-        ----------
-        pause
-            Seconds without a change after which a movement has ended.
+        ``pause``: seconds without a change after which a movement has ended.
         """
         if not self._is_moving:
             return 0.0

@@ -13,11 +13,8 @@ from occ_model.scene.scene import Scene
 def request_of(choice: BenchChoice, scene: Scene) -> BenchRequest:
     """Make the request.
 
-    Parameters
-    ----------
-    scene
-        Its scheme, number of bits, switching frequency, readout time and the columns of its
-        panel are used, where its own code is measured.
+    ``scene``: its scheme, number of bits, switching frequency, readout time and the columns of its
+    panel are used, where its own code is measured.
     """
     request = BenchRequest(decoders=choice.decoders, bits=choice.bits)
     if choice.whose == PUBLISHED:

@@ -52,19 +52,11 @@ class _Curve:
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A point as it is drawn, in powers of ten.
-
-    Parameters
-    ----------
-    value
-        The rate, or the bits a second; not a number where no error was seen.
-    low, high
-        The interval's ends.
-    """
+    """A point as it is drawn, in powers of ten."""
 
     at: float
-    value: float
-    low: float
+    value: float  # the rate, or the bits a second; not a number where no error was seen
+    low: float  # the interval's ends
     high: float
 
 

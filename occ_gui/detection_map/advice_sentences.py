@@ -21,20 +21,13 @@ from occ_model.scene.parameters import quantity
 
 @dataclass(frozen=True, slots=True)
 class AdviceLine:
-    """One line of the advice: a sentence or two.
-
-    Parameters
-    ----------
-    destination
-        The change that its button makes: a parameter, its value in SI units, and as text.
-    is_common
-        Whether it is the same for every decoder of a scene.
-    """
+    """One line of the advice: a sentence or two."""
 
     text: str
+    # The change that its button makes: a parameter, its value in SI units, and as text
     destination: tuple[str, float, str] | None = None
     is_title: bool = False
-    is_common: bool = False
+    is_common: bool = False  # whether it is the same for every decoder of a scene
 
 
 class AdviceSentences:

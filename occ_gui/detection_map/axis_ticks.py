@@ -10,18 +10,10 @@ _STEPS = (1.0, 2.0, 5.0)
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One labelled tick of an axis.
+    """One labelled tick of an axis."""
 
-    Parameters
-    ----------
-    place
-        Position along the slider, from 0 to 1.
-    text
-        The number, in the axis's unit.
-    """
-
-    place: float
-    text: str
+    place: float  # position along the slider, from 0 to 1
+    text: str  # the number, in the axis's unit
 
 
 def axis_unit(quantity: Quantity) -> tuple[str, float]:

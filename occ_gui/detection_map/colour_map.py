@@ -74,12 +74,8 @@ class ColourBar(QWidget):
     ) -> None:
         """Show colours and numbers.
 
-        Parameters
-        ----------
-        colours
-            One pixel wide, the upper end first.
-        numbers
-            Positions from 0, at the bottom, to 1, and the text at each.
+        ``colours``: one pixel wide, the upper end first.
+        ``numbers``: positions from 0, at the bottom, to 1, and the text at each.
         """
         self._colours, self._numbers = colours, numbers
         self.setAccessibleName(name)

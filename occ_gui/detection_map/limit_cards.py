@@ -183,10 +183,7 @@ class LimitCard(QFrame):
     def show_limit(self, end: EndFacts | None, text: str, rate: float) -> None:
         """Show the upper end of the working range, None if the decoder reads nowhere.
 
-        Parameters
-        ----------
-        rate
-            The success rate, in percent, from which on a decoder counts as reading.
+        ``rate``: the success rate, in percent, from which on a decoder counts as reading.
         """
         if end is None:
             self._show("none", text, None)

@@ -57,20 +57,13 @@ class MapPane(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class MapRequest:
-    """What a map depends on.
+    """What a map depends on."""
 
-    Parameters
-    ----------
-    scene
-        The scene, with everything that the map does not depend on at its default.
-    with_image_effects
-        Whether rows of the picture are simulated where the scene calls for them.
-    """
-
-    scene: Scene
+    scene: Scene  # the scene, with everything that the map does not depend on at its default
     x: str
     y: str
     settings: SimulationSettings
+    # Whether rows of the picture are simulated where the scene calls for them
     with_image_effects: bool
 
     def stages(

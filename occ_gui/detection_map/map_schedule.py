@@ -48,10 +48,8 @@ def map_stages(
 ) -> Iterator[Stage]:
     """Give the stages of a map.
 
-    Parameters
-    ----------
-    images : ndarray of int64, shape (points along x, points along y)
-        Images that were read at each point already.
+    ``images``: shape (points along x, points along y): images that were read at each point
+    already.
     """
     first, *others = requests
     order = list(first.in_order_of_work())

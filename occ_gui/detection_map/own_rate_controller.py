@@ -24,13 +24,7 @@ _RANK = 1
 
 @dataclass(frozen=True, slots=True)
 class OwnRate:
-    """The share of right bits, from 0 to 1, with its 95 % interval, in so many pictures.
-
-    Parameters
-    ----------
-    whole
-        Pictures of which every bit is right.
-    """
+    """The share of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
 
     share: float
     low: float

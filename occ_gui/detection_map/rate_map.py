@@ -33,18 +33,12 @@ def lattice(name: str, count: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TheoryFields:
-    """The side of each theoretical limit on which the points of a lattice lie.
+    """The side of each theoretical limit on which the points of a lattice lie."""
 
-    Parameters
-    ----------
-    places : pair of ndarray of float64
-        The points' positions along both sliders, from 0 to 1.
-    sides : mapping of str to ndarray of float64, shape (points along x, points along y)
-        For each of :data:`LINES` a number that is 0 on the limit and changes its sign there; NaN
-        where the limit does not exist.
-    """
-
+    # The points' positions along both sliders, from 0 to 1
     places: tuple[FloatArray, FloatArray]
+    # Shape (points along x, points along y): for each of :data:`LINES` a
+    # number that is 0 on the limit and changes its sign there; NaN where the limit does not exist
     sides: Mapping[str, FloatArray]
 
     def lines(self) -> dict[str, list[FloatArray]]:
@@ -69,23 +63,14 @@ class TheoryFields:
 
 @dataclass(frozen=True, slots=True)
 class PointFacts:
-    """Results at one point.
+    """Results at one point."""
 
-    Parameters
-    ----------
-    x, y
-        The parameters' values, in SI units.
-    counts
-        For each decoder its name, the bits read correctly, and both ends of the confidence interval
-        of its rate, percent.
-    sent
-        Bits sent; 0 if nothing is known.
-    """
-
-    x: float
+    x: float  # the parameters' values, in SI units
     y: float
+    # For each decoder its name, the bits read correctly, and both ends of the confidence interval
+    # of its rate, percent
     counts: tuple[tuple[str, int, float, float], ...]
-    sent: int
+    sent: int  # bits sent; 0 if nothing is known
     images: int
     note: str
     whole: tuple[int, ...] = ()
@@ -94,19 +79,15 @@ class PointFacts:
 
 @dataclass(eq=False, slots=True)
 class RateMap:
-    """Success rates on a lattice, as far as they are known.
-
-    Parameters
-    ----------
-    picture_times : ndarray of float64, shape (points along x, points along y), or float
-        Time in seconds in which a picture is read out: no more of them come in a second.
-    """
+    """Success rates on a lattice, as far as they are known."""
 
     x: str
     y: str
     x_values: tuple[float, ...]
     y_values: tuple[float, ...]
     decoders: tuple[str, ...]
+    # Shape (points along x, points along y), or float: time in seconds in which a picture
+    # is read out: no more of them come in a second
     picture_times: FloatArray | float = 0.0
     sent: IndexArray = field(init=False)
     right: IndexArray = field(init=False)

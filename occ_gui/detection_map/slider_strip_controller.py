@@ -36,11 +36,8 @@ def strip_stages(
 ) -> Iterator[Stage]:
     """Give the stages of the work that is left.
 
-    Parameters
-    ----------
-    present
-        The request for the scene. Where its points take long, each is a job that a newer request
-        ends; that is found out when the work begins, and holds up no slider.
+    ``present``: the request for the scene. Where its points take long, each is a job that a newer
+    request ends; that is found out when the work begins, and holds up no slider.
     """
     slow = bool(left_out(present.scene, present.settings))
     done: set[int] = set()

@@ -50,11 +50,8 @@ def rate_settings(
 ) -> RateSettings:
     """Return the settings with which rates are measured for the window.
 
-    Parameters
-    ----------
-    with_image_effects
-        Whether rows of the picture are simulated where the scene calls for them; otherwise what
-        needs them is left out, or refused where it cannot be.
+    ``with_image_effects``: whether rows of the picture are simulated where the scene calls for
+    them; otherwise what needs them is left out, or refused where it cannot be.
     """
     force: Mapping[str, bool] = settings.force
     path: SignalPath = "auto"

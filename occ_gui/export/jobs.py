@@ -38,16 +38,10 @@ class FigureRequest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExportJob:
-    """Figures, and where they go.
-
-    Parameters
-    ----------
-    path
-        The file of the only figure; None for the clipboard.
-    """
+    """Figures, and where they go."""
 
     requests: Sequence[FigureRequest]
-    path: Path | None = None
+    path: Path | None = None  # the file of the only figure; None for the clipboard
     folder: Path | None = None
 
 

@@ -76,10 +76,7 @@ def sample_photos() -> list[Path]:
 class FileController(QObject):
     """Carries out the commands of the file menu, and opens files dropped on the window.
 
-    Parameters
-    ----------
-    when_present
-        Calls a function with the results of the present scene, once they are there.
+    ``when_present``: calls a function with the results of the present scene, once they are there.
     """
 
     status_message = Signal(str)

@@ -22,10 +22,7 @@ _LONGEST_PATH = 4096
 class Preferences(QObject):
     """The recent files, their last folder, and texts by their keys.
 
-    Parameters
-    ----------
-    settings
-        Where they are stored; None to keep them only while the window is open.
+    ``settings``: where they are stored; None to keep them only while the window is open.
     """
 
     changed = Signal()

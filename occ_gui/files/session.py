@@ -20,10 +20,7 @@ def restored(
 ) -> Workspace:
     """Give the workspace that a window begins with: that of the last session.
 
-    Parameters
-    ----------
-    first
-        What the command line asks for. A scene or settings that it names win.
+    ``first``: what the command line asks for. A scene or settings that it names win.
     """
     last = file.last
     if last is None:
@@ -41,10 +38,7 @@ def restored(
 class Session(QObject):
     """Keeps the workspace of a window in a file; before :meth:`begin` it writes nothing.
 
-    Parameters
-    ----------
-    own
-        Gives what the user has set, which is no lesson's.
+    ``own``: gives what the user has set, which is no lesson's.
     """
 
     status_message = Signal(str)

@@ -15,10 +15,7 @@ _LISTED = re.compile(r"^\* \[([^\]]+)\]\(([\w-]+\.md)\)", re.MULTILINE)
 def docs_folder() -> Path:
     """Return the folder of the pages; the pictures they show are in a folder beside it.
 
-    Raises
-    ------
-    OSError
-        The program was installed without its pages.
+    Raises OSError where the program was installed without its pages.
     """
     # From an archive, both are copied.
     resource_path("pictures")
@@ -28,10 +25,7 @@ def docs_folder() -> Path:
 def pages(folder: Path) -> list[tuple[str, str]]:
     """List title and file name of every page, in the order of the table of contents.
 
-    Raises
-    ------
-    OSError
-        The table of contents cannot be read.
+    Raises OSError where the table of contents cannot be read.
     """
     text = (folder / CONTENTS).read_text(encoding="utf-8")
     return [("Contents", CONTENTS), *_LISTED.findall(text)]

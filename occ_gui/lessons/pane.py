@@ -22,16 +22,9 @@ from occ_model.teaching.lessons import begin_lessons_folder
 class LessonPane(Pane[None]):
     """The lessons and all that they move.
 
-    Parameters
-    ----------
-    scenes
-        The store of the scene.
-    board
-        The match of a photo.
-    controls
-        The controls, of which a step marks one.
-    preferences
-        Stores the folder of a report and the student's name.
+    ``board``: the match of a photo.
+    ``controls``: the controls, of which a step marks one.
+    ``preferences``: stores the folder of a report and the student's name.
     """
 
     noted = Signal(str)

@@ -22,10 +22,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     Taking one of them instead, as image items do, turns fine stripes into coarse ones that do not
     exist. A pixel of the image that is larger than one of the screen is drawn as a square.
 
-    Parameters
-    ----------
-    with_values
-        Whether the grey level is written into pixels that are large enough to read it.
+    ``with_values``: whether the grey level is written into pixels that are large enough to read it.
     """
 
     def __init__(self, *, with_values: bool = False) -> None:
@@ -44,12 +41,8 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
     ) -> None:
         """Show an image.
 
-        Parameters
-        ----------
-        image : ndarray of uint8, shape (rows, columns)
-            The image; it is not copied.
-        rect
-            Where it lies, by default with its first pixel's centre at (0, 0).
+        ``image``: shape (rows, columns): the image; it is not copied.
+        ``rect``: where it lies, by default with its first pixel's centre at (0, 0).
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows) if rect is None else rect

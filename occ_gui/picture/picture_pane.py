@@ -60,10 +60,8 @@ class PicturePane(QWidget):
     ) -> None:
         """Show a picture; the view changes only if its size does.
 
-        Parameters
-        ----------
-        rows_step
-            Height of a row: more than 1 in a draft, which lies where the whole picture does.
+        ``rows_step``: height of a row: more than 1 in a draft, which lies where the whole picture
+        does.
         """
         rows, columns = image.shape
         rect = QRectF(-0.5, -0.5, columns, rows * rows_step)

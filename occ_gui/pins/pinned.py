@@ -10,18 +10,11 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pin:
-    """A state kept for comparison: its scene, profile and outputs.
-
-    Parameters
-    ----------
-    profile : ndarray of float64, shape (columns,)
-        Its profile in grey levels.
-    first_column, packet_columns
-        The first column of the panel, and the columns of one period of the signal sent.
-    """
+    """A state kept for comparison: its scene, profile and outputs."""
 
     request: SimulationRequest
-    profile: FloatArray
+    profile: FloatArray  # shape (columns,): its profile in grey levels
+    # The first column of the panel, and the columns of one period of the signal sent
     first_column: float
     packet_columns: float
     outputs: tuple[tuple[str, str, str], ...]

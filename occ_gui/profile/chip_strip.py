@@ -18,10 +18,7 @@ _CERTAIN = 0.95
 class ChipStrip(QWidget):
     """Cells of the chips, lit ones filled, and a button that copies them as text.
 
-    Parameters
-    ----------
-    left
-        Pixels of the plot's axis, where the button has its place.
+    ``left``: pixels of the plot's axis, where the button has its place.
     """
 
     copied = Signal(str)

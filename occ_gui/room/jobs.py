@@ -26,59 +26,34 @@ SIDE = 5
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoomPlan:
-    """A room from above: x and y in metres.
+    """A room from above: x and y in metres."""
 
-    Parameters
-    ----------
-    outlines
-        Of the lamps, by name, each of shape (corners, 2).
-    seen
-        What the camera sees at the lamps' height; empty where it does not look up.
-    aim
-        The middle of what it sees.
-    height
-        The lamps' mean height.
-    """
-
-    outlines: dict[str, FloatArray]
-    seen: FloatArray
-    aim: tuple[float, float]
-    height: float
+    outlines: dict[str, FloatArray]  # of the lamps, by name, each of shape (corners, 2)
+    seen: FloatArray  # what the camera sees at the lamps' height; empty where it does not look up
+    aim: tuple[float, float]  # the middle of what it sees
+    height: float  # the lamps' mean height
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What is looked at: what the room's camera sees, or a photo of the room.
-
-    Parameters
-    ----------
-    focal_length
-        Equivalent focal length of the photo in metres; None for that of its file, or the room's.
-    """
+    """What is looked at: what the room's camera sees, or a photo of the room."""
 
     room: Room
     photo: Path | None = None
+    # Equivalent focal length of the photo in metres; None for that of its file, or the room's
     focal_length: float | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownRoom:
-    """A picture of a room, one of it for the screen, and its reading once it is there.
-
-    Parameters
-    ----------
-    room
-        As it was read: at a photo's camera is the place that was found.
-    assumed
-        What is taken as given of a photo's camera; sentences.
-    """
+    """A picture of a room, one of it for the screen, and its reading once it is there."""
 
     look: Look
-    room: Room
+    room: Room  # as it was read: at a photo's camera is the place that was found
     image: ByteArray
     picture: ByteArray
     reading: RoomReading | None
-    assumed: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()  # what is taken as given of a photo's camera; sentences
 
 
 @dataclass(frozen=True, eq=False, slots=True)

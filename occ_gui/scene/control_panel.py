@@ -27,13 +27,10 @@ MAIN = ("exposure_time", "switching_frequency", "readout_time", "iso", "f_number
 class ControlPanel(QWidget):
     """All controls of a scene.
 
-    Parameters
-    ----------
-    effects
-        The parameters of the effects, which have their own page, in the order that light travels.
-    stages
-        By the name of an effect's parameter what the light passes there: ``"light"``,
-        ``"optics"``, ``"sensor"`` or ``"processing"``; each has a heading on that page.
+    ``effects``: the parameters of the effects, which have their own page, in the order that light
+    travels.
+    ``stages``: by the name of an effect's parameter what the light passes there: ``"light"``,
+    ``"optics"``, ``"sensor"`` or ``"processing"``; each has a heading on that page.
     """
 
     preset_chosen = Signal(str)
@@ -130,12 +127,9 @@ class ControlPanel(QWidget):
     ) -> None:
         """List these presets in place of the former ones.
 
-        Parameters
-        ----------
-        unreadable
-            Names of presets that cannot be loaded, with the reasons; they cannot be chosen.
-        own
-            Names of the presets that the user has named: these are listed by name.
+        ``unreadable``: names of presets that cannot be loaded, with the reasons; they cannot be
+        chosen.
+        ``own``: names of the presets that the user has named: these are listed by name.
         """
         self.preset.clear()
         for name, title in presets:

@@ -19,10 +19,8 @@ _RELATIVE_TOLERANCE = 1e-9
 class Player(QObject):
     """Runs one slider at a time, until its value is changed by anything else.
 
-    Parameters
-    ----------
-    rows, buttons
-        The rows of the sliders and the buttons that run them, by the names of their parameters.
+    ``rows``, ``buttons``: the rows of the sliders and the buttons that run them, by the names of
+    their parameters.
     """
 
     film_asked = Signal(str)

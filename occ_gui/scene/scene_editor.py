@@ -24,10 +24,7 @@ class SceneEditor(QObject):
     def edit(self, name: str, value: ParameterValue, gesture: int) -> None:
         """Change a parameter, and the ISO speed with it where the brightness is held.
 
-        Parameters
-        ----------
-        gesture
-            The number of the gesture: changes of one gesture are undone as one step.
+        ``gesture``: the number of the gesture: changes of one gesture are undone as one step.
         """
         self.edit_started.emit()
         self._store.change(gesture, **self.brightness.changes(name, value))

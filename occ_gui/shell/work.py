@@ -15,16 +15,10 @@ from occ_gui.shell.results import Board, Results
 class Work(QObject, Generic[Request, Result]):
     """Keeps a result that follows from workspace and results on the board.
 
-    Parameters
-    ----------
-    of
-        Gives what is asked of the task; None where there is no such result.
-    put
-        Puts a result among the others, or takes it away.
-    stays
-        Whether the last result stays until the next one is there.
-    keep
-        How many results are given again at once when their requests come back.
+    ``of``: gives what is asked of the task; None where there is no such result.
+    ``put``: puts a result among the others, or takes it away.
+    ``stays``: whether the last result stays until the next one is there.
+    ``keep``: how many results are given again at once when their requests come back.
     """
 
     begun = Signal()

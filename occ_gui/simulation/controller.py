@@ -74,12 +74,8 @@ class SnapshotView(Protocol):
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
     """Simulate a scene and decode its picture.
 
-    Raises
-    ------
-    ParameterError
-        A setting is invalid.
-    ProjectionError
-        The panel has no picture in this pose.
+    Raises ParameterError where a setting is invalid.
+    Raises ProjectionError where the panel has no picture in this pose.
     """
     return snapshot_of(SimulationRequest(scene, settings), render_with(scene, settings))
 
@@ -87,10 +83,7 @@ def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Sna
 class SimulationController(QObject):
     """Connects the stores, the thread of the simulation and the panes.
 
-    Parameters
-    ----------
-    scenes
-        The store of the scene, which is simulated at once and after every change.
+    ``scenes``: the store of the scene, which is simulated at once and after every change.
     """
 
     picture_ready = Signal(object)
@@ -141,20 +134,14 @@ class SimulationController(QObject):
     def draft_for(self, rows_per_pixel: Callable[[], float]) -> None:
         """Draft as many rows from now on as the screen shows, or fewer where drafts are late.
 
-        Parameters
-        ----------
-        rows_per_pixel
-            Returns how many rows of the picture share a pixel of the screen.
+        ``rows_per_pixel``: returns how many rows of the picture share a pixel of the screen.
         """
         self._rows_per_pixel = rows_per_pixel
 
     def defer_while(self, others_first: Callable[[], bool]) -> None:
         """Begin exact pictures from now on after short work that the user waits for sooner.
 
-        Parameters
-        ----------
-        others_first
-            Returns whether there is such work; called on the simulation's thread.
+        ``others_first``: returns whether there is such work; called on the simulation's thread.
         """
         self._others_first = others_first
 

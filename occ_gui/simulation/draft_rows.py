@@ -35,10 +35,7 @@ class DraftRows:
     def step(self, rows: int, rows_per_pixel: float) -> int:
         """Return of how many rows of the picture the draft has one.
 
-        Parameters
-        ----------
-        rows_per_pixel
-            Rows of the picture that share a pixel of the screen.
+        ``rows_per_pixel``: rows of the picture that share a pixel of the screen.
         """
         shown = max(LEAST_DRAFT_STEP, int(rows_per_pixel))
         wanted = shown * self._thinned

@@ -17,25 +17,14 @@ _MIN_COPY_SIDE = 256
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PictureView:
-    """The pixels of a picture, of a scene or of a frame of a film, and where they lie.
+    """The pixels of a picture, of a scene or of a frame of a film, and where they lie."""
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (len(rows), columns)
-        The pixels.
-    rows
-        The rows of the whole picture that they show; a draft has some of them.
-    corners : ndarray of float64, shape (4, 2)
-        The panel's corners in the whole picture, each as (column, row).
-    smallest
-        The same pixels, or a copy of fewer.
-    """
-
-    image: ByteArray
-    rows: range
+    image: ByteArray  # shape (len(rows), columns): The pixels
+    rows: range  # the rows of the whole picture that they show; a draft has some of them
     size: tuple[int, int]
+    # Shape (4, 2): the panel's corners in the whole picture, each as (column, row)
     corners: FloatArray
-    smallest: ByteArray
+    smallest: ByteArray  # the same pixels, or a copy of fewer
 
     def seen_by(self, _whose: str) -> Self:
         """Return itself: of a frame of a film there is one picture."""
@@ -44,24 +33,16 @@ class PictureView:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Picture:
-    """A simulated picture that has not been decoded yet.
-
-    Parameters
-    ----------
-    whose
-        Whose picture of the frame it is, the ``"camera"``'s or the ``"receiver"``'s.
-    halves : tuple of ndarray of uint8
-        The picture at a half of its size, at a quarter and so on; each pixel is the mean of four.
-    request
-        The scene and the settings that it was simulated from, where they are known.
-    reading
-        What is shown of the same scene together with the picture, where that is known already.
-    """
+    """A simulated picture that has not been decoded yet."""
 
     frame: Frame
-    whose: str
+    whose: str  # whose picture of the frame it is, the ``"camera"``'s or the ``"receiver"``'s
+    # The picture at a half of its size, at a quarter and so on; each pixel is the
+    # mean of four
     halves: tuple[ByteArray, ...]
+    # The scene and the settings that it was simulated from, where they are known
     request: SimulationRequest | None = None
+    # What is shown of the same scene together with the picture, where that is known already
     reading: Reading | None = None
 
     @property

@@ -17,40 +17,28 @@ SOURCES: tuple[Source, ...] = ("profile", "draft", "picture")
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class ColumnView:
-    """What rows of columns show, of a scene or of a frame of a film: profile, bands and chips.
-
-    Parameters
-    ----------
-    profile, signal : ndarray of float64, shape (columns,)
-        Means of the panel's pixels in each column, before the receiver's enhancement and after it.
-    corners : ndarray of float64, shape (4, 2)
-        The panel's corners in the picture, each as (column, row).
-    sent
-        The transmitted bits in order of time; empty where a raw pattern is transmitted.
-    has_edges
-        Whether the light rises and falls in a time that is seen.
-    band : ndarray of float64, shape (columns,), or None
-        The band model's profile, None where ``band_undefined`` says why there is none.
-    enhanced_band : ndarray of float64, shape (columns,), or None
-        The same as a receiver would enhance it.
-    band_undefined
-        A sentence, empty where there is a profile.
-    band_drift
-        Columns by which that profile is ahead of the simulated one after each packet.
-    """
+    """What rows of columns show, of a scene or of a frame of a film: profile, bands and chips."""
 
     scene: Scene
+    # Shape (columns,): means of the panel's pixels in each column, before the receiver's
+    # enhancement and after it
     profile: FloatArray
     signal: FloatArray
+    # Shape (4, 2): the panel's corners in the picture, each as (column, row)
     corners: FloatArray
     decoded: DecodeResult
     others: tuple[DecodeResult, ...] = ()
+    # The transmitted bits in order of time; empty where a raw pattern is transmitted
     sent: tuple[int, ...]
     packet_columns: float
-    has_edges: bool = False
+    has_edges: bool = False  # whether the light rises and falls in a time that is seen
+    # Shape (columns,), or None: the band model's profile, None where ``band_undefined``
+    # says why there is none
     band: FloatArray | None = None
+    # Shape (columns,), or None: the same as a receiver would enhance it
     enhanced_band: FloatArray | None = None
-    band_undefined: str = ""
+    band_undefined: str = ""  # a sentence, empty where there is a profile
+    # Columns by which that profile is ahead of the simulated one after each packet
     band_drift: float = 0.0
 
     @property
@@ -73,20 +61,14 @@ class ColumnView:
 
 @dataclass(frozen=True, eq=False, slots=True, kw_only=True)
 class Reading(ColumnView):
-    """What is read of one scene: its profile, the band model beside it, and each decoder's result.
-
-    Parameters
-    ----------
-    source
-        What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
-        exact ``"picture"``, which has the last word.
-    called_for
-        Effects that were left out and the studies of the same scene take in, by label.
-    """
+    """What is read of one scene: its profile, the band model beside it, and the results."""
 
     request: SimulationRequest
+    # What it was read from: ``"profile"``, without pixels; a ``"draft"`` of the picture; or the
+    # exact ``"picture"``, which has the last word
     source: Source
     plan: Plan
+    # Effects that were left out and the studies of the same scene take in, by label
     called_for: tuple[str, ...] = ()
     has_picture: bool = False
 

@@ -17,20 +17,13 @@ _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What a decoder's result is worth.
+    """What a decoder's result is worth."""
 
-    Parameters
-    ----------
-    state
-        Good where all bits are right, doubtful where some are, bad where none is or no code was
-        read, neutral where none is sent, waiting while a slow decoder reads.
-    reason
-        The decoder's sentence that says why no code was read, else empty.
-    """
-
+    # Good where all bits are right, doubtful where some are, bad where none is or no code was read,
+    # neutral where none is sent, waiting while a slow decoder reads
     state: State
     title: str
-    reason: str = ""
+    reason: str = ""  # the decoder's sentence that says why no code was read, else empty
 
     @property
     def explanation(self) -> str:

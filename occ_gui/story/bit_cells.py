@@ -44,14 +44,10 @@ def draw_field(  # noqa: PLR0913 - what is drawn, where and how
 ) -> None:
     """Draw a header or a bit as a rounded cell; a wrong one is crossed out.
 
-    Parameters
-    ----------
-    texts
-        The bit, or what the header is called; the first text that fits is drawn.
-    is_told
-        Whether the text is drawn, the shortest one also where it hardly fits; None: where it fits.
-    within
-        The area that is seen: the text stands in the part of the cell within it.
+    ``texts``: the bit, or what the header is called; the first text that fits is drawn.
+    ``is_told``: whether the text is drawn, the shortest one also where it hardly fits; None: where
+    it fits.
+    ``within``: the area that is seen: the text stands in the part of the cell within it.
     """
     colours = colours_of(state, palette)
     inner = cell.adjusted(1, 0.5, -1, -0.5)

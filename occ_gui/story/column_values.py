@@ -16,21 +16,12 @@ _MOST_CHIPS = 20_000
 
 @dataclass(frozen=True, slots=True)
 class ColumnValues:
-    """What all rows show at one column.
-
-    Parameters
-    ----------
-    time
-        When its exposure begins, in seconds.
-    light
-        The light at that time, 0 to 1.
-    share
-        The mean light within its exposure, None for more chips than can be added up.
-    """
+    """What all rows show at one column."""
 
     column: int
-    time: float
-    light: float
+    time: float  # when its exposure begins, in seconds
+    light: float  # the light at that time, 0 to 1
+    # The mean light within its exposure, None for more chips than can be added up
     share: float | None
     level: float
     chip: int | None = None

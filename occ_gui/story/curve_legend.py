@@ -16,10 +16,8 @@ _SAMPLE, _GAP, _APART = 24, 6, 16
 class CurveLegend(QWidget):
     """Samples of lines with their names, in further lines where they do not fit into one.
 
-    Parameters
-    ----------
-    usual
-        The keys that it keeps room for, so that nothing moves when one of them comes or goes.
+    ``usual``: the keys that it keeps room for, so that nothing moves when one of them comes or
+    goes.
     """
 
     def __init__(

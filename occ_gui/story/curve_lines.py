@@ -31,12 +31,8 @@ def lines_of(
 ) -> list[QLineF]:
     """Return the lines from each point to the next, or the dashes along them.
 
-    Parameters
-    ----------
-    xs, ys : ndarray of float64, shape (points,)
-        The curve, in pixels.
-    dash
-        The length of dashes and gaps, in pixels along the curve; None for a solid one.
+    ``xs``, ``ys``: shape (points,): the curve, in pixels.
+    ``dash``: the length of dashes and gaps, in pixels along the curve; None for a solid one.
     """
     if len(xs) < 2:
         return []

@@ -43,24 +43,13 @@ class MeasureCursors(QObject):
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """The difference between two cursors.
+    """The difference between two cursors."""
 
-    Parameters
-    ----------
-    columns
-        From the first to the second, negative where the second is at the left.
-    time
-        The same in seconds.
-    levels
-        How much higher the profile is at the second, in grey levels; None outside of it.
-    chips
-        The same time in chips.
-    """
-
-    columns: float
-    time: float
+    columns: float  # from the first to the second, negative where the second is at the left
+    time: float  # the same in seconds
+    # How much higher the profile is at the second, in grey levels; None outside of it
     levels: float | None
-    chips: float
+    chips: float  # the same time in chips
 
 
 def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -> Measured | None:

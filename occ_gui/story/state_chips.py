@@ -55,10 +55,7 @@ def of_pictures(rate: "OwnRate") -> Chip:
 def behind_run(chips: tuple[Chip, ...], pictured: str) -> tuple[Chip, ...]:
     """Say of which value the picture is, where a slider runs ahead of it.
 
-    Parameters
-    ----------
-    pictured
-        The value of the picture; empty where it is that of the results.
+    ``pictured``: the value of the picture; empty where it is that of the results.
     """
     rest = tuple(chip for chip in chips if chip.key != _COMPUTING)
     if not pictured:

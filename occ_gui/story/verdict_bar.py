@@ -60,12 +60,7 @@ class VerdictBar(StateBar):
     def show_run(self, value: str, pictured: str) -> None:
         """Say of which value of a slider that runs the verdict is.
 
-        Parameters
-        ----------
-        value
-            The value with its label; empty while no slider runs.
-        pictured
-            The value of the picture where that is another one.
+        ``value``: the value with its label; empty while no slider runs.
         """
         if (value, pictured) != (self._run, self._pictured):
             self._run, self._pictured = value, pictured

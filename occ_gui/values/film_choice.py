@@ -25,23 +25,13 @@ class FilmSource:
 
 @dataclass(frozen=True, slots=True)
 class FilmChoice:
-    """What the user has set about films.
+    """What the user has set about films."""
 
-    Parameters
-    ----------
-    path
-        The film that is open, or about to be; None where there is only the simulated one.
-    axis
-        What of its pictures the shutter scanned, one of SCAN_AXES.
-    opening
-        The number of its opening: opened again, a file is read again.
-    recording, frames
-        How the simulated film is recorded, and how many frames it has.
-    """
-
+    # The film that is open, or about to be; None where there is only the simulated one
     path: Path | None = None
-    axis: str = SCAN_AXES[0]
-    opening: int = 0
+    axis: str = SCAN_AXES[0]  # what of its pictures the shutter scanned, one of SCAN_AXES
+    opening: int = 0  # the number of its opening: opened again, a file is read again
+    # How the simulated film is recorded, and how many frames it has
     recording: Recording = field(default_factory=Recording)
     frames: int = FIRST_FRAMES
 

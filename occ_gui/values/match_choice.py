@@ -11,21 +11,10 @@ SENT = ("auto", "scene", "square", "read")
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
-    """The choices for matching a photo.
+    """The choices for matching a photo."""
 
-    Parameters
-    ----------
-    sent
-        What was sent, one of SENT.
-    square_frequency
-        Cycles per second of the square wave, in Hz, if one was sent.
-    estimate
-        ``"readout_time"`` or ``"switching_frequency"``; the other one is known.
-    fit_gamma
-        Whether gamma is estimated too.
-    """
-
-    sent: str = "auto"
-    square_frequency: float = 1000.0
+    sent: str = "auto"  # what was sent, one of SENT
+    square_frequency: float = 1000.0  # cycles per second of the square wave, in Hz, if one was sent
+    # ``"readout_time"`` or ``"switching_frequency"``; the other one is known
     estimate: str = "readout_time"
-    fit_gamma: bool = False
+    fit_gamma: bool = False  # whether gamma is estimated too

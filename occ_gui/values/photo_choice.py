@@ -20,18 +20,10 @@ _openings = count(1)
 
 @dataclass(frozen=True, slots=True)
 class PhotoReading:
-    """Options of reading a photo.
+    """Options of reading a photo."""
 
-    Parameters
-    ----------
-    scan_axis
-        The axis of the file that the shutter scanned, one of SCAN_AXES.
-    channel
-        The channel of a coloured photo that is read, one of CHANNELS.
-    """
-
-    scan_axis: str = SCAN_AXES[0]
-    channel: str = CHANNELS[0]
+    scan_axis: str = SCAN_AXES[0]  # the axis of the file that the shutter scanned, one of SCAN_AXES
+    channel: str = CHANNELS[0]  # the channel of a coloured photo that is read, one of CHANNELS
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,34 +71,21 @@ class Placed:
 
 @dataclass(frozen=True, slots=True)
 class PhotoChoice:
-    """What the user has set about photos; what belongs to another one than is shown is idle.
+    """What the user has set about photos; what belongs to another one than is shown is idle."""
 
-    Parameters
-    ----------
-    path
-        The photo that is open, or about to be; None for none.
-    opening
-        The number of its opening: opened again, a file is read again.
-    parts
-        The lamp or the rectangle that is matched, of all photos since none was open.
-    form, certain, forgotten
-        The choices of a match, the known values in SI units that are certain of the photo, and
-        those that were certain of photos before.
-    listed
-        The photos of the table.
-    placed, lamps_asked, match_asked
-        Where a photo was put by hand, and the search for lamps and the match that were asked for
-        last; None for none.
-    """
-
-    path: Path | None = None
+    path: Path | None = None  # the photo that is open, or about to be; None for none
     reading: PhotoReading = field(default_factory=PhotoReading)
-    opening: int = 0
+    opening: int = 0  # the number of its opening: opened again, a file is read again
+    # The lamp or the rectangle that is matched, of all photos since none was open
     parts: "Mapping[PhotoFrame, Lamp | Region]" = field(default_factory=dict)
+    # The choices of a match, the known values in SI units that are certain of the photo, and those
+    # that were certain of photos before
     form: MatchChoice = field(default_factory=MatchChoice)
     certain: Mapping[str, float] = field(default_factory=dict)
     forgotten: Mapping[str, float] = field(default_factory=dict)
     listed: tuple[Path, ...] = ()
+    # Where a photo was put by hand, and the search for lamps and the match that were asked for
+    # last; None for none
     placed: Placed | None = None
     lamps_asked: Asked | None = None
     match_asked: MatchAsked | None = None

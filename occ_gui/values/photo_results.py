@@ -34,24 +34,14 @@ class StripeSearch:
 
 @dataclass(frozen=True, slots=True)
 class FoundMatch:
-    """What a match has come to.
+    """What a match has come to."""
 
-    Parameters
-    ----------
-    photo, part
-        What was matched; None for all of the photo.
-    match
-        The match; that of before where there is a refusal, None where there was none.
-    given
-        The known value of the scene when it was asked for, in SI units.
-    refusal
-        The reasons why there is no match, each a sentence, and the part that they are about.
-    """
-
-    photo: "Photo"
+    photo: "Photo"  # what was matched; None for all of the photo
     part: "Lamp | Region | None"
+    # The match; that of before where there is a refusal, None where there was none
     match: "Match | None"
-    given: float
+    given: float  # the known value of the scene when it was asked for, in SI units
+    # The reasons why there is no match, each a sentence, and the part that they are about
     refusal: tuple[str, ...] = ()
     refused_part: "Lamp | Region | None" = None
     is_listed: bool = False
@@ -63,17 +53,11 @@ class FoundMatch:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ListedRows:
-    """What was found in the photos of the table so far, and how they were read.
-
-    Parameters
-    ----------
-    given
-        The known value of the scene when they were matched, in SI units.
-    """
+    """What was found in the photos of the table so far, and how they were read."""
 
     rows: "tuple[PhotoRow, ...]"
     reading: PhotoReading
-    given: float
+    given: float  # the known value of the scene when they were matched, in SI units
 
     def match_of(self, opened: OpenPhoto) -> FoundMatch | None:
         rows = (row for row in self.rows if row.path == opened.photo.path)
@@ -85,28 +69,16 @@ class ListedRows:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PhotoProfile:
-    """A photo's profile in the columns of a simulated one.
+    """A photo's profile in the columns of a simulated one."""
 
-    Parameters
-    ----------
-    comparison
-        Both profiles compared, None if ``sentence`` says why that is impossible.
-    raw : ndarray of float64, shape (columns of the photo,)
-        Mean of each column of the whole photo, in grey levels.
-    first_column, scale
-        The simulated column under the photo's first one, and simulated columns per photo column.
-    sentence
-        Why there is no comparison; also empty while the photo is searched for stripes.
-    photo
-        Whose profile it is.
-    is_outdated
-        Whether the simulation is of another scene than the present one.
-    """
-
+    # Both profiles compared, None if ``sentence`` says why that is impossible
     comparison: "Comparison | None"
+    # Shape (columns of the photo,): mean of each column of the whole photo, in grey levels
     raw: FloatArray
+    # The simulated column under the photo's first one, and simulated columns per photo column
     first_column: float = 0.0
     scale: float = 1.0
+    # Why there is no comparison; also empty while the photo is searched for stripes
     sentence: str = ""
     photo: "Photo | None" = None
-    is_outdated: bool = False
+    is_outdated: bool = False  # whether the simulation is of another scene than the present one

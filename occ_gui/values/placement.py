@@ -11,19 +11,11 @@ LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Shift and scale of a photo on the simulated picture.
+    """Shift and scale of a photo on the simulated picture."""
 
-    Parameters
-    ----------
-    column, row
-        The pixel of the simulated picture under the photo's first pixel.
-    scale
-        Pixels of the simulated picture per pixel of the photo.
-    """
-
-    column: float = 0.0
+    column: float = 0.0  # the pixel of the simulated picture under the photo's first pixel
     row: float = 0.0
-    scale: float = 1.0
+    scale: float = 1.0  # pixels of the simulated picture per pixel of the photo
 
     def within_limits(self) -> Self:
         """Give it a scale that is neither too small nor too large."""

@@ -12,21 +12,12 @@ FIRST_ROOM = "office"
 
 @dataclass(frozen=True, slots=True)
 class RoomChoice:
-    """What the user has set about rooms.
+    """What the user has set about rooms."""
 
-    Parameters
-    ----------
-    name
-        Of the program's room, or of the file, that it was at first.
-    room
-        With its camera where the user has put it; None for the first one, as it comes.
-    photo
-        The photo of the room that is shown in place of what its camera sees.
-    focal_length
-        Equivalent focal length of the photo in metres; None for that of its file, or the room's.
-    """
-
-    name: str = FIRST_ROOM
+    name: str = FIRST_ROOM  # of the program's room, or of the file, that it was at first
+    # With its camera where the user has put it; None for the first one, as it comes
     room: "Room | None" = None
+    # The photo of the room that is shown in place of what its camera sees
     photo: Path | None = None
+    # Equivalent focal length of the photo in metres; None for that of its file, or the room's
     focal_length: float | None = None

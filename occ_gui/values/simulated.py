@@ -13,18 +13,13 @@ LEAST_DRAFT_STEP = 4
 
 @dataclass(frozen=True, slots=True)
 class SimulationRequest:
-    """A scene to be simulated.
-
-    Parameters
-    ----------
-    draft_step
-        A draft shows one of so many rows of the picture.
-    """
+    """A scene to be simulated."""
 
     scene: Scene
     settings: SimulationSettings
     # Neither changes the results.
     whose: str = field(default=PICTURES[0], compare=False)
+    # A draft shows one of so many rows of the picture
     draft_step: int = field(default=LEAST_DRAFT_STEP, compare=False)
     more: tuple[str, ...] = field(default=(), compare=False)
 

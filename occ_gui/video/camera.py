@@ -29,15 +29,9 @@ _V4L_MANUAL, _V4L_AUTOMATIC = 1.0, 3.0
 
 @dataclass(frozen=True, slots=True)
 class CameraDevice:
-    """A camera.
+    """A camera."""
 
-    Parameters
-    ----------
-    number
-        Its number, as OpenCV counts.
-    """
-
-    number: int
+    number: int  # its number, as OpenCV counts
     name: str
 
 

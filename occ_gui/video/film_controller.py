@@ -93,10 +93,7 @@ class FilmController(QObject):
     def simulated(self) -> Video:
         """Return the simulated film of the present scene.
 
-        Raises
-        ------
-        OccError
-            The scene cannot be recorded so.
+        Raises OccError where the scene cannot be recorded so.
         """
         return occ.render_video(
             self._scenes.scene, self.choice.frames, self.choice.recording,
@@ -114,10 +111,7 @@ class FilmController(QObject):
     def open(self, path: Path, axis: str = SCAN_AXES[0]) -> None:
         """Open a film; what is open stays until it can be shown.
 
-        Parameters
-        ----------
-        axis
-            What of its pictures the shutter scanned, one of SCAN_AXES.
+        ``axis``: what of its pictures the shutter scanned, one of SCAN_AXES.
         """
         self.edit(lambda choice: choice.opened(path, axis))
 

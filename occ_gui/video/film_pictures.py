@@ -14,23 +14,13 @@ _LEAST = QSize(140, 90)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownPicture:
-    """A picture of a frame, ready to be drawn.
+    """A picture of a frame, ready to be drawn."""
 
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The picture.
-    region
-        What was read of it, None where nothing was found.
-    rows_step
-        Height of a row: more than 1 in a draft.
-    """
-
-    image: ByteArray
+    image: ByteArray  # shape (rows, columns): the picture
     halves: tuple[ByteArray, ...]
-    region: Region | None
+    region: Region | None  # what was read of it, None where nothing was found
     caption: str
-    rows_step: int = 1
+    rows_step: int = 1  # height of a row: more than 1 in a draft
 
 
 class _Side(QStackedWidget):

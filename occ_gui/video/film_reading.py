@@ -11,18 +11,11 @@ from occ_model.results.fact import Fact
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmReading:
-    """What has been read of a film so far.
+    """What has been read of a film so far."""
 
-    Parameters
-    ----------
-    times : ndarray of float64, shape (frames,)
-        When the frames that were looked at began, in seconds.
-    states : ndarray of uint8, shape (frames,)
-        A :class:`~occ_gui.video.marks.MarkState` each.
-    """
-
+    # Shape (frames,): when the frames that were looked at began, in seconds
     times: FloatArray
-    states: ByteArray
+    states: ByteArray  # shape (frames,): A :class:`~occ_gui.video.marks.MarkState` each
     packets: Marks = field(default_factory=Marks)
     text: str = ""
     facts: tuple[Fact, ...] = ()

@@ -28,42 +28,25 @@ _MOST_DRAFT_PIXELS = 1_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameRequest:
-    """A frame that is to be shown.
+    """A frame that is to be shown."""
 
-    Parameters
-    ----------
-    film
-        The film, None where there is only the simulated one.
-    live
-        The frame of a live film, which keeps none.
-    draft_step
-        A draft of the simulated frame shows one of so many rows; 1 for the exact picture.
-    """
-
-    film: Video | None
-    live: VideoFrame | None
+    film: Video | None  # the film, None where there is only the simulated one
+    live: VideoFrame | None  # the frame of a live film, which keeps none
     index: int
     scene: Scene
     settings: SimulationSettings
     recording: Recording
     frames: int
+    # A draft of the simulated frame shows one of so many rows; 1 for the exact picture
     draft_step: int = 1
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownFrame:
-    """A frame of the film beside the simulated one.
-
-    Parameters
-    ----------
-    time
-        When the frame began, in seconds; None where there is none.
-    story
-        What the rows show of the film's frame, or of the simulated one where there is no film.
-    """
+    """A frame of the film beside the simulated one."""
 
     request: FrameRequest
-    time: float | None
+    time: float | None  # when the frame began, in seconds; None where there is none
     film: ShownPicture | None
     simulated: ShownPicture | None
     instead: str
@@ -155,12 +138,9 @@ def _shown(image: ByteArray, story: FrameStory, caption: str) -> ShownPicture:
 def _story(frame: VideoFrame, scene: Scene, request: FrameRequest | None, whose: str) -> FrameStory:
     """Read one frame by itself.
 
-    Parameters
-    ----------
-    frame, scene
-        The frame, and what is known of it; of a simulated one the very scene that it shows.
-    request
-        What was asked for where it is simulated, else None.
+    ``frame``, ``scene``: the frame, and what is known of it; of a simulated one the very scene that
+    it shows.
+    ``request``: what was asked for where it is simulated, else None.
     """
     image = frame.image
     step = 1

@@ -14,16 +14,11 @@ from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameStory:
-    """What the rows show of one frame.
-
-    Parameters
-    ----------
-    knows_light
-        Whether the light that its columns gathered is known, as of a simulated frame.
-    """
+    """What the rows show of one frame."""
 
     picture: PictureView
     reading: ColumnView
+    # Whether the light that its columns gathered is known, as of a simulated frame
     knows_light: bool
     title: str
 

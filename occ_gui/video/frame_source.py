@@ -11,17 +11,10 @@ from occ_model.results.video import VideoFrame
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LivePicture:
-    """A picture as a source gives it.
+    """A picture as a source gives it."""
 
-    Parameters
-    ----------
-    time
-        Seconds since the source was opened.
-    pixels : ndarray of uint8, shape (lines, pixels) or (lines, pixels, 3)
-        Grey, or blue, green and red.
-    """
-
-    time: float
+    time: float  # seconds since the source was opened
+    # Shape (lines, pixels) or (lines, pixels, 3): Grey, or blue, green and red
     pixels: ByteArray
 
 
@@ -48,12 +41,8 @@ class FrameSource(Protocol):
 class FilmSource:
     """The frames of a film at their own times, in place of a camera.
 
-    Parameters
-    ----------
-    frames
-        The frames; they are gone through anew each time that the source is opened.
-    in_real_time
-        Whether each frame comes at its own time, else as soon as it is asked for.
+    ``frames``: the frames; they are gone through anew each time that the source is opened.
+    ``in_real_time``: whether each frame comes at its own time, else as soon as it is asked for.
     """
 
     def __init__(

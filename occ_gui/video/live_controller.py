@@ -70,10 +70,7 @@ class LiveController(QObject):
     def start(self, source: FrameSource, axis: str = "") -> None:
         """Read what a source gives, in place of the film that is open.
 
-        Parameters
-        ----------
-        axis
-            What of its pictures the shutter scans; by default what the source says.
+        ``axis``: what of its pictures the shutter scans; by default what the source says.
         """
         self.stop_filming()
         self.video = LiveVideo(source, axis or source.axis, self._last)

@@ -24,12 +24,8 @@ class LiveVideo(Video):
     The source is opened, read and closed by a thread of its own, so that a picture that is still
     being decoded never delays the next ones, and a device that hangs never holds up the window.
 
-    Parameters
-    ----------
-    axis
-        What of them the rolling shutter scans, one of AXES.
-    after
-        The film before, whose device is to be released first.
+    ``axis``: what of them the rolling shutter scans, one of AXES.
+    ``after``: the film before, whose device is to be released first.
     """
 
     def __init__(

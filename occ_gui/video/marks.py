@@ -32,18 +32,12 @@ def _no_states() -> ByteArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Marks:
-    """Marks, in order of time but where a film states another one.
+    """Marks, in order of time but where a film states another one."""
 
-    Parameters
-    ----------
-    starts, ends : ndarray of float64, shape (marks,)
-        When each begins and ends, in seconds.
-    states : ndarray of uint8, shape (marks,)
-        A :class:`MarkState` each.
-    """
-
+    # Shape (marks,): when each begins and ends, in seconds
     starts: FloatArray = field(default_factory=_no_times)
     ends: FloatArray = field(default_factory=_no_times)
+    # Shape (marks,): A :class:`MarkState` each
     states: ByteArray = field(default_factory=_no_states)
 
     def __len__(self) -> int:
@@ -71,12 +65,8 @@ class Marks:
 def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: float) -> Marks:
     """Return a mark for each frame, which lasts until the next one begins, if that is soon.
 
-    Parameters
-    ----------
-    states : ndarray of uint8, shape (frames,)
-        Whether each was read.
-    last
-        How long the last one lasts, in seconds.
+    ``states``: shape (frames,): whether each was read.
+    ``last``: how long the last one lasts, in seconds.
     """
     starts = np.asarray(times, dtype=np.float64)
     if not len(starts):

@@ -38,17 +38,11 @@ MOST_MARKS = 1_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadingRequest:
-    """A film that is to be read.
-
-    Parameters
-    ----------
-    is_live
-        Whether it has no end, so that only its last frames are remembered.
-    """
+    """A film that is to be read."""
 
     film: Video
     scene: Scene
-    is_live: bool = False
+    is_live: bool = False  # whether it has no end, so that only its last frames are remembered
 
 
 def read_film(request: ReadingRequest, report: Report) -> FilmReading:

@@ -38,12 +38,8 @@ class TimelineScale:
 def tick_step(span: float, width: float) -> tuple[float, int]:
     """Return the seconds between two ticks, and the decimals that tell them apart.
 
-    Parameters
-    ----------
-    span
-        The time in view, in seconds; more than zero.
-    width
-        The pixels that it takes.
+    ``span``: the time in view, in seconds; more than zero.
+    ``width``: the pixels that it takes.
     """
     least = span * _LEAST_SPACING / max(width, 1.0)
     power = math.floor(math.log10(least))

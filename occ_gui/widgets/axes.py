@@ -46,10 +46,7 @@ class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types
 class LogAxis(Axis):
     """An axis for decimal logarithms, labelled with the values themselves.
 
-    Parameters
-    ----------
-    least
-        The exponent at which all smaller values are drawn, too; it is labelled with ≤.
+    ``least``: the exponent at which all smaller values are drawn, too; it is labelled with ≤.
     """
 
     def __init__(self, side: str, least: int | None = None) -> None:

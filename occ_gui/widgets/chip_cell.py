@@ -28,10 +28,7 @@ def draw_digits(
 ) -> None:
     """Write each chip's digit into the middle of its cell, where that is wide enough.
 
-    Parameters
-    ----------
-    within
-        The area that is seen: a digit that it would cut off is left out.
+    ``within``: the area that is seen: a digit that it would cut off is left out.
     """
     size = painter.fontMetrics().size(0, "0")
     width, height = size.width(), size.height()

@@ -21,16 +21,10 @@ _PADDING = 8
 
 @dataclass(frozen=True, slots=True)
 class Chip:
-    """A short label.
-
-    Parameters
-    ----------
-    text
-        A few words, as HTML with ``sub`` only.
-    """
+    """A short label."""
 
     key: str
-    text: str
+    text: str  # a few words, as HTML with ``sub`` only
     meaning: str
     state: State = State.NEUTRAL
 

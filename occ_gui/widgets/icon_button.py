@@ -11,10 +11,7 @@ from occ_gui.widgets.icons import icon
 class IconButton(QToolButton):
     """A flat button that shows an icon.
 
-    Parameters
-    ----------
-    size
-        Its width and height, independent of the screen.
+    ``size``: its width and height, independent of the screen.
     """
 
     def __init__(self, drawing: str, size: int, parent: QWidget | None = None) -> None:

@@ -25,12 +25,8 @@ def _drawing(name: str) -> str:
 def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
     """Draw an icon for a screen, in the text colours of a palette.
 
-    Parameters
-    ----------
-    size
-        Width and height, independent of the screen.
-    ratio
-        Pixels of the screen that each of them takes.
+    ``size``: width and height, independent of the screen.
+    ``ratio``: pixels of the screen that each of them takes.
     """
     found = QIcon()
     for mode, group in (

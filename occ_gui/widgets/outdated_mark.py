@@ -35,10 +35,7 @@ class OutdatedMark(QWidget):
     def show_age(self, age: float, text: str) -> None:
         """Mark the pane once its result has been outdated for a moment.
 
-        Parameters
-        ----------
-        age
-            For how many seconds it has been outdated; zero if it is not.
+        ``age``: for how many seconds it has been outdated; zero if it is not.
         """
         if age == 0.0 and self.isHidden() and not self._waiting.isActive():
             return

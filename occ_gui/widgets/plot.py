@@ -74,12 +74,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
     def limit(self, side: str, farthest: float, least_span: float) -> None:
         """Limit panning and zooming to what can be drawn.
 
-        Parameters
-        ----------
-        farthest
-            The largest distance from zero in view, in the axis's unit.
-        least_span
-            The smallest range in view, in the axis's unit.
+        ``farthest``: the largest distance from zero in view, in the axis's unit.
+        ``least_span``: the smallest range in view, in the axis's unit.
         """
         axis = "X" if side == "bottom" else "Y"
         ends = {f"{axis.lower()}Min": -farthest, f"{axis.lower()}Max": farthest}

@@ -183,10 +183,8 @@ class MainWindow(QMainWindow):
     def say(self, sentence: str, until: str = "") -> None:
         """Show a sentence in the status line.
 
-        Parameters
-        ----------
-        until
-            The event that removes it, which :meth:`happened` reports; by default the next sentence.
+        ``until``: the event that removes it, which :meth:`happened` reports; by default the next
+        sentence.
         """
         self._message_until = until
         self._status_line.showMessage(sentence)

@@ -18,11 +18,8 @@ Span = tuple[int, int]
 def next_to_focus(window: QWidget, after: QWidget | None, forward: bool) -> QWidget | None:
     """Return the widget of a window that takes the focus next, None where none does.
 
-    Parameters
-    ----------
-    after
-        The widget that has the focus; one that the Tab key does not reach, or none, stands before
-        the first and after the last.
+    ``after``: the widget that has the focus; one that the Tab key does not reach, or none, stands
+    before the first and after the last.
     """
     stops = list(focus_stops(window))
     if not stops:

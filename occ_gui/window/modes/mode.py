@@ -13,23 +13,16 @@ Groups = tuple[tuple[str, ...], ...]
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A layout of the window for one task.
+    """A layout of the window for one task."""
 
-    Parameters
-    ----------
-    centre
-        The page in the middle; empty where the panes around it fill the window.
-    widths, heights
-        First sizes in pixels by pane, of those whose size matters.
-    """
-
-    centre: str
+    centre: str  # the page in the middle; empty where the panes around it fill the window
     main: str
     left: Groups = ()
     right: Groups = ()
     bottom: Groups = ()
     is_bottom_wide: bool = False
     is_right_high: bool = False
+    # First sizes in pixels by pane, of those whose size matters
     widths: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
     heights: Mapping[str, int] = field(default_factory=lambda: MappingProxyType({}))
 

@@ -14,10 +14,7 @@ _NATIVE = QKeySequence.SequenceFormat.NativeText
 class ModeBar(QTabBar):
     """Shows which mode is active, and lets the user choose another one.
 
-    Parameters
-    ----------
-    modes
-        The menu entries of the modes; each has the name of its icon as data.
+    ``modes``: the menu entries of the modes; each has the name of its icon as data.
     """
 
     def __init__(self, modes: QActionGroup, parent: QWidget | None = None) -> None:

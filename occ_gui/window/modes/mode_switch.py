@@ -16,12 +16,8 @@ _WIDEST_SIDE, _ANY_WIDTH = 360, 16_777_215
 class ModeSwitch(QObject):
     """The present mode of a window, and the layouts of those that were used before.
 
-    Parameters
-    ----------
-    docks
-        Its docks, by name; they may still be added to until the first mode is shown.
-    show_page
-        Shows a page in the middle by its name, or hides the middle where that is empty.
+    ``docks``: its docks, by name; they may still be added to until the first mode is shown.
+    ``show_page``: shows a page in the middle by its name, or hides the middle where that is empty.
     """
 
     changed = Signal(str)

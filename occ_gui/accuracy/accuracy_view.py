@@ -142,7 +142,6 @@ class AccuracyView(QWidget):
         self.table.show_force(settings.force)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the last ones."""
         self._snapshot = snapshot
         self._redraw()
 
@@ -154,7 +153,6 @@ class AccuracyView(QWidget):
                 self._draw()
 
     def show_costs(self, costs: SceneCosts) -> None:
-        """Show what the effects of a scene cost and change, as far as measured."""
         self._costs = costs
         self._draw()
 
@@ -176,7 +174,6 @@ class AccuracyView(QWidget):
         self.plot.show_study_finished()
 
     def show_study_outdated(self) -> None:
-        """Show that the study's points belong to an earlier scene."""
         self.plot.show_study_outdated()
 
     def show_study_failed(self, sentence: str) -> None:

@@ -21,8 +21,7 @@ IDLE_MS = 700
 
 
 class AccuracyPane(Protocol):
-    def show_costs(self, costs: SceneCosts) -> None:
-        """Show what the effects of a scene cost and change, as far as measured."""
+    def show_costs(self, costs: SceneCosts) -> None: ...
 
     def show_forecast(self, request: SimulationRequest, expected: Forecast) -> None:
         """Show what a picture with the present settings would take, and how exact it would be."""
@@ -102,7 +101,6 @@ class AccuracyController(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing is being measured or about to be."""
         busy = self._idle_timer.isActive() or not self.runner.is_idle
         return not busy and self.forecasts.is_idle
 

@@ -148,7 +148,6 @@ class ErrorCell(QStyledItemDelegate):
 
     @guarded
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
-        """Draw the number, the whisker, the dot and the tolerance."""
         super().paint(painter, option, index)
         row, area = self._rows()[index.row()], option.rect
         colour = seen_on(option.palette, SIMULATION)

@@ -55,7 +55,6 @@ class CropPictures(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the pictures as large as fits, with their captions below."""
         if not self._images:
             return
         painter = QPainter(self)
@@ -100,7 +99,6 @@ class EffectDetail(QWidget):
         self.show_row(None, None)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Give the pictures the height that they need in the new width."""
         super().resizeEvent(event)
         self._limit_pictures()
 

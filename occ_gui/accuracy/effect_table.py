@@ -138,7 +138,6 @@ class EffectModel(QAbstractTableModel):
     def headerData(  # noqa: N802 - Qt's name
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
     ) -> Any:
-        """Return the titles of the columns, and their meanings as tooltips."""
         if orientation != Qt.Orientation.Horizontal:
             return None
         title, meaning = self._titles[section]
@@ -152,7 +151,6 @@ class EffectModel(QAbstractTableModel):
         return meaning if role == Qt.ItemDataRole.ToolTipRole else None
 
     def data(self, index: _Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        """Return the text, tooltip, alignment and colours of a cell."""
         row, column = self.rows[index.row()], index.column()
         match role:
             case Qt.ItemDataRole.DisplayRole:
@@ -255,7 +253,6 @@ class EffectTable(QTableView):
         self.viewport().update()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Select a row; a press on the axis of errors moves the tolerance there."""
         super().mousePressEvent(event)
         self._drag(event, self.columnAt(int(event.position().x())))
 
@@ -363,7 +360,6 @@ class EffectTable(QTableView):
         return width
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Use the height for higher rows, and the width for the effects' names."""
         super().resizeEvent(event)
         self._size_rows()
         self._leave_room_for_names()

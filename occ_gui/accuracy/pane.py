@@ -48,6 +48,5 @@ class AccuracyPane(Pane[AccuracyPart]):
         self.view.show_settings(self._settings.settings)
 
     def set_seen(self, seen: bool) -> None:
-        """Draw and measure while the pane is seen."""
         self.view.set_seen(seen)
         self.study.set_seen(seen)

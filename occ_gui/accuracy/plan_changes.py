@@ -47,7 +47,6 @@ class PlanNews(QObject):
         self._forgetting.timeout.connect(self._forget)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Compare the plan of these results with that of the last ones."""
         if self._changes.update(snapshot.frame):
             self.changed.emit(self._changes.switched)
             self._forgetting.start()

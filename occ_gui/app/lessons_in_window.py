@@ -45,7 +45,6 @@ class LessonsInWindow(QObject):
         self._window.actions_by_name[_ENTRY_OF_ACTION[action]].trigger()
 
     def _show_pane_of_step(self, name: str) -> None:
-        """Show the pane that a step refers to, in place of the one that an earlier step opened."""
         if self._brought not in {"", name}:  # beside it the next one might need a larger screen
             self._window.put_away(self._brought)
             self._brought = ""

@@ -44,12 +44,10 @@ class PhotoInWindow(QObject):
 
     @property
     def pane(self) -> "PhotoPane":
-        """The pane, which is made if it has never been seen."""
         pane: PhotoPane = self._parts.shell.pane("photo")
         return pane
 
     def open(self, path: Path, match: bool, front: bool) -> None:
-        """Open a photo, match it and apply the result if wanted, and bring it to the front."""
         self._match_next, self._front_next = match, front
         self._parts.photos.open(path)
 
@@ -62,7 +60,6 @@ class PhotoInWindow(QObject):
         self.pane.match()
 
     def save_match(self) -> None:
-        """Let the user save what the match has found as a preset."""
         self._parts.presets.ask_to_save_match(self.pane.matching)
 
     def _on_made(self, name: str, pane: Any) -> None:

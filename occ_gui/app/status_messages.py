@@ -61,21 +61,17 @@ class StatusMessages(QObject):
         self._window.say(sentence, until=_MATCH)
 
     def end_refusal(self) -> None:
-        """Remove a refusal: scene or settings change."""
         self._window.happened(_CHANGE)
         self._controls.end_refusals(name for name in PARAMETERS if name not in self._failing)
 
     def end_failure(self) -> None:
-        """Remove the failure of a simulation: there is a new picture."""
         self._window.happened(_PICTURE)
         self._controls.end_refusals(self._failing)
         self._failing = ()
 
     def end_photo_failure(self) -> None:
-        """Remove the failure of a photo or its match: there is another photo, or none."""
         self._window.happened(_PHOTO)
         self._window.happened(_MATCH)
 
     def end_match_failure(self) -> None:
-        """Remove the failure of a match: there is a new one."""
         self._window.happened(_MATCH)

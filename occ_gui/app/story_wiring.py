@@ -109,7 +109,6 @@ class _SimulationNaming(QObject):
         self.show()
 
     def show(self) -> None:
-        """Name it as the mode and the photo of the moment ask for."""
         in_step = self._modes.mode == "lessons" and self._is_step_about_photo
         is_about_photo = self._modes.mode == "photo" or in_step
         self._story.show_photo_verdict(is_about_photo)
@@ -138,7 +137,6 @@ class _WholePictureWhileAsked(QObject):
         self._showed_rows = False
 
     def show(self, asked: bool) -> None:
-        """Show the whole picture, or again the rows that it was shown in place of."""
         if asked:
             self._showed_rows = not self._story.shows_whole_picture
             self._story.show_whole_picture(True)

@@ -66,7 +66,6 @@ class VideoPane(QObject):
         self._window.bring_to_front("video")
 
     def save(self, path: Path) -> None:
-        """Write the simulated film to a file."""
         self.wiring.save(path)
 
     def close(self) -> None:

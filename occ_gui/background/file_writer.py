@@ -36,7 +36,6 @@ class FileWriter(QObject, Generic[Request]):
         self.runner.ask(request)
 
     def cancel(self) -> None:
-        """Give up; nothing is written."""
         if not self.runner.is_idle:
             self.runner.cancel()
             self._bar.end()

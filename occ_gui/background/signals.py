@@ -48,11 +48,9 @@ class JobChannel(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether no more results come."""
         return not self._requests
 
     def put(self, request: Any, stages: Stages) -> None:
-        """Ask for work on a request, in place of the earlier ones."""
         run = Run(self._number, self._next, stages)
         self._requests[self._next] = request
         self._next += 1
@@ -131,7 +129,6 @@ class WorkQueue(QObject):
 
     @property
     def workers(self) -> Workers | None:
-        """The workers, None before they are started."""
         return None if self._scheduler is None else self._scheduler.workers
 
     def counted(self, counter: int) -> int:

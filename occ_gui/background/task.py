@@ -106,12 +106,10 @@ class Task(QObject, Generic[Request, Result]):
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing comes any more of what was asked."""
         running = self._running
         return self._waiting is None and (running is None or not running.is_wanted)
 
     def ask(self, request: Request) -> None:
-        """Work on a request; one that still waits is forgotten."""
         if self._is_stopped:
             return
         self._waiting = _Run(request)

@@ -96,7 +96,6 @@ class BandsView(QWidget):
         self.exposure_chosen.emit(self._speeds[item.row()].nominal)
 
     def show_failure(self, sentence: str) -> None:
-        """Show why nothing could be counted."""
         self.headline.setText(sentence)
 
     def show_bands(self, found: ShownBands) -> None:
@@ -124,7 +123,6 @@ class BandsView(QWidget):
             self.table.scrollTo(self.table.model().index(usual, 0), middle)
 
     def _fit_table(self) -> None:
-        """Make the table so wide that no column is cut."""
         header, bar = self.table.horizontalHeader(), self.table.verticalScrollBar()
         columns = sum(
             max(header.sectionSizeHint(column), self.table.sizeHintForColumn(column))

@@ -172,7 +172,6 @@ class BenchPlots(QWidget):
         self._fit()
 
     def _fit(self) -> None:
-        """Show all points, with the same values in both plots."""
         values: list[float] = []
         for axis, plot in self.plots.items():
             at: list[float] = []

@@ -181,7 +181,6 @@ class BenchView(QWidget):
         self.table.setVisible(there and self.height() >= _LEAST_WITH_TABLE)
 
     def show_begun(self, request: BenchRequest) -> None:
-        """Show that a measurement has begun, and forget the one before."""
         self._points, self._bounds, self._ended = [], None, ""
         self._setting = (
             f"{', '.join(request.schemes)}, {request.payload_bits} bits, "
@@ -251,7 +250,6 @@ class BenchView(QWidget):
         self._show_state()
 
     def show_frame_rate(self, frames_a_second: float, refusal: str) -> None:
-        """Show the pictures a second, and why there cannot be so many."""
         self._rate, self._refusal = frames_a_second, refusal
         self.frame_rate.set_value(frames_a_second)
         self._draw()

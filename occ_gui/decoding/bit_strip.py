@@ -59,7 +59,6 @@ class BitStrip(QWidget):
         self.update()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the bits are those of an earlier scene."""
         self.setEnabled(not outdated)
         self._describe()
 
@@ -117,7 +116,6 @@ class BitStrip(QWidget):
     def _draw_bars(
         self, painter: QPainter, top: float, bits: Sequence[int], wrong: set[int]
     ) -> None:
-        """Draw a row of bars, each of which stands for as many bits as it has no room for."""
         span = self.width() - _LABEL - _GAP
         count = len(self._sent)
         bars = max(1, min(count, span // _BAR))

@@ -144,7 +144,6 @@ class DecodeView(QWidget):
                 self.verdict.setText(self._verdict(self._chosen(self._reading)))
 
     def _results(self, reading: Reading) -> tuple[DecodeResult, ...]:
-        """Return the result of every decoder; of one that has not read, that it will."""
         there = [result.decoder for result in reading.results]
         names = dict.fromkeys((*self._names, *there))
         return tuple(result_of(reading, name) for name in names)
@@ -167,7 +166,6 @@ class DecodeView(QWidget):
         return "" if self._reading is None else self._chosen(self._reading).decoder
 
     def choose_decoder(self, name: str) -> None:
-        """Show what this decoder read, as a click on its tab does."""
         if self._reading is not None:
             names = [result.decoder for result in self._results(self._reading)]
             self.decoders.setCurrentIndex(names.index(name))

@@ -27,7 +27,6 @@ class PayloadText(QLabel):
         self.setAccessibleName("Sent and received payload")
 
     def show_payload(self, payload: str, received: Sequence[int]) -> None:
-        """Show a payload and the bits received of it; nothing where it is written as bits."""
         pieces = compared(payload, received)
         self.setVisible(bool(pieces))
         if not pieces:

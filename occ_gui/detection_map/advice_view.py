@@ -119,7 +119,6 @@ class AdviceView(QWidget):
                 self._add_common(line)
 
     def show_advice_ended(self, sentence: str) -> None:
-        """Show that the search has ended; a sentence says why if it is incomplete."""
         self._ended = sentence
         self.cards.show_ended(sentence)
         self.state.set_full_text(sentence)
@@ -148,7 +147,6 @@ class AdviceView(QWidget):
         self._insert(self._column.count() - 1, line)
 
     def _add(self, line: AdviceLine, decoder: str = "") -> None:
-        """Add a line above those that are the same for every decoder."""
         self._insert(self._column.count() - 1 - len(self._common), line, decoder)
 
     def _insert(self, place: int, line: AdviceLine, decoder: str = "") -> None:

@@ -115,7 +115,6 @@ class MapPlots(QWidget):
         self._redraw()
 
     def show_bits(self, shown: Shown, frames_a_second: float) -> None:
-        """Show success rates, or bits a second at so many pictures a second."""
         self._shown, self._frames_a_second = shown, frames_a_second
         self._bar_drawn = ""
         self._redraw()

@@ -95,14 +95,12 @@ class LimitCards(QWidget):
             card.show_range(found)
 
     def show_ended(self, why_not: str = "") -> None:
-        """Show that the search has ended, and why where it has not found all limits."""
         self._is_running, self._is_complete = False, not why_not
         if why_not:
             for card in self.cards.values():
                 card.show_unknown(why_not)
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the limits are of an earlier scene; if so they are asked for again."""
         self._is_outdated = outdated
         for card in self.cards.values():
             card.set_outdated(outdated)
@@ -143,7 +141,6 @@ class LimitCard(QFrame):
         self.set_outdated(False)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
-        """Keep the size of the value relative to the font."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
@@ -171,7 +168,6 @@ class LimitCard(QFrame):
         )
 
     def show_unknown(self, why: str = "") -> None:
-        """Show that the limit is not known, and why if it was searched."""
         self._show("?" if why else "", why or "Not searched yet.", None)
         if why:
             self.name.set_full_text(why)
@@ -194,7 +190,6 @@ class LimitCard(QFrame):
         self._show(limit, text, None if inside is None else inside.value)
 
     def show_range(self, found: WorkingRange) -> None:
-        """Show the lowest frequency, and the gap next to it."""
         if found.lowest is None:
             return
         text = f"from {_written(found.lowest.value)}"
@@ -207,7 +202,6 @@ class LimitCard(QFrame):
         self.range.set_full_text(text)
 
     def set_outdated(self, outdated: bool) -> None:
-        """Show whether the limit is of an earlier scene."""
         self._is_outdated = outdated
         self.range.setEnabled(not outdated)
         self.value.setEnabled(not outdated)

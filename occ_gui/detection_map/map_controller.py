@@ -51,8 +51,7 @@ class MapPane(Protocol):
 
     def show_facts(self, facts: PointFacts | None) -> None: ...
 
-    def show_bits(self, shown: Shown, frames_a_second: float) -> None:
-        """Show success rates, or bits a second at so many pictures a second."""
+    def show_bits(self, shown: Shown, frames_a_second: float) -> None: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +143,6 @@ class DetectionMapController(QObject):
         return MapRequest(scene, x, y, self._settings.settings, self._with_image_effects)
 
     def set_seen(self, seen: bool) -> None:
-        """Measure while the map is seen, and stop when it is not."""
         self._seen = seen
         if seen:
             self._move_on()

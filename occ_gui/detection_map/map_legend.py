@@ -82,6 +82,5 @@ class MapLegend(QWidget):
         return pixmap
 
     def enable_limits(self, limits: Collection[str]) -> None:
-        """Enable the buttons of the limits whose lines cross the map."""
         for key, button in self.buttons.items():
             button.setEnabled(key in limits)

@@ -91,7 +91,6 @@ class MapPlot(QWidget):
         self.update()
 
     def show_picture(self, image: QImage, shape: tuple[int, int], refused: IndexArray) -> None:
-        """Show the rates' colours, and the points that the model refuses (not 0)."""
         self._image, self._shape = image, shape
         self._refused = [(int(x), int(y)) for x, y in zip(*refused.nonzero(), strict=True)]
         self.update()

@@ -233,7 +233,6 @@ class MapView(QWidget):
         )
 
     def show_bits(self, shown: Shown, frames_a_second: float) -> None:
-        """Show success rates, or bits a second at so many pictures a second."""
         self.shown.show_key(shown)
         self.frame_rate.setVisible(shown == "bits")
         self.frame_rate.set_value(frames_a_second)

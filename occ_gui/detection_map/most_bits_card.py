@@ -65,7 +65,6 @@ class MostBitsCard(QFrame):
         self._show()
 
     def show_found(self, found: MostBits) -> None:
-        """Show what was found with one decoder, if it is better than with those before."""
         if found.scene is None:
             self._failures.append(f"{found.decoder}: {found.failure}")
         elif self._best is None or found.bits_a_second > self._best.bits_a_second:
@@ -73,12 +72,10 @@ class MostBitsCard(QFrame):
         self._show()
 
     def show_ended(self, sentence: str) -> None:
-        """Show that the search has ended; a sentence says why if it is incomplete."""
         self._is_running, self._state = False, sentence
         self._show()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether what was found is of an earlier scene."""
         self._is_outdated = outdated
         self._show()
 

@@ -53,5 +53,4 @@ class MapPane(Pane[None]):
             searcher.went.connect(self.went)
 
     def set_seen(self, seen: bool) -> None:
-        """Measure the map while the pane is seen."""
         self.map.set_seen(seen)

@@ -55,7 +55,6 @@ class RestingController(QObject):
         return self._channel.is_idle and not self._resting.isActive()
 
     def set_seen(self, seen: bool) -> None:
-        """Measure while the results are seen, and stop when they are not."""
         self._seen = seen
         if seen:
             self._move_on()

@@ -72,7 +72,6 @@ class SliderStrip(QWidget):
         self.setAccessibleDescription(read)
 
     def show_shares(self, shares: tuple[float | None, ...]) -> None:
-        """Show the shares at evenly spaced positions of the slider, None if not known."""
         self.shares = shares
         self._explain()
         self.update()
@@ -178,10 +177,8 @@ class SliderStrips(QObject):
         self.strips[name].show_shares(shares)
 
     def show_present(self, rate: "OwnRate | None") -> None:
-        """Show at the handles the rate at the scene's own values; None if unknown."""
         for strip in self.strips.values():
             strip.show_present(rate)
 
     def show_outdated(self, name: str, outdated: bool) -> None:
-        """Show whether the strip of a slider is of an earlier scene."""
         self.strips[name].show_outdated(outdated)

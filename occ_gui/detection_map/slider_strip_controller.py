@@ -27,8 +27,7 @@ class SliderStripPane(Protocol):
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
         """Show the share of correct bits at positions along a slider, None: not known."""
 
-    def show_outdated(self, name: str, outdated: bool) -> None:
-        """Show whether a strip is of an earlier scene."""
+    def show_outdated(self, name: str, outdated: bool) -> None: ...
 
 
 def strip_stages(
@@ -106,7 +105,6 @@ class SliderStripController(RestingController):
             self._resting.start()
 
     def _measure(self) -> None:
-        """Measure what is not known of the present strips."""
         request = self._asked
         if request is not None:
             missing, self._missing = self._missing, {}

@@ -73,7 +73,6 @@ class Measuring(QObject):
 
     @property
     def for_most(self) -> "JobChannel":
-        """The channel of the most bits a second."""
         return self.queue.channels[3]
 
     @cached_property

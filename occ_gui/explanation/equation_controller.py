@@ -14,8 +14,7 @@ _NAMES = tuple(name for names in GROUPS.values() for name in names)
 
 
 class EquationPane(Protocol):
-    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        """Show these equations, with the terms of the changed parameters marked."""
+    def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None: ...
 
 
 class EquationController(QObject):
@@ -31,14 +30,12 @@ class EquationController(QObject):
         scenes.changed.connect(self._show)
 
     def set_seen(self, seen: bool) -> None:
-        """Update the equations while they are visible."""
         self._seen = seen
         if seen and self._shown != self._scenes.scene:
             self._shown = None  # changes made while hidden are not recent
             self._show(self._scenes.scene)
 
     def show_only(self, name: str) -> None:
-        """Show the equation of this name only; an empty one means all."""
         self._only, self._shown = name, None
         self._show(self._scenes.scene)
 

@@ -41,7 +41,6 @@ class EquationText(QTextBrowser):
         self._fading.timeout.connect(lambda: self._write(frozenset()))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        """Show these equations, with the terms of the changed parameters marked."""
         self._equations = tuple(equations)
         self._fading.stop()
         self._write(changed)

@@ -18,8 +18,7 @@ class ExposurePane(Protocol):
 
 
 class ColumnMark(Protocol):
-    def set_active(self, active: bool) -> None:
-        """Let the user pick columns, or not."""
+    def set_active(self, active: bool) -> None: ...
 
     def show_column(self, column: int, held: bool) -> None: ...
 
@@ -40,7 +39,6 @@ class ExposureController(QObject):
         self._seen = False
 
     def set_seen(self, seen: bool) -> None:
-        """Compute and show exposures while they are visible."""
         self._seen = seen
         self._mark.set_active(seen)
         self._show()

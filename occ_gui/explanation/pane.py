@@ -53,7 +53,6 @@ class ExplanationPane(Pane[Snapshot]):
         self.pane.exposure.hold_chosen.connect(exposure.hold)
 
     def set_seen(self, seen: bool) -> None:
-        """Update the pane while it is visible."""
         self._equations.set_seen(seen)
         self.exposure.set_seen(seen)
 

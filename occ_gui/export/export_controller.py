@@ -61,7 +61,6 @@ class ExportController(Service):
 
     @property
     def is_idle(self) -> bool:
-        """Whether all requested figures have been written."""
         return super().is_idle and not self._waiting
 
     def ask(self, name: str) -> None:
@@ -123,7 +122,6 @@ class ExportController(Service):
         self._put(ExportJob(tuple(requests), folder=folder))
 
     def copy(self, name: str) -> None:
-        """Put a figure on the clipboard, as a picture."""
         self._present.ask(partial(self._draw, name, None))
 
     def copy_current(self) -> None:

@@ -37,7 +37,6 @@ class Document(QObject):
 
     @property
     def path(self) -> Path | None:
-        """The file; None where the scene has none."""
         return self._store.store.workspace.scene_file
 
     def save(self) -> None:

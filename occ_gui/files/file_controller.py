@@ -117,7 +117,6 @@ class FileController(QObject):
             self.open_file(Path(names[0]))
 
     def ask_for_film(self) -> None:
-        """Let the user choose a film and open it."""
         kinds = f"Films ({_FILMS});;All files (*)"
         name, _ = QFileDialog.getOpenFileName(
             self._window, "Open film", self._preferences.folder, kinds
@@ -130,7 +129,6 @@ class FileController(QObject):
         self.film_asked.emit(path)
 
     def ask_to_save_film(self) -> None:
-        """Let the user choose where to save the simulated film."""
         name, _ = QFileDialog.getSaveFileName(
             self._window, "Save the simulated film", self._in_folder("film.mkv"),
             "Films (*.mkv *.mp4 *.gif *.png)",
@@ -141,7 +139,6 @@ class FileController(QObject):
             self.film_save_asked.emit(path)
 
     def ask_for_scene(self) -> None:
-        """Let the user choose a scene file and open it."""
         kinds = "Scenes and figures ({patterns});;All files (*)".format(
             patterns=" ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
         )
@@ -203,7 +200,6 @@ class FileController(QObject):
             )
 
     def open_scene(self, path: Path) -> None:
-        """Open a scene file; an invalid one leaves the scene unchanged."""
         if self._put_scene(path):
             self._preferences.add(path)
             if path.suffix.lower() != SCENE_ENDING:
@@ -240,7 +236,6 @@ class FileController(QObject):
             self.scene_saved.emit(path)
 
     def ask_to_save_picture(self) -> None:
-        """Let the user choose where to save the simulated picture."""
         titles = {
             "camera": "Save the camera's picture",
             "receiver": "Save the receiver's picture",

@@ -75,11 +75,9 @@ class Preferences(QObject):
         self._keep((path, *others)[:MOST_RECENT])
 
     def drop(self, path: Path) -> None:
-        """Remove a file from the recent files."""
         self._keep(tuple(other for other in self._files if other != path))
 
     def clear(self) -> None:
-        """Empty the list of recent files."""
         self._keep(())
 
     def visit(self, path: Path) -> None:

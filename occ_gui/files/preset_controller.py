@@ -56,7 +56,6 @@ class PresetController(QObject):
         return self._own
 
     def name_of(self, scene: Scene) -> str:
-        """Return the name of the preset that equals a scene, empty if there is none."""
         return next((p.name for p in self._presets if p.scene == scene), "")
 
     @property
@@ -65,7 +64,6 @@ class PresetController(QObject):
         return name, "" if name else self._store.store.workspace.preset
 
     def _name(self) -> None:
-        """Note the preset that the scene has become, in whichever way."""
         store = self._store.store
         if name := self.name_of(self._store.scene):
             store.put(replace(store.workspace, preset=name))
@@ -82,7 +80,6 @@ class PresetController(QObject):
         self._store.put(scene, title, new_gesture(), force={})
 
     def ask_to_save_match(self, matching: "MatchController") -> None:
-        """Let the user name a preset, and save the result of a match as it."""
         photo = matching.photo
         if photo is None or matching.match is None:
             self.status_message.emit("There is no match yet that could be saved.")
@@ -99,7 +96,6 @@ class PresetController(QObject):
             matching.save(name, title)
 
     def ask_to_delete(self) -> None:
-        """Let the user choose one of the saved presets, and delete it."""
         own = [*user_presets(), *self._unreadable]
         if not own:
             self.status_message.emit("There is no preset of your own.")

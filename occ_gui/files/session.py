@@ -80,7 +80,6 @@ class Session(QObject):
 
     @property
     def is_due(self) -> bool:
-        """Whether something has changed that is not written yet."""
         return self._timer.isActive()
 
     def _note_change(self) -> None:

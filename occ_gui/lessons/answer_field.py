@@ -48,7 +48,6 @@ class AnswerField(QWidget):
         layout.addLayout(row)
 
     def begin(self, unit: str, is_number: bool, before: CheckedAnswer | None) -> None:
-        """Show an empty field, or the answer given before."""
         self.unit.setText(unit)
         self.unit.setVisible(bool(unit))
         self.field.setPlaceholderText("a number" if is_number else "in your own words")

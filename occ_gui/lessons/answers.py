@@ -61,7 +61,6 @@ class LessonAnswers(QObject):
         return any(asked.lesson.name == lesson.name for asked in self._waiting)
 
     def of(self, lesson: Lesson, place: int) -> CheckedAnswer | None:
-        """Return the answer to a step; None where there is none."""
         given = self._given.get((lesson.name, place))
         return None if given is None else given[0]
 

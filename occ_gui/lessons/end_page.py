@@ -66,7 +66,6 @@ class EndPage(QWidget):
     def show_answers(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str
     ) -> None:
-        """Show the answers to the steps of a lesson, None where there is none, and what follows."""
         self.next.setText(f"Next lesson: {following}")
         self.next.setVisible(bool(following))
         self.title.setText(f"Done: {lesson.title}")

@@ -183,7 +183,6 @@ class LessonController(QObject):
             self.pane_wanted.emit("")
 
     def set_again(self) -> None:
-        """Set the scene of the step again, undoing all changes to it."""
         if self._current is not None:
             self._set(self._current, self._places[self._current.name])
 
@@ -233,7 +232,6 @@ class LessonController(QObject):
 
     @property
     def lesson_under_way(self) -> Lesson | None:
-        """The lesson under way, None while there is none."""
         return self._current
 
     def _step(self) -> Step | None:

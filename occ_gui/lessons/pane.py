@@ -60,7 +60,6 @@ class LessonPane(Pane[None]):
         self.controller.set_seen(seen)
 
     def open_folder(self) -> None:
-        """Open the folder of the user's own lessons, with one to begin with where it is empty."""
         try:
             folder = begin_lessons_folder()
         except OccError as error:

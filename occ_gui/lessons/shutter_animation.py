@@ -93,7 +93,6 @@ class ShutterAnimation(QWidget):
         return QSize(280, 200)
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the least size in which the bars can be told apart."""
         return QSize(160, 140)
 
     @guarded

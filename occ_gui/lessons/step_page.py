@@ -146,7 +146,6 @@ class StepPage(QWidget):
         self._scroll.verticalScrollBar().setValue(0)
 
     def show_changed(self, sentence: str) -> None:
-        """Say what the student has changed; an empty sentence for nothing."""
         self.changed.setText(sentence)
         self.changed.setVisible(bool(sentence))
 
@@ -154,7 +153,6 @@ class StepPage(QWidget):
         self.answer.setText(typeset(text))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
-        """Show the equation that explains the answer, with its present numbers."""
         self.equation.show_equations(equations, changed)
 
     def _action_text(self, action: str) -> str:

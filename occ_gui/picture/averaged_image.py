@@ -69,7 +69,6 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         _option: QStyleOptionGraphicsItem,
         _widget: QWidget | None = None,
     ) -> None:
-        """Draw the visible part of the image at its size on the screen."""
         part = self._visible_part()
         if part.isEmpty():
             return

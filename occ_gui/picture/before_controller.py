@@ -25,7 +25,6 @@ class BeforeController(QObject):
         store.step_begun.connect(self._begin_step)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Keep the results that are shown now."""
         self._shown = snapshot
         # A gesture can begin before the picture of its first scene is shown.
         before = self.before

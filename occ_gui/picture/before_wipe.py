@@ -97,7 +97,6 @@ class BeforeWipe(QObject):
         row.addWidget(self.chosen)
 
     def show_before(self, snapshot: Snapshot) -> None:
-        """Compare with this picture in place of the previous one."""
         self._frame = snapshot.frame
         self._take_picture()
 

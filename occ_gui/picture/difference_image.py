@@ -31,7 +31,6 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         self._means: dict[int, tuple[QRectF, tuple[int, int], FloatArray]] = {}
 
     def set_image(self, layer: int, image: ByteArray, rect: QRectF) -> None:
-        """Set one of the two images, 0 or 1, and its rectangle; it is not copied."""
         first, second = self._layers
         new = (image, QRectF(rect))
         self.prepareGeometryChange()
@@ -58,7 +57,6 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         _option: QStyleOptionGraphicsItem,
         _widget: QWidget | None = None,
     ) -> None:
-        """Draw the visible part at its size on the screen."""
         view = self.viewRect()
         grid = QRectF() if view is None else view.intersected(self.boundingRect())
         if grid.isEmpty():

@@ -154,7 +154,6 @@ class ImageView(QWidget):
         return text.format(gain=self.gain.key(), picture=picture[:1].lower() + picture[1:])
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the previous ones."""
         if snapshot.frame is not self._frame:  # it may have been shown before it was decoded
             self.show_picture(Picture(snapshot.frame, self._whose, ()))
         self.show_reading(snapshot)
@@ -216,7 +215,6 @@ class ImageView(QWidget):
         self._arrange()
 
     def show_placement(self, placement: Placement) -> None:
-        """Place the photo on the simulated picture."""
         self.overlay.set_placement(placement)
 
     def set_mode(self, mode: str) -> None:

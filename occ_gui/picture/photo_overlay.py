@@ -67,7 +67,6 @@ class PhotoOverlay(QObject):
             self._compare()
 
     def set_photo(self, photo: ByteArray | None) -> None:
-        """Show this photo over the picture in place of the previous one, or none."""
         self._photo = photo
         self._line_is_centred = True
         self._arrange()
@@ -91,7 +90,6 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_movable(self, movable: bool) -> None:
-        """Let the mouse move and scale the photo, or not."""
         self._movable = movable
         self._arrange()
 

@@ -23,5 +23,4 @@ class ComparePane(Pane[None]):
         self.view.show_pinned(self._pins.pinned)
 
     def set_seen(self, seen: bool) -> None:
-        """Draw while the pane is seen."""
         self.view.set_seen(seen)

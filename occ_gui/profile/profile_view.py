@@ -200,7 +200,6 @@ class ProfileView(QWidget):
             self._redraw()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw what was not drawn while the pane was hidden."""
         super().showEvent(event)
         if self._is_behind:
             self._redraw()

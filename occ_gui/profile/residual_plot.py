@@ -68,7 +68,6 @@ class ResidualPlot(QWidget):
         box.sigRangeChangedManually.emit(box.mouseEnabled())
 
     def show_profile(self, profile: PhotoProfile) -> None:
-        """Show the residual, or why photo and simulation cannot be compared."""
         comparison = profile.comparison
         self.plot.setVisible(comparison is not None)
         if comparison is None:

@@ -61,7 +61,6 @@ class RoomPane(Pane[RoomChoice]):
         return self._first if room is None else room
 
     def show_part(self, part: RoomChoice) -> None:
-        """Look at a room from its camera's place, or at a photo of it."""
         room, last = self.room, self.look
         self.look, self.shown = Look(room, part.photo, part.focal_length), None
         is_new = last is None or room.lamps != last.room.lamps
@@ -79,7 +78,6 @@ class RoomPane(Pane[RoomChoice]):
         self._store.put(replace(workspace, room=room), title, gesture)
 
     def take(self, name: str, room: Room) -> None:
-        """Show another room; a photo that is shown is read as one of it."""
         self._edit(f"room {name}", name=name, room=room)
 
     def _move(self, x: float, y: float, gesture: int) -> None:
@@ -90,7 +88,6 @@ class RoomPane(Pane[RoomChoice]):
         self._look_from(camera, "turn of the camera", gesture)
 
     def _look_from(self, camera: Place, title: str, gesture: int) -> None:
-        """Show what the camera sees from a place: no photo."""
         room = self.room.replace(camera=camera)
         self._edit(title, gesture, room=room, photo=None, focal_length=None)
 

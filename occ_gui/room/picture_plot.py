@@ -30,7 +30,6 @@ class PicturePlot(QWidget):
         layout.addWidget(self.plot)
 
     def show_room(self, shown: ShownRoom) -> None:
-        """Show a picture; its lamps have names once it is read."""
         rows, columns = shown.image.shape
         margin = _NAME * rows
         self.image.setImage(shown.picture, levels=(0, 255))

@@ -130,7 +130,6 @@ class PlanPlot(QWidget):
         return float(enlarged)
 
     def show_map(self, found: FloorMap | None) -> None:
-        """Show at each place of the floor whether it was told; none without a map."""
         if found is None:
             self.floor.setData([], [])
             return

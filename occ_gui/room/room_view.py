@@ -111,7 +111,6 @@ class RoomView(QWidget):
             layout.addWidget(label)
 
     def show_name(self, name: str) -> None:
-        """Name the room, which may be a file in place of one of the program."""
         self.rooms.setPlaceholderText(one_line(name))
         self.rooms.setCurrentIndex(self.rooms.findText(name))
 
@@ -140,7 +139,6 @@ class RoomView(QWidget):
             self.focal_length.setValue(1e3 * shown.room.scene.camera.equivalent_focal_length)
 
     def show_failure(self, sentence: str) -> None:
-        """Show why there is no picture."""
         self.headline.setText(sentence)
         self.sentences.setText("")
 

@@ -151,7 +151,6 @@ class ControlPanel(QWidget):
         return place
 
     def add_foot(self, widget: QWidget) -> None:
-        """Add a widget at the lower end of the first page."""
         self._main.add_foot(widget)
 
     def main_rows(self) -> dict[str, QuantityRow]:
@@ -169,7 +168,6 @@ class ControlPanel(QWidget):
         self._show_bits(scene)
 
     def _show_bits(self, scene: Scene) -> None:
-        """Show how many bits are sent: those of the payload, where there is one."""
         row = self._fields().get("bits")
         if isinstance(row, CountRow):
             sent = scene.transmitter
@@ -209,7 +207,6 @@ class ControlPanel(QWidget):
         return fields
 
     def show_preset(self, name: str, changed: str = "") -> None:
-        """Show which preset the scene equals, or which one it was before it was changed."""
         text = "Choose a preset"
         place = self.preset.findData(changed) if changed else -1
         if place >= 0:

@@ -51,6 +51,5 @@ class ForcedEffects(QWidget):
         self.hide()
 
     def show_list(self, text: str) -> None:
-        """Show the list of these effects, or nothing where it is empty."""
         self.text.setText(text)
         self.setVisible(bool(text))

@@ -55,7 +55,6 @@ class ParameterPanel(QWidget):
         layout.addStretch(1)
 
     def _add_scale(self, name: str, row: QuantityRow, line: QHBoxLayout) -> None:
-        """Add to a slider a scale with marks, and a button that runs it."""
         declared = PARAMETERS[name]
         if isinstance(declared, Quantity):
             self._scales[name] = SliderScale(row.slider, declared)

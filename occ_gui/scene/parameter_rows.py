@@ -121,7 +121,6 @@ class QuantityRow(ParameterRow):
         widget.lower()
 
     def show_track(self, shown: bool) -> None:
-        """Draw the slider with its groove, or without it where the track is shown."""
         self.slider.setProperty("tracked", shown)
         self.slider.style().unpolish(self.slider)
         self.slider.style().polish(self.slider)

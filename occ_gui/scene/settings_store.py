@@ -38,7 +38,6 @@ class SettingsStore(QObject):
         return self._store.workspace.settings
 
     def set_tolerance(self, tolerance: float) -> None:
-        """Change the tolerance; an invalid one is refused with a sentence."""
         try:
             self._put(replace(self.settings, tolerance=TOLERANCE.check(tolerance)))
         except OccError as error:

@@ -19,11 +19,9 @@ Part = TypeVar("Part")
 class VerdictView(Protocol):
     """A part of a pane that says whether the code was read."""
 
-    def show_outdated(self, outdated: bool) -> None:
-        """Show whether the verdict is of an earlier scene."""
+    def show_outdated(self, outdated: bool) -> None: ...
 
-    def show_run(self, value: str, pictured: str) -> None:
-        """Say of which values of a slider that runs verdict and picture are; empty for none."""
+    def show_run(self, value: str, pictured: str) -> None: ...
 
 
 class Work(Protocol):

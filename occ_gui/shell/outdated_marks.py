@@ -51,7 +51,6 @@ class OutdatedMarks(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether no verdict waits for the end of a movement."""
         return not self._settling.isActive()
 
     def marks(self, *made_of: MadeOf) -> list[OutdatedMark]:
@@ -59,7 +58,6 @@ class OutdatedMarks(QObject):
         return [mark for mark, of in self._marks if of in made_of or not made_of]
 
     def mark(self, widget: QWidget, made_of: MadeOf) -> None:
-        """Mark from now on a widget while what it is made of is of an earlier scene."""
         self._marks.append((OutdatedMark(widget), made_of))
         self._update()
 
@@ -67,14 +65,12 @@ class OutdatedMarks(QObject):
         self.mark_pane(pane)
 
     def mark_pane(self, pane: Pane[Any]) -> None:
-        """Mark from now on the parts of a pane, and tell its verdicts."""
         self._verdicts += pane.verdicts
         for widget, made_of in pane.made_of.items():
             self.mark(widget, made_of)
         self._update()
 
     def follow_run(self, parameter: str) -> None:
-        """Mark as it is right while the slider of this parameter runs; empty for none."""
         self._run = parameter
         self._update()
 

@@ -43,7 +43,6 @@ class Shell(QObject):
         self._workspaces = store.select(lambda workspace: workspace)
 
     def add(self, feature: Feature[Any], window: DockWindow) -> None:
-        """Give a feature its dock and its menu entries, before the window is shown."""
         if feature.title:
             place = self._place(feature)
             dock = window.add_pane(feature.name, feature.title, place)
@@ -116,7 +115,6 @@ class Shell(QObject):
 
     @property
     def is_idle(self) -> bool:
-        """Whether no feature is at work."""
         return all(work.is_idle for work in self._made)
 
     @property

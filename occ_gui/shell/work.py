@@ -55,7 +55,6 @@ class Work(QObject, Generic[Request, Result]):
         self.look()
 
     def look(self) -> None:
-        """Ask the task, if the request is another one."""
         request = self._of(self._store.workspace, self._board.results)
         if request == self._request:
             return

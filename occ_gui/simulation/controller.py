@@ -67,8 +67,7 @@ class ReadingView(Protocol):
 class SnapshotView(Protocol):
     """A pane that shows the results for a scene with its picture."""
 
-    def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show these results in place of the last ones."""
+    def show_snapshot(self, snapshot: Snapshot) -> None: ...
 
 
 def simulate(scene: Scene, settings: SimulationSettings = FIRST_SETTINGS) -> Snapshot:
@@ -232,6 +231,5 @@ class SimulationController(QObject):
         return self.ages.age(reading.request) <= self.ages.age(shown.request)
 
     def stop(self) -> None:
-        """Stop simulating; no picture or snapshot arrives from now on."""
         self.runner.stop()
         self.blockSignals(True)

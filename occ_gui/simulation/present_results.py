@@ -36,7 +36,6 @@ class PresentResults(QObject):
         return snapshot.request == self._ages.present
 
     def ask(self, use: Use) -> None:
-        """Use the results of the present scene: at once, or when they are shown."""
         self._waiting.append(use)
         if self._is_refused:
             self._give_up()

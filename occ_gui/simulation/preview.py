@@ -27,7 +27,6 @@ class PictureView:
     smallest: ByteArray  # the same pixels, or a copy of fewer
 
     def seen_by(self, _whose: str) -> Self:
-        """Return itself: of a frame of a film there is one picture."""
         return self
 
 
@@ -47,7 +46,6 @@ class Picture:
 
     @property
     def is_draft(self) -> bool:
-        """Whether it shows only some rows of the picture, and the exact one follows."""
         return self.frame.rows_step > 1
 
     def seen_by(self, whose: str) -> PictureView:

@@ -46,7 +46,6 @@ class ColumnView:
         return (self.decoded, *self.others)
 
     def result_of(self, decoder: str) -> DecodeResult | None:
-        """Return what a decoder has read, None if it has not."""
         return next((result for result in self.results if result.decoder == decoder), None)
 
     @property

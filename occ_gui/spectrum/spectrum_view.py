@@ -70,7 +70,6 @@ class SpectrumView(QWidget):
         self.histogram.setXRange(-2, 257, padding=0)
 
     def show_spectrum(self, spectrum: Spectrum | None) -> None:
-        """Show the spectrum of a profile, None where it has none."""
         if spectrum is not None:
             self._draw_spectrum(spectrum)
             return

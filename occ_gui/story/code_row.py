@@ -84,7 +84,6 @@ class CodeRow(StoryRow):
         )
 
     def value_of(self, bit: int) -> int | None:
-        """Return a bit that was received, None if it was not."""
         if self._decoded is None or bit >= self._decoded.bits.size:
             return None
         return int(self._decoded.bits[bit])
@@ -122,7 +121,6 @@ class CodeRow(StoryRow):
         return (_GAP, chips), (chips + _GAP, letters), (letters + _GAP, letters + _GAP + bit)
 
     def draw(self, painter: QPainter, area: QRectF) -> None:
-        """Draw the chips in view, and the packet that was read."""
         decoded = self._decoded
         if decoded is None:
             return
@@ -148,7 +146,6 @@ class CodeRow(StoryRow):
         self._draw_letters(painter, letters, spans)
 
     def _draw_letters(self, painter: QPainter, place: QRectF, spans: Sequence[Span]) -> None:
-        """Draw each letter that was received above its bits."""
         for letter in self.letters:
             if letter.last > len(spans):  # its bits were not received
                 return

@@ -127,7 +127,6 @@ class Crosshair(QObject):
             self.point_at(self.pointed)
 
     def point_at(self, column: float | None) -> None:
-        """Point at the nearest column, or at none; outside the picture is none, too."""
         nearest = None if column is None else round(column)
         if nearest is not None and not 0 <= nearest < self.columns:
             nearest = None

@@ -52,7 +52,6 @@ class CurveLegend(QWidget):
             self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Take as many lines as the width asks for."""
         super().resizeEvent(event)
         self._take_lines()
 

@@ -24,7 +24,6 @@ class LegendLine(QWidget):
         self._layout.addLayout(self.controls)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Put the legend above the controls where a name has no room beside them."""
         super().resizeEvent(event)
         beside = self.contentsRect().width() - self.controls.sizeHint().width() - _SPACING
         way = QBoxLayout.Direction

@@ -188,7 +188,6 @@ class LightRow(StoryRow):
         start: float,
         step: float,
     ) -> None:
-        """Draw a packet that starts at an x: its header, its bits, and the letters above them."""
         header, *bits = fields
         line = self._strip_height() / (2 if self.letters else 1)
         low = area.bottom() - line + 1
@@ -211,7 +210,6 @@ class LightRow(StoryRow):
                            is_told=is_told if top == low else None, within=area)  # fmt: skip
 
     def _say_sent(self, painter: QPainter, area: QRectF) -> None:
-        """Say what is sent where its bits have no room, or no chips of their own."""
         strip = self._strip_height()
         place = QRectF(area.left() + 8, area.bottom() - strip, area.width() - 8, strip)
         painter.setPen(self.colour(QPalette.ColorRole.Text))
@@ -232,7 +230,6 @@ class LightRow(StoryRow):
         return text.format(what=what, bits=len(self._sent))
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
-        """Name the levels, and the strip of bits."""
         light = self._light_area(area)
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
@@ -328,6 +325,5 @@ class LightRow(StoryRow):
         self._grabbed = None
 
     def click(self, place: QPointF) -> None:
-        """Choose the column at a place, unless the click is on the window."""
         if self._grabbed is None:
             super().click(place)

@@ -25,7 +25,6 @@ class MeasureCursors(QObject):
         """The columns of A and B; empty while nothing is measured."""
 
     def switch(self, on: bool, first: float, last: float) -> None:
-        """Show the cursors within a range of columns, or hide them."""
         self.columns = [first + part * (last - first) for part in _START] if on else []
         self.changed.emit()
 
@@ -35,7 +34,6 @@ class MeasureCursors(QObject):
             self.changed.emit()
 
     def near(self, column: float, reach: float) -> int | None:
-        """Return which cursor is within so many columns, the nearer one; None if none is."""
         found = [(abs(each - column), place) for place, each in enumerate(self.columns)]
         within = [pair for pair in found if pair[0] <= reach]
         return min(within)[1] if within else None

@@ -70,7 +70,6 @@ class StoryPane(Pane[StoryPart]):
             view.show_photo_profile(photo)
 
     def stop(self) -> None:
-        """Look for no further decoders."""
         self._plugins.stop()
 
     def _offer(self) -> None:

@@ -68,7 +68,6 @@ class ProfileRow(StoryRow):
 
     @property
     def levels(self) -> FloatArray | None:
-        """The simulated level of each column."""
         reading = self._reading
         if reading is None:
             return None
@@ -205,7 +204,6 @@ class ProfileRow(StoryRow):
         painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y))
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
-        """Write what the levels are, and their numbers."""
         painter.setPen(self.colour(QPalette.ColorRole.WindowText))
         flags = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         unit = QRectF(4, 3 + painter.fontMetrics().lineSpacing(), area.left(), self.height())
@@ -216,7 +214,6 @@ class ProfileRow(StoryRow):
             painter.drawText(place, flags, f"{level:g}")
 
     def draw_pointed(self, painter: QPainter, column: int, area: QRectF) -> None:
-        """Mark the level of the column that is read out."""
         levels = self.levels
         if levels is None or not 0 <= column < len(levels):
             return

@@ -63,7 +63,6 @@ class Scale(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw ticks, numbers, and the name at the left."""
         painter = QPainter(self)
         text = self.palette().color(QPalette.ColorRole.WindowText)
         painter.setPen(text)

@@ -117,7 +117,6 @@ class StoryRow(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the kept picture and the crosshair over it."""
         ratio = self.devicePixelRatioF()
         if self._drawn is None or not self._is_drawn or self._drawn.devicePixelRatioF() != ratio:
             self._drawn, self._is_drawn = self._picture(ratio), True
@@ -232,7 +231,6 @@ class StoryRow(QWidget):
             self._press = self._last = event.position()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
-        """Move the columns with the mouse while a button is pressed, else point at one."""
         place = event.position()
         inside = self.plot_area().contains(place)
         if self._held is not None:
@@ -244,7 +242,6 @@ class StoryRow(QWidget):
         self.crosshair.point_at(self.column_at(place.x()) if inside else None)
 
     def drag_to(self, place: QPointF) -> None:
-        """Follow the mouse with a button pressed."""
         if self._last is not None and self.moved_from_press(place):
             columns = self.column_at(self._last.x()) - self.column_at(place.x())
             self.axis.pan(columns)

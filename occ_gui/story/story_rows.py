@@ -153,7 +153,6 @@ class StoryRows(QWidget):
         self._read_out()
 
     def choose_picture(self, whose: str) -> None:
-        """Show stripes and profile of the camera's picture or of the receiver's."""
         self._whose = whose
         self.profile.choose_picture(whose)
         if self._picture is not None:
@@ -225,7 +224,6 @@ class StoryRows(QWidget):
             self.values_changed.emit(in_words(values, self._reading.scene))
 
     def switch_measuring(self, on: bool) -> None:
-        """Show two cursors in what is in view, or hide them."""
         self.crosshair.cursors.switch(on, self.axis.first, self.axis.last)
 
     def _measure(self) -> None:

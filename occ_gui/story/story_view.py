@@ -157,7 +157,6 @@ class StoryView(QWidget):
         return self._pages.currentWidget() is self._picture
 
     def show_whole_picture(self, shown: bool) -> None:
-        """Show the whole picture in place of the rows, or the rows again."""
         self.whole.setChecked(shown)
         self._pages.setCurrentWidget(self._picture if shown else self.rows)
         self._size_by_page()
@@ -176,7 +175,6 @@ class StoryView(QWidget):
         self._show_verdicts()
 
     def show_photo_verdict(self, about: bool) -> None:
-        """Show above the whole picture the verdict on the photo, or that on the simulation."""
         self._is_about_photo = about
         self._show_verdicts()
 
@@ -234,11 +232,9 @@ class StoryView(QWidget):
         button.setToolTip(tip)
 
     def fit(self) -> None:
-        """Return to the range of columns that was chosen last."""
         self.choose_range(self.rows.range)
 
     def switch_measuring(self, on: bool) -> None:
-        """Show two cursors to measure between, or hide them."""
         if on:
             self.show_whole_picture(False)
         self.rows.switch_measuring(on)

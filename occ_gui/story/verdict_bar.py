@@ -52,7 +52,6 @@ class VerdictBar(StateBar):
         self._write()
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the results are of an earlier scene; they are not the present verdict."""
         if outdated != self._is_outdated:
             self._is_outdated = outdated
             self._write()
@@ -72,7 +71,6 @@ class VerdictBar(StateBar):
         self._write()
 
     def end_failure(self) -> None:
-        """Wait for the picture of another scene."""
         if self._failure:
             self._failure = ""
             self._write()
@@ -83,7 +81,6 @@ class VerdictBar(StateBar):
         self._write()
 
     def name_simulation(self, named: bool) -> None:
-        """Say in the title that the verdict is on the simulation, where there is a photo, too."""
         if named != self._is_named:
             self._is_named = named
             self._write()

@@ -52,7 +52,6 @@ class TransmitterController(Service):
         store.changed.connect(self._follow)
 
     def show(self) -> None:
-        """Open the dialog, or bring it to the front."""
         if self.dialog is None:
             titles = {name: board.title for name, board in BOARDS.items()}
             self.dialog = TransmitterDialog(titles, self._window)
@@ -109,7 +108,6 @@ class TransmitterController(Service):
             self.save(Path(folder))
 
     def save(self, parent: Path) -> None:
-        """Write the files into a new folder."""
         if self._sent is not None:
             self._say("Writing…")
             self.saving.ask(SaveJob(self._sent, parent))

@@ -91,7 +91,6 @@ class TransmitterDialog(QDialog):
         self._say_of_wiring("")
 
     def show_wiring(self, png: bytes, text: str) -> None:
-        """Show the figure of the wiring; the text is what it says."""
         image = QImage.fromData(png)
         image.setDevicePixelRatio(
             max(image.width() / _FIGURE.width(), image.height() / _FIGURE.height())
@@ -100,7 +99,6 @@ class TransmitterDialog(QDialog):
         self.wiring.setAccessibleDescription(text)
 
     def show_drawing_failure(self, sentence: str) -> None:
-        """Say why there is no figure."""
         self._say_of_wiring(sentence)
 
     def show_note(self, text: str) -> None:

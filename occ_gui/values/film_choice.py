@@ -37,7 +37,6 @@ class FilmChoice:
 
     @property
     def source(self) -> FilmSource | None:
-        """What is to be opened; None where no film is."""
         return None if self.path is None else FilmSource(self.path, self.axis, self.opening)
 
     def opened(self, path: Path | None, axis: str = SCAN_AXES[0]) -> Self:

@@ -92,7 +92,6 @@ class PhotoChoice:
 
     @property
     def source(self) -> PhotoSource | None:
-        """What is to be read; None where no photo is open."""
         return None if self.path is None else PhotoSource(self.path, self.reading, self.opening)
 
     @property
@@ -128,7 +127,6 @@ class PhotoChoice:
         return replace(self, certain=certain, forgotten=forgotten)
 
     def with_part(self, frame: PhotoFrame, part: "Lamp | Region | None") -> Self:
-        """Match this part of a photo; None for all of it."""
         former = (frame, PhotoFrame(frame.path))
         parts = {known: each for known, each in self.parts.items() if known not in former}
         return replace(self, parts=parts if part is None else {**parts, frame: part})

@@ -98,7 +98,6 @@ class CameraSource:
         self._capture, self._began = capture, monotonic()
 
     def read(self) -> LivePicture | None:
-        """Wait for the next picture; None where the camera gives none any more."""
         if self._capture is None:
             return None
         is_there, pixels = self._capture.read()

@@ -90,7 +90,6 @@ class DataView(QWidget):
             self._arrange()
 
     def _arrange(self) -> None:
-        """Show the facts in their order, and only those that there are."""
         for label, value in self.labels.items():
             for part in (self._names[label], value):
                 self._grid.removeWidget(part)

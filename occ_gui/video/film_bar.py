@@ -100,7 +100,6 @@ class FilmBar(QWidget):
         )
 
     def list_cameras(self, devices: Sequence[CameraDevice] | None) -> None:
-        """Offer these cameras; None while they are looked for."""
         self.cameras.clear()
         for device in devices or ():
             action = self.cameras.addAction(in_menu(device.name))

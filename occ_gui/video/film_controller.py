@@ -87,7 +87,6 @@ class FilmController(QObject):
 
     @property
     def rate(self) -> float | None:
-        """Frames a second."""
         return self.choice.recording.frame_rate if self.film is None else self.film.frame_rate
 
     def simulated(self) -> Video:
@@ -133,7 +132,6 @@ class FilmController(QObject):
         self.failed.emit(sentence)
 
     def put(self, film: Video | None, is_live: bool = False) -> None:
-        """Show this film from its first frame, or only the simulated one."""
         self.film, self.is_live, self.last_live = film, is_live, None
         self.player.set_film(0 if is_live else self.count, self.rate)
         self.opened.emit(film)

@@ -58,7 +58,6 @@ class FilmSource:
         self._left, self._began = iter(self._frames), monotonic()
 
     def read(self) -> LivePicture | None:
-        """Return the next frame at its time; None after the last."""
         frame = None if self._left is None else next(self._left, None)
         if frame is None:
             return None
@@ -67,7 +66,6 @@ class FilmSource:
         return LivePicture(frame.time, frame.image)
 
     def lock_exposure(self, on: bool) -> bool:
-        """Note whether the exposure is to be held: that of a film always is."""
         self.is_locked = on
         return True
 

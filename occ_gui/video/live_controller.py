@@ -124,7 +124,6 @@ class LiveController(QObject):
             )
 
     def release(self) -> None:
-        """Release the camera, and wait until it is."""
         self.stop_filming()
         if self._last is not None:
             self._last.join()

@@ -49,7 +49,6 @@ class LiveVideo(Video):
 
     @property
     def simulated(self) -> bool:
-        """Whether its frames are simulated: never."""
         return False
 
     @property

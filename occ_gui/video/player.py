@@ -53,7 +53,6 @@ class FilmPlayer(QObject):
             self.play()
 
     def play(self) -> None:
-        """Play from the frame that is shown; from the first one at the end of the film."""
         if self.count < 2 or self.is_playing:
             return
         if self.index >= self.count - 1:
@@ -69,7 +68,6 @@ class FilmPlayer(QObject):
             self.playing_changed.emit(False)
 
     def seek(self, index: int) -> None:
-        """Show another frame; a film that plays goes on from there."""
         index = min(max(index, 0), max(self.count - 1, 0))
         self._began_at = index
         self._clock.start()

@@ -40,7 +40,6 @@ class ReadingController(QObject):
 
     @property
     def scene(self) -> Scene | None:
-        """The scene that it was read for; None where nothing was read."""
         return None if self._request is None else self._request.scene
 
     def start(self, film: Video, scene: Scene, is_live: bool = False) -> None:
@@ -55,7 +54,6 @@ class ReadingController(QObject):
             self.changed.emit()
 
     def forget(self) -> None:
-        """Forget what was read: another film is open."""
         self.runner.cancel()
         self._request, self._is_done = None, False
         self.reading = FilmReading.nothing()

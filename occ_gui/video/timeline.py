@@ -131,7 +131,6 @@ class Timeline(QWidget):
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the kept marks, and the present frame over them."""
         ratio = self.devicePixelRatioF()
         if self._drawn is None or self._drawn.devicePixelRatioF() != ratio:
             self._drawn = self._picture(ratio)
@@ -240,7 +239,6 @@ class Timeline(QWidget):
         painter.drawPolygon(QPolygonF(points))
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Draw the marks anew in another width."""
         super().resizeEvent(event)
         self._drawn = None
 

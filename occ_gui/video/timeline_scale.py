@@ -31,7 +31,6 @@ class TimelineScale:
         return (time - self.first) / self.span if self.span > 0.0 else 0.0
 
     def time(self, share: float) -> float:
-        """Return the time at a share of the width."""
         return self.first + share * self.span
 
 

@@ -84,7 +84,6 @@ class VideoView(QWidget):
         self.timeline.show_packets(reading.packets)
 
     def show_outdated(self, outdated: bool) -> None:
-        """Show whether the reading is of an earlier scene."""
         for mark in self._outdated:
             mark.show_age(1.0 if outdated else 0.0, "read for an earlier scene")
 

@@ -145,7 +145,6 @@ class VideoWiring(Pane[FilmChoice]):
             self.status_message.emit(str(error))
 
     def stop(self) -> None:
-        """Stop all work in the background, and release the camera."""
         self.films.player.pause()
         self.live.release()
         super().stop()
@@ -164,7 +163,6 @@ class VideoWiring(Pane[FilmChoice]):
             self.readings.start(film, self._scenes.scene)
 
     def _take_rate(self, film: Video | None) -> None:
-        """Simulate as many frames a second as the film has."""
         if film is None or self.films.is_live:
             return
         form = self.view.form

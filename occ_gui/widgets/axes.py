@@ -57,7 +57,6 @@ class LogAxis(Axis):
     def tickValues(  # noqa: N802 - pyqtgraph's name
         self, low: float, high: float, size: float
     ) -> list[tuple[float, list[float]]]:
-        """Return the powers of ten whose numbers fit, and the ticks between them."""
         decades_a_pixel = (high - low) / max(size, 1.0)
         step = max(1, math.ceil(self._number_length * decades_a_pixel))
         edge = 0.4 * self._number_length * decades_a_pixel

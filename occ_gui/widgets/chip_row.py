@@ -109,7 +109,6 @@ class ChipRow(QWidget):
         self._place()
 
     def _place(self) -> None:
-        """Place the labels from the right, the last ones only where there is room for them."""
         widths = [label.sizeHint().width() for label in self._labels]
         fitting = len(widths)
         if sum(widths) + _GAP * (fitting - 1) > self.width():

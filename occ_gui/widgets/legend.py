@@ -42,7 +42,6 @@ class LineLegend(QWidget):
     def add_sample(
         self, key: str, draw: Drawing, size: QSize, text: str, meaning: str = ""
     ) -> None:
-        """Add an entry with a sample of its own; the meaning is its tooltip."""
         entry = QWidget()
         entry.setToolTip(meaning)
         layout = QHBoxLayout(entry)

@@ -91,7 +91,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph has no types
         self._show_name()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Show the name of the lower axis if the plot is high enough."""
         super().resizeEvent(event)
         if self._is_named and self.plotItem is not None:  # None once the plot is closed
             self._show_name()

@@ -63,7 +63,6 @@ class StateBar(QWidget):
         return QSize(400, self.minimumSizeHint().height())
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Return the smallest size: the texts are shortened, the chips counted."""
         return QSize(_ICON + 4 * _PADDING, self._heights()[0] + self._heights()[1] + 2 * _MARGIN)
 
     def _heights(self) -> tuple[int, int]:
@@ -103,7 +102,6 @@ class StateBar(QWidget):
         self.sentence.setVisible(self._lines == 1)
 
     def _take_lines(self, text: str, room: int) -> None:
-        """Take as many lines as a text needs, or one, where it is shortened, with a tooltip."""
         lines = self._lines_of(text, room)
         lines = lines if lines <= self.MOST_LINES else 1
         if lines != self._lines:
@@ -153,7 +151,6 @@ class StateBar(QWidget):
         self.changed.emit()
 
     def offer_step(self, label: str) -> None:
-        """Offer a step that helps, by a button with this label; none where it is empty."""
         if self.step.text() == label and self.step.isHidden() == (not label):
             return
         self.step.setText(label)

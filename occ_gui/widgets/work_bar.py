@@ -34,7 +34,6 @@ class WorkBar(QWidget):
         self.hide()
 
     def begin(self) -> None:
-        """Show the bar, unless the work ends at once."""
         self.progress.setValue(0)
         if self.isHidden():
             self._patience.start()

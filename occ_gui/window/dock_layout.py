@@ -29,7 +29,6 @@ class DockLayout(QObject):
         self._modes.switch(recall(_MODE))
 
     def keep(self) -> None:
-        """Store position, size, mode and layouts."""
         if not self._modes.is_shown:
             return
         self._preferences.keep(_GEOMETRY, _text(self._window.saveGeometry()))

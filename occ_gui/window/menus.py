@@ -260,7 +260,6 @@ class Menus(QObject):
                 action.setChecked(True)
 
     def show_photo_open(self, is_open: bool) -> None:
-        """Enable the entries that need a photo while one is open."""
         for name in _WITH_PHOTO:
             if name not in self.actions:  # a figure, which is added later
                 continue
@@ -283,7 +282,6 @@ class Menus(QObject):
             self.recent.addAction("&Clear this list").triggered.connect(clear)
 
     def show_samples(self, files: Iterable[Path], open_file: Callable[[Path], None]) -> None:
-        """List the photos that come with the program."""
         self.samples.clear()
         for path in files:
             text = f"{words_of(path.stem)} (simulated)"

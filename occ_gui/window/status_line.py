@@ -56,7 +56,6 @@ class StatusLine(QStatusBar):
         self.showMessage("")
 
     def currentMessage(self) -> str:  # noqa: N802 - Qt's name
-        """Return the message; empty if there is none."""
         return self._message
 
     def leave_to(self, *labels: QLabel) -> None:
@@ -66,7 +65,6 @@ class StatusLine(QStatusBar):
             label.installEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        """Look again whether the message is shown elsewhere."""
         if self._message and event.type() in _SEEN_ANEW:
             self._show_sentence()
         return super().eventFilter(watched, event)
@@ -118,7 +116,6 @@ class _Readout(ElidedLabel):
         self.setContentsMargins(_GAP, 0, 0, 0)
 
     def set_full_text(self, text: str) -> None:
-        """Show a text in one line; an empty label is hidden."""
         super().set_full_text(text)
         self.setVisible(bool(text))
         self.updateGeometry()

@@ -60,7 +60,6 @@ class ModeBar(QTabBar):
         return QSize(max(hint.width(), self._whole), hint.height())
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        """Leave the icons out where the words have no room beside them."""
         super().resizeEvent(event)
         self._fit()
 

@@ -85,7 +85,6 @@ def _refuse_wrong(
 
 
 def _parts(hint: Any) -> tuple[Any, ...]:
-    """Return the kinds of which an argument may be one."""
     return get_args(hint) if get_origin(hint) in {Union, types.UnionType} else (hint,)
 
 
@@ -107,7 +106,6 @@ def _fits(value: Any, hint: Any) -> bool:
 
 
 def _is_one(value: Any, hint: Any) -> bool:
-    """Whether a value is of one kind."""
     if get_origin(hint) is Literal:
         return isinstance(value, str)
     kind = _class_of(hint)
@@ -123,7 +121,6 @@ def _is_one(value: Any, hint: Any) -> bool:
 
 
 def _is_array(value: Any) -> bool:
-    """Whether a value is an array of numbers, or as good as one."""
     try:
         return np.asarray(value).dtype.kind in "biuf" and np.ndim(value) > 0
     except ValueError:  # rows of several lengths

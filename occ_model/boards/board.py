@@ -33,15 +33,12 @@ class Board:
 
     @property
     def most_cycles(self) -> int:
-        """Most cycles of the clock for a chip."""
         return self.prescalers[-1] * self.largest_count
 
     @property
     def highest_frequency(self) -> Fraction:
-        """Highest switching frequency in Hz."""
         return Fraction(self.clock, self.least_cycles)
 
     @property
     def lowest_frequency(self) -> Fraction:
-        """Lowest switching frequency in Hz."""
         return Fraction(self.clock, self.most_cycles)

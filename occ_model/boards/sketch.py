@@ -23,7 +23,6 @@ _SKETCHES: dict[str, Callable[[Transmission], str]] = {
 
 
 def board_named(name: str) -> Board:
-    """Find a board."""
     check_choice("board", name, tuple(BOARDS))
     return BOARDS[name]
 

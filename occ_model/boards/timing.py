@@ -17,8 +17,6 @@ from occ_model.scene.parameters import quantity
 
 @dataclass(frozen=True, slots=True)
 class ChipTiming:
-    """The timer's setting for a chip."""
-
     clock: int  # Frequency of the board's clock in Hz
     prescaler: int
     count: int  # How many divided cycles a chip lasts
@@ -26,7 +24,6 @@ class ChipTiming:
 
     @property
     def cycles(self) -> int:
-        """Cycles of the clock for a chip."""
         return self.prescaler * self.count
 
     @property
@@ -36,7 +33,6 @@ class ChipTiming:
 
     @property
     def period(self) -> Fraction:
-        """The switching period that is sent, in s."""
         return Fraction(self.cycles, self.clock)
 
     @property

@@ -23,8 +23,6 @@ LED_CURRENT = 0.010
 
 @dataclass(frozen=True, slots=True)
 class Wiring:
-    """The circuit's values."""
-
     # In ohm: limits the current that charges the MOSFET's gate to what the pin may give
     gate_resistor: int
     pull_down: int  # In ohm, from the gate to ground

@@ -48,7 +48,6 @@ def _divided(columns: slice, fraction: Pixels) -> list[CoveredPart]:
 
 
 def _joined(parts: list[CoveredPart]) -> list[CoveredPart]:
-    """Join neighbouring parts that are covered alike."""
     joined: list[CoveredPart] = []
     for part in parts:
         before = joined[-1] if joined else part

@@ -20,8 +20,6 @@ class Gain:
     def remembered(
         cls, stage: str, depends_on: tuple[Hashable, ...], at: Callable[[FloatArray, slice], Pixels]
     ) -> Self:
-        """Return a gain that is remembered for all pictures of what it depends on."""
-
         def recalled(rows: FloatArray, columns: slice) -> Pixels:
             place = (rows[0], rows[-1], len(rows), columns.start, columns.stop)
             return MEMORY.recall((stage, *depends_on, *place), lambda: at(rows, columns), _itself)

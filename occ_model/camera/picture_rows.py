@@ -48,8 +48,6 @@ class Rim:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rows:
-    """Some rows of a picture."""
-
     place: range
     # Shape (nodes, columns): mean pixel values before saturation at the nodes; one row where all
     # rows are alike
@@ -100,8 +98,6 @@ class Rows:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LitPanel:
-    """A panel in a picture."""
-
     optics: Optics
     values: FloatArray  # Shape (columns,): its pixel value in each column before saturation
 
@@ -136,7 +132,6 @@ class _Lit:
     fraction: Pixels | None
 
     def within(self, columns: slice) -> "_Lit":
-        """Return the part in some columns."""
         part = slice(max(self.columns.start, columns.start), min(self.columns.stop, columns.stop))
         first = self.columns.start
         fraction = (

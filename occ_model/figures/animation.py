@@ -135,7 +135,6 @@ class _Drawing:
         lower.legend(loc="upper right", fontsize=8, ncols=2, frameon=False)
 
     def draw(self, frame: Frame, decoder: str) -> ByteArray:
-        """Draw a frame of the animation."""
         result = decode(frame.image, frame.scene, decoder=decoder)
         first = max(0, int(frame.corners[:, 0].min()))
         last = min(frame.scene.camera.columns, first + _SHOWN_COLUMNS)

@@ -68,7 +68,6 @@ def figure_format(path: Path) -> str:
 
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
-    """Encode a figure with its provenance inside."""
     title, text = provenance.title, provenance.text()
     metadata: dict[str, dict[str, str | None]] = {
         "pdf": {"Title": title, "Subject": text, "CreationDate": None},
@@ -92,8 +91,6 @@ def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Drawing:
-    """A figure and the numbers in it."""
-
     name: str  # The file's name without ending
     title: str
     draw: Callable[[], Figure]  # Function that draws the figure, to be called within house_style
@@ -118,7 +115,6 @@ class Drawing:
 
 
 def files_of(drawing: Drawing, folder: Path) -> list[Path]:
-    """Return the files of a drawing in a folder, one of each format."""
     return [folder / f"{drawing.name}{ending}" for ending in ENDINGS]
 
 

@@ -37,8 +37,6 @@ def write_films_figure(folder: Path, request: FilmRequest, points: Sequence[Film
 
 
 def films_drawing(points: Sequence[FilmPoint]) -> Drawing:
-    """Draw the points of a study."""
-
     def rows() -> Iterable[tuple[object, ...]]:
         for point in points:
             yield (

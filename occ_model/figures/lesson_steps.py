@@ -133,7 +133,6 @@ def match_lines(match: Match, photo: str) -> list[str]:
 
 
 def draw_profile(ax: Axes, scene: Scene) -> None:
-    """Draw the first columns of a scene's profile."""
     shown = min(_SHOWN_COLUMNS, scene.camera.columns)
     ax.plot(column_profile(scene)[:shown], linewidth=0.9, **SIMULATION)  # type: ignore[arg-type]
     ax.set_xlim(0, shown)

@@ -36,7 +36,6 @@ class PhotoLayer:
 
     @property
     def words(self) -> str:
-        """How the photo is shown, for a title."""
         if self.from_row is None:
             return f"photo over it, opacity {100 * self.opacity:.0f} %"
         return f"photo from row {self.from_row:.0f} on"
@@ -54,7 +53,6 @@ class Difference:
 
     @property
     def words(self) -> str:
-        """What is shown, for a title."""
         return f"its difference from the photo × {self.gain}, black where equal"  # noqa: RUF001
 
     def centres(self) -> tuple[FloatArray, FloatArray]:
@@ -67,7 +65,6 @@ class Difference:
         )
 
     def draw(self, ax: Axes) -> None:
-        """Draw it in axes of its own."""
         drawn = np.minimum(self.gain * self.levels, 255.0)
         ax.imshow(drawn, cmap="gray", vmin=0, vmax=255, extent=self.extent)
 

@@ -109,7 +109,6 @@ def _values(table: SweepTable, decoder: str, shown: Shown) -> FloatArray:
 
 
 def _intervals(table: SweepTable, decoder: str, shown: Shown) -> tuple[FloatArray, FloatArray]:
-    """Return the ends of the 95 % intervals of what is shown."""
     if shown == "rate":
         return table.intervals(decoder)
     bits, images = table.bits_a_second(decoder), table.request.settings.images

@@ -104,7 +104,6 @@ def _draw_panel(axes: Axes, board: Board, values: Wiring) -> None:
 
 
 def _draw_led(axes: Axes, board: Board, values: Wiring) -> None:
-    """Draw a single LED at the pin."""
     with _circuit(axes) as drawing:
         drawing.add(elements.Dot(open=True).label(board.pin, "right"))
         drawing.add(elements.RBox().down(2.6).label(f"{values.led_resistor} Ω", loc="bottom"))
@@ -114,7 +113,6 @@ def _draw_led(axes: Axes, board: Board, values: Wiring) -> None:
 
 @contextmanager
 def _circuit(axes: Axes) -> Iterator[Drawing]:
-    """Draw the elements that are added into axes."""
     drawing = Drawing(canvas=axes)
     drawing.config(fontsize=_TEXT, lw=1.2, font=rcParams["font.family"][0])
     yield drawing

@@ -13,8 +13,6 @@ from occ_model.errors import VideoError, one_line
 
 @dataclass(frozen=True, slots=True)
 class Container:
-    """A kind of file that holds a film."""
-
     name: str
     reader: Literal["opencv", "pillow"]  # What reads it: OpenCV with its FFmpeg, or Pillow
     # The frames' times are whole multiples of this, in seconds; None where each file has a step of

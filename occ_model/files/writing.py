@@ -164,7 +164,6 @@ def _encoded(path: Path, image: ByteArray, description: str) -> bytes:
 
 
 def _notes(format_name: str, description: str) -> dict[str, Any]:
-    """Return the options that write a description into a file of a format."""
     if format_name == "PNG":
         from PIL.PngImagePlugin import PngInfo
 
@@ -181,7 +180,6 @@ def _notes(format_name: str, description: str) -> dict[str, Any]:
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder, and those above it, where there is none."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:

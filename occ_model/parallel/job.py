@@ -36,8 +36,6 @@ class WorkersLostError(OccError):
 
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A call that a worker makes."""
-
     # A function of some module. It takes a Heartbeat after the arguments and must not need Qt.
     function: Callable[..., Any]
     arguments: tuple[Any, ...]
@@ -58,8 +56,6 @@ class JobResult:
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Jobs that belong together."""
-
     rank: int  # The jobs of the stage with the lowest rank go first
     # The jobs, in the order in which they are begun. Each is asked for only when it is needed.
     jobs: Iterable[Job]

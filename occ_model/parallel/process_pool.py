@@ -69,7 +69,6 @@ class ProcessPool:
         self._first_runs[channel] = run
 
     def counted(self, counter: int) -> int:
-        """Return the number of heartbeats in a counter."""
         return int(self._counts[counter])
 
     def renew(self) -> None:
@@ -102,7 +101,6 @@ class _RecordingContext:
         return getattr(self._context, name)
 
     def Process(self, *args: Any, **kwargs: Any) -> Any:  # noqa: N802 - as in multiprocessing
-        """Make a process."""
         process = self._context.Process(*args, **kwargs)
         self.processes.append(process)
         return process
@@ -120,6 +118,5 @@ def _begin(first_runs: Any, counts: Any, niceness: int) -> None:
 
 
 def _work(job: Job, channel: int, run: int) -> JobResult:
-    """Do a job in a worker."""
     heartbeat = counting_heartbeat(job, channel, run, _shared["first_runs"], _shared["counts"])
     return do_job_apart(job, heartbeat)

@@ -19,7 +19,6 @@ class StageProgress:
 
     @property
     def has_waiting(self) -> bool:
-        """Whether a job waits for a worker."""
         if not self._waiting:
             job = next(self._coming, None)
             if job is not None:
@@ -28,7 +27,6 @@ class StageProgress:
 
     @property
     def is_done(self) -> bool:
-        """Whether all jobs have a result."""
         return not (self.has_waiting or self.in_flight)
 
     def take(self) -> Job:
@@ -44,8 +42,6 @@ class StageProgress:
 
 @dataclass(eq=False, slots=True)
 class Run:
-    """Work on one request of a channel."""
-
     channel: int
     number: int  # The number of the run; later runs of a channel have higher ones
     stages: Stages

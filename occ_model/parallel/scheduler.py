@@ -98,7 +98,6 @@ class Scheduler:
         return True
 
     def end_workers(self) -> None:
-        """Abandon all work and end the workers."""
         for future in self._in_flight:
             future.cancel()
         self._in_flight.clear()

@@ -21,7 +21,6 @@ class WorkerThread:
         self._executor = ThreadPoolExecutor(1, "work")
 
     def submit(self, job: Job, channel: int, run: int) -> "Future[JobResult]":
-        """Queue a job."""
         heartbeat = counting_heartbeat(job, channel, run, self._first_runs, self._counts)
         return self._executor.submit(do_job, job, heartbeat)
 
@@ -30,7 +29,6 @@ class WorkerThread:
         self._first_runs[channel] = run
 
     def counted(self, counter: int) -> int:
-        """Return the number of heartbeats in a counter."""
         return self._counts[counter]
 
     def renew(self) -> None:

@@ -53,7 +53,6 @@ QUICK_DECODERS = tuple(name for name, decoder in DECODERS.items() if decoder.is_
 
 
 def decoder_named(name: str) -> Decoder:
-    """Find a decoder."""
     if isinstance(name, str):
         if name in DECODERS:
             return DECODERS[name]

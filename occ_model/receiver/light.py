@@ -25,8 +25,6 @@ PER_CHIP = 16
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Light:
-    """A signal in light."""
-
     # Shape (columns,): proportional to the light of each column, up to a constant
     values: FloatArray
     # Shape (columns,): columns of the largest level, whose light is that or more

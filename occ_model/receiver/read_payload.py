@@ -29,7 +29,6 @@ def read_payload(result: DecodeResult, scene: Scene) -> DecodeResult:
 
 
 def with_bits(result: DecodeResult, framed: Framed, scene: Scene) -> DecodeResult:
-    """Enter what a framing has read into a result."""
     payload = scene.transmitter.payload
     bits = framed.bits.tolist()
     return replace(

@@ -46,7 +46,6 @@ class BenchRequest:
 
     @property
     def points(self) -> tuple[BenchPlace, ...]:
-        """All places to measure at."""
         return tuple(
             (scheme, axis, exposure, ratio)
             for scheme in self.schemes
@@ -70,7 +69,6 @@ class BenchPoint:
 
     @property
     def place(self) -> float:
-        """The point's coordinate on its axis."""
         return self.exposure if self.axis == "exposure" else self.decibels
 
     @property

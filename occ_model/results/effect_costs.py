@@ -52,7 +52,6 @@ class TimeShares:
 
     @property
     def included(self) -> frozenset[str]:
-        """The effects of the picture."""
         return frozenset((*self.effects, *self.together))
 
     @property

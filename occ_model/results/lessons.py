@@ -51,7 +51,6 @@ class Step:
 
     @property
     def asked(self) -> Scene:
-        """The scene of the question and the explanation."""
         return self.scene if self.check is None else self.check.scene
 
     def judged_at(self, shown: Scene) -> Scene:

@@ -94,7 +94,6 @@ class CombinedEstimate:
 
     @property
     def degrees_of_freedom(self) -> int:
-        """Degrees of freedom of chi-square."""
         return self.count - 1
 
     @property

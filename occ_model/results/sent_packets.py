@@ -88,7 +88,6 @@ class SentPackets(Sequence[PacketReading]):
 
     @classmethod
     def listed(cls, packets: Sequence[PacketReading], duration: float = 0.0) -> "SentPackets":
-        """Return packets all of which are listed."""
         return cls((FilmPart(0.0, duration, len(packets)),), tuple(packets))
 
     @cached_property
@@ -106,7 +105,6 @@ class SentPackets(Sequence[PacketReading]):
         return list(accumulate((part.duration for part in self.parts), initial=0.0))
 
     def __len__(self) -> int:
-        """Return how many packets were sent."""
         return self._firsts[-1]
 
     @overload
@@ -116,7 +114,6 @@ class SentPackets(Sequence[PacketReading]):
     def __getitem__(self, number: slice) -> tuple[PacketReading, ...]: ...
 
     def __getitem__(self, number: int | slice) -> PacketReading | tuple[PacketReading, ...]:
-        """Return one packet, or several."""
         if isinstance(number, slice):
             return tuple(self[one] for one in range(len(self))[number])
         number = range(len(self))[number]
@@ -136,7 +133,6 @@ class SentPackets(Sequence[PacketReading]):
         )
 
     def __iter__(self) -> Iterator[PacketReading]:
-        """Yield all packets."""
         return (self[number] for number in range(len(self)))
 
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:

@@ -29,7 +29,6 @@ class Equation:
 
     @property
     def parameters(self) -> frozenset[str]:
-        """All parameters that it depends on."""
         return frozenset(name for term in self.numbers for name in term.parameters)
 
 
@@ -88,7 +87,6 @@ class LightCurve:
         return int(np.searchsorted(self.edges, column, side="right")) - 1
 
     def light_at(self, column: float) -> float:
-        """Return the light at a column within the curve, from it on where it jumps there."""
         after = int(np.searchsorted(self.columns, column, side="right"))
         after = min(max(after, 1), len(self.columns) - 1)
         columns, light = self.columns[after - 1 : after + 1], self.light[after - 1 : after + 1]

@@ -312,7 +312,6 @@ class _Line:
 
     @property
     def variance(self) -> float:
-        """Of a point about the line."""
         return float(self.off @ self.off) / (len(self.x) - 2)
 
     def sums_of_blocks(self) -> tuple[float, float]:

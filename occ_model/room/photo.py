@@ -21,8 +21,6 @@ _SAME_SHAPE = 0.01
 
 @dataclass(frozen=True, eq=False, slots=True)
 class RoomPhoto:
-    """What a photo says of its room."""
-
     room: Room  # The room as it was read: its camera has the photo's size and settings
     # Shape (rows, columns): the photo as it was read: the columns are in the order of their
     # exposure
@@ -60,7 +58,6 @@ def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None)
 
 
 def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, list[str]]:
-    """Return the scene with the photo's size and settings, and what is assumed of them."""
     camera, (rows, columns) = scene.camera, image.shape
     readout, scaled = camera.readout_time, ""
     is_scaled = math.isclose(rows / columns, camera.rows / camera.columns, rel_tol=_SAME_SHAPE)

@@ -78,7 +78,6 @@ class LampEdges:
     def of(
         cls, measured: Sequence[tuple[RoomLamp, Sequence[Edge]]], room: Room, focal_share: float
     ) -> Self:
-        """Return the edges of lamps that were measured."""
         edges = [edge for _, own in measured for edge in own]
         return cls(
             np.array([room_outline(lamp) for lamp, _ in measured]),
@@ -90,7 +89,6 @@ class LampEdges:
         )
 
     def without(self, edge: int) -> "LampEdges":
-        """Return all but one of the edges."""
         kept = np.arange(len(self.lamp)) != edge
         return replace(
             self, lamp=self.lamp[kept], points=self.points[kept], whitening=self.whitening[kept]

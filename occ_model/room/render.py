@@ -36,8 +36,6 @@ from occ_model.simulation.stage_timer import StageTimer
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ShownLamp:
-    """A lamp in a picture."""
-
     lamp: RoomLamp
     # Shape (corners, 2): its outline in the picture, (column, row) of each corner
     outline: FloatArray

@@ -27,15 +27,12 @@ _MAX_LENS_SHIFT = 0.15
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampView:
-    """A lamp as the camera sees it."""
-
     lamp: RoomLamp
     scene: Scene  # The scene whose panel is the lamp
     view: PaperView  # The paper's view of that scene, with the lamp's outline as its corners
 
 
 def rotation(place: Place | RoomLamp) -> FloatArray:
-    """Return the rotation of a camera or lamp in the room."""
     return rotation_of(Pose(yaw=place.yaw, pitch=place.pitch, roll=place.roll))
 
 

@@ -61,7 +61,6 @@ class Quantity(Declaration):
 
     @property
     def allowed(self) -> str:
-        """The allowed range in words."""
         if self.high == math.inf:
             return f"from {self._limit(self.low)}"
         return f"{self._limit(self.low)} to {self._limit(self.high)}"
@@ -121,7 +120,6 @@ class Quantity(Declaration):
         return value
 
     def _offers(self, value: float) -> bool:
-        """Return whether a value is on the slider."""
         low, high = self.slider
         return low <= value <= high
 
@@ -159,7 +157,6 @@ class Count(Declaration):
 
     @property
     def allowed(self) -> str:
-        """The allowed range in words."""
         return f"a whole number from {self.low} to {self.high}"
 
     def check(self, value: object) -> int:
@@ -181,7 +178,6 @@ class Count(Declaration):
         return self.check(number)
 
     def format(self, value: int) -> str:
-        """Write a value."""
         return str(value)
 
 
@@ -194,7 +190,6 @@ class Choice(Declaration):
 
     @property
     def allowed(self) -> str:
-        """The allowed words."""
         return ", ".join(self.choices)
 
     def check(self, value: object) -> str:
@@ -204,11 +199,9 @@ class Choice(Declaration):
         return value
 
     def parse(self, text: str) -> str:
-        """Read one of the words."""
         return self.check(text.strip())
 
     def format(self, value: str) -> str:
-        """Write a value."""
         return value
 
 
@@ -224,7 +217,6 @@ class OpenChoice(Choice):
 
     @property
     def allowed(self) -> str:
-        """The built-in words."""
         return f"{', '.join(self.choices)}, or a plug-in's name"
 
     def all_choices(self) -> tuple[str, ...]:
@@ -248,7 +240,6 @@ class Payload(Declaration):
 
     @property
     def allowed(self) -> str:
-        """What is allowed, in words."""
         return f"nothing, or {PAYLOADS}"
 
     def check(self, value: object) -> str:
@@ -259,7 +250,6 @@ class Payload(Declaration):
             raise self.refuse(str(problem), self.allowed) from None
 
     def parse(self, text: str) -> str:
-        """Read a payload."""
         return self.check(text)
 
     def format(self, value: str) -> str:
@@ -278,7 +268,6 @@ class ChipPattern(Declaration):
 
     @property
     def allowed(self) -> str:
-        """What is allowed, in words."""
         return f"nothing, or up to {self.most} characters 0 and 1"
 
     def check(self, value: object) -> str:
@@ -294,7 +283,6 @@ class ChipPattern(Declaration):
         return self.check("".join(text.split()))
 
     def format(self, value: str) -> str:
-        """Write a value."""
         return value
 
 

@@ -38,7 +38,6 @@ def preset_from(name: str, text: str) -> Preset:
 
 @lru_cache(maxsize=64)
 def package_preset(name: str) -> Preset:
-    """Load a preset of the package."""
     return _put_together(name, _package_layers(name))
 
 

@@ -86,7 +86,6 @@ def load_preset(name: str) -> Scene:
 
 
 def preset_named(name: str) -> Preset:
-    """Load a preset with the notes on its values."""
     if isinstance(name, str):
         if name in _built_in():
             return package_preset(name)

@@ -53,7 +53,6 @@ class Provenance:
         object.__setattr__(self, "date", printable(self.date))
 
     def lines(self) -> list[str]:
-        """Write the provenance as lines of text."""
         lines = [self.title, f"occ_model {__version__}"]
         if self.date:
             lines.append(f"date {self.date}")
@@ -65,7 +64,6 @@ class Provenance:
         return lines
 
     def text(self) -> str:
-        """Write the provenance as one text."""
         return "\n".join(self.lines())
 
 
@@ -150,8 +148,6 @@ def _of_pdf(path: Path) -> str:
 
 
 def _literal_text(literal: bytes) -> str:
-    """Read a PDF's literal string."""
-
     def plain(match: re.Match[bytes]) -> bytes:
         code = match[1]
         if code.isdigit():

@@ -243,7 +243,6 @@ class Recording:
 
 
 def _in_toml(value: object) -> str:
-    """Write a value in one line."""
     if isinstance(value, dict):
         return "{" + ", ".join(f"{name} = {_in_toml(part)}" for name, part in value.items()) + "}"
     if isinstance(value, list):
@@ -252,7 +251,6 @@ def _in_toml(value: object) -> str:
 
 
 def _checked_path(path: object) -> tuple[Waypoint, ...]:
-    """Return waypoints as a tuple of floats, or refuse them."""
     if not isinstance(path, Sequence) or not all(isinstance(point, Waypoint) for point in path):
         raise ParameterError.of("path", shown(path), "Waypoints, in the order of time")
     points = tuple(_checked_waypoint(point) for point in path)

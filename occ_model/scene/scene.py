@@ -118,13 +118,11 @@ _GROUP_OF = {name: group for group, names in GROUPS.items() for name in names}
 
 
 def group_of(name: str) -> str:
-    """Return the group of a scene that a parameter belongs to."""
     parameter_named(name)
     return _GROUP_OF[name]
 
 
 def check_scene(value: object) -> None:
-    """Refuse a value that is not a scene."""
     if not isinstance(value, Scene):
         raise ParameterError.of(
             "scene", shown(value), "a Scene, such as load_preset('phone-136us') gives"

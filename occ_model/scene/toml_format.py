@@ -45,7 +45,6 @@ def from_toml(text: str) -> dict[str, Any]:
 
 
 def table_of(value: object, name: str) -> Mapping[str, Any]:
-    """Return the table that a file has under a name."""
     if not isinstance(value, Mapping):
         raise SceneFileError(f"{name} must be a table: a line '[{name}]' and its keys.")
     return value

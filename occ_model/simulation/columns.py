@@ -30,7 +30,6 @@ class Columns:
 
 
 def expose_columns(view: PaperView, chosen: Plan, timer: StageTimer | None = None) -> Columns:
-    """Simulate the columns."""
     timer = timer or StageTimer()
     scene, light, panel = view.scene, view.light, view.values
     for effect in planned(chosen, LightEffect):

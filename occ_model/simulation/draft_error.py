@@ -30,8 +30,6 @@ _DEVIATIONS_ADDED = 5.0
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DraftedPanel:
-    """Where a draft shows the panel."""
-
     rows: range  # The rows of the picture that the draft shows
     # The columns of the panel's bounding rectangle, over which the error is averaged
     columns: slice
@@ -47,8 +45,6 @@ class DraftedPanel:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DraftedMeans:
-    """Column means of a draft."""
-
     # Shape (rows of the draft, columns): the draft: the camera's for the profile, the receiver's
     # for the signal
     image: ByteArray

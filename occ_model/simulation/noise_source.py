@@ -49,7 +49,6 @@ class ExactNoise:
         self._streams = [(effect, stream(effect, seed)) for effect in effects]
 
     def draw(self, rows: int) -> Drawn:
-        """Draw the numbers of the next rows."""
         shape = rows, self._columns
         drawn = [
             ((effect,), random.standard_normal(shape, dtype=np.float32))
@@ -72,7 +71,6 @@ class ReusedNoise:
         self._places = _plane(scene.camera.columns)
 
     def draw(self, rows: int) -> Drawn:
-        """Draw the places of the next rows."""
         chosen = self._random.integers(0, len(self._places), rows)
         return lambda: [(self._effects, self._places[chosen])]
 
@@ -88,8 +86,6 @@ def _plane(columns: int) -> Pixels:
 
 
 class NoiseMaker(Protocol):
-    """Makes the source of noise of one picture."""
-
     def __call__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int, /) -> Noise:
         """Return a source of these effects' noise together."""
 

@@ -117,7 +117,6 @@ class PixelExposure:
         timer.stage_ended(self._optics.cover_stage)
 
     def drafted_panel(self, rows: range) -> DraftedPanel:
-        """Return where a draft with these rows shows the panel."""
         columns = slice(self._region.first_column, self._region.last_column)
         size = (self._scene.camera.rows, self._scene.camera.columns)
         outline, blur = self._optics.outline, self._optics.blur
@@ -126,7 +125,6 @@ class PixelExposure:
         return DraftedPanel(rows, columns, outline, size, blur, usual, most)
 
     def rows(self, seed: int, source: NoiseSource | NoiseMaker) -> Iterator[ExposedRows]:
-        """Expose the rows from first to last."""
         spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
         for band in self._drawn(seed, source):
             yield self._exposed(band, spreads)
@@ -137,7 +135,6 @@ class PixelExposure:
         source: NoiseSource | NoiseMaker,
         heartbeat: Heartbeat = lambda: None,
     ) -> Iterator[_Band]:
-        """Draw the noise of band after band."""
         make = NOISE_MAKERS[source] if isinstance(source, str) else source
         noise = make(self._noises, self._scene, seed) if self._noises else None
         place = 0

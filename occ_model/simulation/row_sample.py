@@ -45,8 +45,6 @@ _TABLE_ENTRIES = 4096
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SampledPicture:
-    """The receiver's picture of some rows."""
-
     # Shape (rows, columns): the rows one below the other, those beside the panel repeated until
     # each part has as many as its fraction of the whole picture
     image: ByteArray

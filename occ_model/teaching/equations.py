@@ -42,7 +42,6 @@ def equations(scene: Scene) -> tuple[Equation, ...]:
 
 
 def _shown(scene: Scene, name: str) -> Term:
-    """Return a parameter's value as a term."""
     return Term(PARAMETERS[name].format(scene.value(name)), (name,))  # type: ignore[arg-type]
 
 

@@ -92,7 +92,6 @@ def begin_lessons_folder() -> Path:
 
 
 def read_lesson(path: Path) -> Lesson:
-    """Read a lesson's file."""
     return _lesson(path.stem, read_text(path))
 
 

@@ -18,8 +18,6 @@ _MAX_EXCEPTIONS = 0.05
 
 @dataclass(frozen=True, slots=True)
 class PacketField:
-    """A part of a packet."""
-
     # Its first chip, and the one after its last
     first: int
     last: int

@@ -30,12 +30,10 @@ class Registry(Generic[_Kind]):
         return open_choice(self.parameter).all_choices()
 
     def built_in(self) -> dict[str, _Kind]:
-        """Return the built-in objects by name."""
         return {name: self.named(name) for name in self.files}
 
     @cache  # noqa: B019 - the registries live as long as the program, and names are few
     def named(self, name: str) -> _Kind:
-        """Find an object."""
         open_choice(self.parameter).check(name)
         if name in self.files:
             module = import_module(f"{self.package}.{self.files[name]}")

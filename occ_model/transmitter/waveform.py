@@ -22,7 +22,6 @@ class Phases:
     fraction: FloatArray
 
     def first(self, count: int) -> "Phases":
-        """Return the first of them."""
         return Phases(self.chip[:count], self.fraction[:count])
 
 
@@ -63,7 +62,6 @@ class Windows:
 
     @classmethod
     def of(cls, starts: Phases, duration: Duration) -> Self:
-        """Return the windows of one duration that start at some phases."""
         before = 1.0 - starts.fraction
         crosses = duration.fraction >= before
         last = starts.chip + duration.chips + crosses

@@ -89,7 +89,6 @@ def _numbered(places: FloatArray, rising: BoolArray, step: float) -> FloatArray:
 
 
 def _regular_chips(columns: int, step: float, phase: float, exposure: float) -> ChipLattice:
-    """Return the chips that columns can show, all of them dark."""
     first = int(np.floor(phase))
     last = max(int(np.ceil(phase + step * (columns - 1) + exposure)), first + 1)
     return ChipLattice(step, phase, exposure, first, np.zeros(last - first, dtype=np.uint8))

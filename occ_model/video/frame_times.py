@@ -30,8 +30,6 @@ _MIN_INTERVAL = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """Frames that follow each other."""
-
     # The number of its first frame, and of the one after its last
     first: int
     end: int

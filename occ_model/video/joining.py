@@ -118,7 +118,6 @@ class Joined:
         return Place(best, is_confirmed=len(places) > 0 or _odds(by_chips, best) > _MIN_LOG_ODDS)
 
     def add(self, frame: FrameReading, place: int) -> None:
-        """Add what a frame says of its chips."""
         length = self._period.length
         ratios = np.clip(frame.ratios.astype(np.float64), -_MAX_FRAME_RATIO, _MAX_FRAME_RATIO)
         at = (place + np.arange(len(ratios))) % length

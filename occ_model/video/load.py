@@ -126,7 +126,6 @@ class VideoFile(Video):
             put_back(decoder)
 
     def __del__(self) -> None:
-        """Release the decoder."""
         with suppress(AttributeError):  # a film that could not be opened has none
             self.close()
 
@@ -295,7 +294,6 @@ class VideoFile(Video):
         return VideoFrame(index, stored.time - self._first_time, image, exposure)
 
     def _opened(self) -> tuple[DecoderProcess, OpenedFilm]:
-        """Take a decoder, and open the film from its start."""
         decoder = take_decoder()
         return decoder, self._open(decoder)
 

@@ -23,8 +23,6 @@ class PlacedFrame:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CountedPart:
-    """A part of a film with its chips counted."""
-
     frames: list[PlacedFrame]  # Its frames that are placed, in the order of time
     # When it begins by the film's clock, and how long it is, in seconds
     start: float

@@ -53,7 +53,6 @@ class SentPeriod:
 
     @cached_property
     def length(self) -> int:
-        """Chips of the period."""
         if self.pattern is not None:
             return len(self.pattern)
         assert self.scheme is not None  # noqa: S101 - it is no pattern
@@ -68,7 +67,6 @@ class SentPeriod:
 
     @property
     def part_length(self) -> int:
-        """Chips of a part."""
         return self.length // self.parts
 
     @cached_property
@@ -185,5 +183,4 @@ class SentPeriod:
 
 
 def period_of(scene: Scene) -> SentPeriod:
-    """Return the period of what a scene sends."""
     return SentPeriod(scene.transmitter)

@@ -34,7 +34,6 @@ _MIN_PHASE = 1e-5
 
 
 def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
-    """Fit a parabola to phases that are counted on, with jumps where there are any."""
     kept = np.ones(len(counted), dtype=bool)
     jumps: list[int] = []
     solution = _solve(phases, counted, kept, jumps)
@@ -56,8 +55,6 @@ def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Solution:
-    """A least-squares fit of the phases."""
-
     found: FloatArray
     covariance: FloatArray
     middle: float

@@ -24,7 +24,6 @@ class Phases:
     period: float  # Chips after which what is sent repeats
 
     def first(self, count: int) -> "Phases":
-        """Return the first frames."""
         part = slice(0, count)
         return replace(
             self,

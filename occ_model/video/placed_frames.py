@@ -81,11 +81,9 @@ class PlacedFrames:
 
     @property
     def fit(self) -> ClockFit | None:
-        """The likeliest fit of the clock."""
         return self._fits[0] if self._fits else None
 
     def reading(self, number: int) -> FrameReading:
-        """Return a frame's reading with its place."""
         reading, place = self.frames[number].reading, self._places[number]
         if place is not None:
             return replace(reading, place=place.chip)
@@ -137,14 +135,12 @@ class PlacedFrames:
     def _counted(
         self, fit: ClockFit, both: Sequence[tuple[TimedFrame, int]], period: int
     ) -> list[int]:
-        """Count the places of frames on over periods, by the clock."""
         start = fit.at_start(np.array([timed.reading.time for timed, _ in both]))
         inside = np.array([fit.step * timed.column - timed.middle for timed, _ in both])
         places = np.array([place for _, place in both], dtype=np.int64)
         return [int(first) for first in counted_on(places, start + inside, period)]
 
     def _place(self, number: int) -> bool:
-        """Place one frame, if it can be placed by now."""
         timed = self.frames[number]
         if not timed.is_read:
             return False
@@ -261,7 +257,6 @@ class PlacedFrames:
 
 
 def _fullest(times: FrameTimes, frames: Iterable[int]) -> Part:
-    """Return the part that most of some frames are in."""
     counts = np.zeros(len(times.parts), dtype=np.int64)
     ends = np.array([part.end for part in times.parts])
     np.add.at(counts, np.searchsorted(ends, np.array(list(frames), np.int64), side="right"), 1)

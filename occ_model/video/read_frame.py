@@ -37,8 +37,6 @@ _ROUNDING_CHIPS = 1e-6
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TimedFrame:
-    """A frame's reading and the timing of its chips."""
-
     reading: FrameReading
     # Where the exposure of ``column`` has its middle, in chips from the first chip's start
     middle: float = 0.0
@@ -52,7 +50,6 @@ class TimedFrame:
 
     @property
     def is_read(self) -> bool:
-        """Whether it shows chips."""
         return bool(self.reading.chips.size)
 
 
@@ -99,7 +96,6 @@ class FrameReader:
         self._spans: deque[tuple[int, int]] = deque(maxlen=_REMEMBERED_REGIONS)
 
     def read(self, frame: VideoFrame) -> TimedFrame:
-        """Read the chips of the next frame."""
         scene = self._of(self._scene, frame)
         result = decode(frame.image, scene, self._decoder)
         reading = FrameReading(frame.index, frame.time, result.region)
@@ -157,7 +153,6 @@ class _Tried:
 def _timing(
     result: DecodeResult, signal: FloatArray, light: FloatArray, before: int, scene: Scene
 ) -> _Tried:
-    """Fit the timing of a decoder's chips to the light."""
     if result.signal is None or result.chip_starts is None:
         return _Tried(
             None, result.failure or "The decoder gives no chips, which joining frames needs."

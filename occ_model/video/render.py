@@ -110,7 +110,6 @@ class SimulatedVideo(Video):
             index += 1
 
     def frame(self, index: int) -> VideoFrame:
-        """Simulate one frame."""
         last = None if self.frame_count is None else self.frame_count - 1
         check_count("index", index, 0, last)
         index = int(index)

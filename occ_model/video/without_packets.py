@@ -48,7 +48,6 @@ class _Look:
 
     @property
     def repeats(self) -> bool:
-        """Whether it has stripes that repeat."""
         return self.period > 0.0
 
 

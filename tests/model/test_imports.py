@@ -1,9 +1,12 @@
 """The model stands alone: no window, and nothing slow at start-up."""
 
 import ast
+import inspect
 import subprocess
 import sys
+from functools import cached_property
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
@@ -91,3 +94,25 @@ def test_no_plugin_is_looked_for_while_built_in_names_are_used() -> None:
     assert "occ_model.transmitter.line_codes.four_b_six_b" in loaded
     assert "occ_model.transmitter.line_codes.eight_b_ten_b" not in loaded
     assert "importlib.metadata" not in loaded
+
+
+def test_all_that_the_package_offers_says_what_it_is() -> None:
+    import occ_model
+
+    silent = []
+    for name in occ_model.__all__:
+        offered = getattr(occ_model, name)
+        if not (inspect.isfunction(offered) or inspect.isclass(offered)):
+            continue
+        parts: dict[str, object] = {name: offered}
+        if inspect.isclass(offered):
+            own = [kind for kind in offered.__mro__ if kind.__module__.startswith("occ_model")]
+            parts |= {
+                f"{name}.{key}": part
+                for kind in own
+                for key, part in vars(kind).items()
+                if not key.startswith("_")
+                and isinstance(part, FunctionType | property | cached_property | classmethod)
+            }
+        silent += [key for key, part in parts.items() if not inspect.getdoc(part)]
+    assert silent == []

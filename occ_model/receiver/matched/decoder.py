@@ -125,7 +125,6 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 
 
 def _start_bins(columns: int, scene: Scene, period: int) -> IndexArray:
-    """Return the bin of a packet in which each column's exposure starts."""
     # The signal may start at any column, as the packet's phase is found, not known.
     phases = column_phases(scene, period, columns=columns)
     bins = period * BINS_PER_CHIP

@@ -143,7 +143,6 @@ def _improved(
 
 
 def _with_steps(result: DecodeResult, fit: Fit, light: Light) -> DecodeResult:
-    """Add the chips and the fit to a result."""
     fraction = fit.brightness.lit_share(light.values)
     count = len(fraction)
     places = fit.chips.first + np.arange(len(fit.chips.values)) - fit.timing.phase

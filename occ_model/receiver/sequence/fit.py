@@ -91,8 +91,6 @@ class Fit:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Rows:
-    """Rows as the detector sees them."""
-
     light: FloatArray  # Shape (rows,): proportional to the light of each, up to a constant
     # Shape (exposures,): the lit fractions of exposures of random data in the order of time, for a
     # first guess
@@ -149,7 +147,6 @@ def find_phase(
 
 
 def detect(rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]) -> Fit:
-    """Detect the chips at a timing and a brightness."""
     fraction = brightness.lit_share(rows.light)
     chips = _likeliest(words, timing, gather(fraction, timing))
     model, _ = lit_shares(chips, timing, len(fraction))

@@ -46,7 +46,6 @@ def follow_timing(
 def _in_part(
     rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...], size: int
 ) -> Timing:
-    """Improve the timing by the rows in the middle."""
     first = (len(rows.light) - size) // 2
     part = slice(first, first + size)
     seen = replace(rows, light=rows.light[part])

@@ -28,8 +28,6 @@ _LONGEST_PART = 128
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Chips:
-    """Chips that were detected."""
-
     first: int
     values: ByteArray  # Shape (chips,): the chips
     # Shape (chips,): by how much the squared distance of the rows would grow if this chip were the

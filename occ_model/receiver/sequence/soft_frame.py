@@ -24,8 +24,6 @@ _REPETITIONS = 3
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SoftFrame:
-    """The likeliest frame."""
-
     framed: Framed
     certainty: float = 0.0  # The probability that all its bits are right, 0 where none were read
     # Shape (bits,), or None: the probability that each bit is right; None where the framing hides

@@ -48,7 +48,6 @@ class Trellis:
 
     @property
     def states(self) -> int:
-        """Number of states."""
         return len(self.places)
 
 

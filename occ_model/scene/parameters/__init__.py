@@ -33,7 +33,6 @@ PARAMETERS: dict[str, Parameter] = {
 
 
 def parameter_named(name: str, among: Iterable[str] = PARAMETERS) -> Parameter:
-    """Find a declaration."""
     names = list(among)
     if name in names:
         return PARAMETERS[name]
@@ -68,5 +67,4 @@ def open_choice(name: str) -> OpenChoice:
 
 
 def payload_parameter() -> Payload:
-    """Return the declaration of the payload."""
     return _of_kind("payload", Payload)

@@ -68,7 +68,6 @@ class Group:
     @classmethod
     @cache
     def declarations(cls) -> Mapping[str, Parameter]:
-        """Return the declarations of the fields, by name."""
         return {
             name: replace(made.metadata["declared"], name=name)
             for name, made in cls.__dataclass_fields__.items()

@@ -41,7 +41,6 @@ class _Division:
 
     @property
     def bits(self) -> int:
-        """Bits of a sub-packet."""
         return self.part_bits + 2 * self.asynchronous
 
     def number(self, part: int) -> ByteArray:

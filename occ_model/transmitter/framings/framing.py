@@ -129,7 +129,6 @@ def is_unique(preamble: ByteArray, line_code: LineCode) -> bool:
 
 
 def find_preambles(chips: ByteArray, preamble: ByteArray) -> tuple[int, ...]:
-    """Find all places at which a preamble starts."""
     count = len(chips) - len(preamble) + 1
     if count < 1:
         return ()

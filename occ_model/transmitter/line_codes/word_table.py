@@ -10,8 +10,6 @@ from occ_model.transmitter.line_codes.line_code import Decoded, no_whole_blocks,
 
 @dataclass(frozen=True, eq=False, slots=True)
 class WordTable:
-    """Words of a code."""
-
     words: ByteArray  # Shape (2 ** bits, chips): the word of each number
     noun: str  # What a word is called in a sentence, such as "4B6B word"
     corrected: int = 0  # Wrong chips of a word that the nearest word corrects for certain

@@ -57,11 +57,9 @@ class _Watch:
         threading.Thread(target=self._look, daemon=True).start()
 
     def begin(self) -> None:
-        """Begin with a request."""
         self._since, self._closed = time.process_time(), None
 
     def end(self, has_film: bool) -> None:
-        """End with it, and say whether a film is open."""
         self._since, self._closed = None, None if has_film else time.monotonic()
 
     def _look(self) -> None:
@@ -111,7 +109,6 @@ class _Answering:
 
     @property
     def has_film(self) -> bool:
-        """Whether a film is open."""
         return self._source is not None
 
     def answer(self, request: dict[str, Any]) -> tuple[dict[str, Any], Any]:

@@ -38,8 +38,6 @@ class DecoderStoppedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class OpenedFilm:
-    """What a film's container states."""
-
     frame_rate: float | None
     frame_count: int | None
 
@@ -128,12 +126,10 @@ class DecoderProcess:
         self._ask({"do": "close"})
 
     def end(self) -> None:
-        """End the process."""
         self._end()
 
     @property
     def is_alive(self) -> bool:
-        """Whether it still answers."""
         return self._end.alive and self._process.poll() is None
 
     def _forget(self) -> None:
@@ -189,7 +185,6 @@ _AT_ONCE = 16
 
 
 def _command() -> list[str]:
-    """Return the command that starts a decoder."""
     if getattr(sys, "frozen", False):  # a bundle, whose programs are no Python
         return [sys.executable, DECODER_OPTION]
     return [sys.executable, "-P", "-c", _START, str(_PACKAGES)]

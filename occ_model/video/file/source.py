@@ -18,8 +18,6 @@ MAX_PIXELS = 36_000_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StoredFrame:
-    """A frame as its file has it."""
-
     time: float  # In seconds, as the container states it
     pixels: ByteArray  # Shape (lines, columns): one channel, upright
 

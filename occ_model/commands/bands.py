@@ -47,8 +47,9 @@ def _depth(scene: Scene, found: BandDepth) -> list[str]:
         f"{_percent(found.rms)} RMS;",
         f"  in pixel values {_percent(found.pixel.peak_to_peak)} and {_percent(found.pixel.rms)}; "
         f"from bar to bar: {columns}; "
-        f"{'visible' if found.is_visible else 'not visible'} "
-        f"(contrast {_percent(found.contrast)}, seen from {_percent(found.threshold)}).",
+        f"{'visible' if found.is_visible else 'not visible'} on a display "
+        f"(there {_percent(found.contrast)} of the mean light peak to peak, seen from "
+        f"{_percent(found.threshold)}).",
     ]
 
 
@@ -68,7 +69,10 @@ def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
     ]
     if scene.transmitter.edge_time:
         lines.append("  Both for sharp edges; with the LED's edges the ranges are wider.")
-    lines.append("shutter speed  depth     at the power of two nearby")
+    lines += [
+        "Bars peak to peak, of the mean light:",
+        "shutter speed  nominal   at the power of two nearby",
+    ]
     for each in advice.speeds:
         best = max(each.at_nominal, each.at_real)
         least = min(each.at_nominal, each.at_real)

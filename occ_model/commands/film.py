@@ -72,7 +72,7 @@ def _run(options: argparse.Namespace) -> int:
         scene_of(options), options.frames, recording, settings=simulation_settings_of(options)
     )
     check_film_path(options.out, recording.frame_rate, film.shape)
-    with progress_bar(total=options.frames, unit="frame", leave=False, disable=None) as bar:
+    with progress_bar(total=options.frames, unit="frame", leave=False) as bar:
         count = write_video(film, options.out, lambda _done: bar.update())
     rows, columns = film.shape
     gap = recording.gap(film.scene)

@@ -90,7 +90,7 @@ def _run(options: argparse.Namespace) -> int:
         return 0
     if options.lamps:
         return _run_lamps(photo, scene, options)
-    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
+    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
         match = match_photo(
             photo,
             scene,
@@ -123,7 +123,7 @@ def _check(options: argparse.Namespace) -> None:
 
 def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
     """Print each lamp of a photo, and its match."""
-    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False, disable=None) as bar:
+    with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
         matched = match_lamps(
             photo,
             scene,

@@ -108,7 +108,7 @@ def _matched(
     """Match with a progress bar; None after Ctrl-C."""
     reached = 0
     try:
-        with progress_bar(total=len(paths), unit="photo", leave=False, disable=None) as bar:
+        with progress_bar(total=len(paths), unit="photo", leave=False) as bar:
 
             def progress(done: int, _total: int) -> None:
                 nonlocal reached

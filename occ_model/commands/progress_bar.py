@@ -14,8 +14,8 @@ _SETTINGS = "TQDM_"
 
 
 def progress_bar(**options: Any) -> Any:
-    """Return a bar of tqdm's, whatever the user's environment holds for tqdm."""
-    return _bar_class()(file=sys.stderr, **options)
+    """Return a bar of tqdm's, shown on a terminal, whatever the user's environment holds for it."""
+    return _bar_class()(file=sys.stderr, **{"disable": None, **options})
 
 
 def print_above_bar(sentence: str) -> None:

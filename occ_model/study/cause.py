@@ -156,7 +156,7 @@ def _few_chips(scene: Scene, decoder: str) -> Cause | None:
         step = _frequency(frequency)
     else:
         step = Step(f"Come to {quantity('distance').format(nearer)}", {"distance": nearer})
-    why = f"{shown:.0f} of the {packets * length} chips of "
+    why = f"{int(shown)} of the {packets * length} chips of "
     why += (
         "two packets are in view, and so both headers not in every picture"
         if packets == 2

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Self
 
+import cv2
 import numpy as np
 
 from occ_model.arrays import FloatArray
@@ -40,6 +41,12 @@ def pixel_value(
     Returns shape as luminance; grey levels; above 255 the pixel is saturated, see :func:`saturate`.
     """
     return np.asarray(_MID_GREY * power(_gain(camera) * luminance, 1.0 / camera.gamma))
+
+
+def fast_power(values: FloatArray, power: float) -> FloatArray:
+    """Return a power, some times faster than NumPy's, and not the same in the last digits."""
+    found: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
+    return found.reshape(values.shape)
 
 
 def luminance_of(values: FloatArray, camera: Camera) -> FloatArray:

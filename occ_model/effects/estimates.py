@@ -43,7 +43,7 @@ def observed(pixels: SampledPixels, observable: Observable) -> Observed:
     if pixels.file is not None:
         found.unsure = _UNDITHERED_FRACTION * pixels.file.undithered_share
         doubt = pixels.file.undithered()
-        rims = pixels.rim_share  # where no noise spreads it, a rim's blocks round otherwise
+        rims = pixels.rims.share  # where no noise spreads it, a rim's blocks round otherwise
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
         at_rims = pixels.file.undithered_share * pixels.file.added_at_a_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows

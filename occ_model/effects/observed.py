@@ -44,7 +44,7 @@ class Observed:
         """Share by which any mean square may be larger."""
         found = seen([names, *(names - {name} for name in changing)])
         self.complete = found[0]
-        moved = found[1:] - found[0]
+        self._moved = moved = found[1:] - found[0]
         self._products = moved @ moved.T
 
     def add_noise(self, squares: Mapping[str, float], values: int) -> None:
@@ -60,6 +60,12 @@ class Observed:
         place = self._place.get(name)
         square = 0.0 if place is None else float(self._products[place, place])
         return max(square + self.alone.get(name, 0.0), 0.0)
+
+    def sampling_error(self, name: str, values: int) -> float:
+        """Return the standard error of that where some values of so many are a sample."""
+        squares = self._moved[self._place[name]] ** 2
+        left = max(1.0 - len(squares) / values, 0.0)
+        return math.sqrt(left * float((squares**2).sum()))
 
     def together(self, sets: Sequence[frozenset[str]]) -> FloatArray:
         """Return the most of the mean square of what leaving out sets of effects changes."""

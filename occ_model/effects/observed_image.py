@@ -9,7 +9,8 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.normal import clipped_mean, normal_share, share_unclipped
 from occ_model.effects.observed import Observed
-from occ_model.effects.sampled_pixels import Names, SampledPixels
+from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.simulated_columns import Names
 
 _SHARP_NOISE = 1e-9
 """Deviation in grey levels that none is taken for."""
@@ -21,7 +22,7 @@ def observed_image(pixels: SampledPixels) -> Observed:
     spread = pixels.spread(everything)
     unclipped = share_unclipped(pixels.levels, spread, WHITE)
     # Where the light changes, its noise does; and pixels that are cut off change less.
-    share = pixels.at_whole(unclipped * (1.0 + pixels.slope(spread) ** 2))
+    share = pixels.at_whole(unclipped * (1.0 + pixels.table.slope(spread) ** 2))
     weights = np.sqrt(np.maximum(share * pixels.sample.pixel_weights, 0.0)).ravel()
 
     def seen(sets: Sequence[Names]) -> FloatArray:
@@ -29,13 +30,15 @@ def observed_image(pixels: SampledPixels) -> Observed:
 
     found = Observed(everything, seen, pixels.moving)
     region = pixels.view.region
-    if pixels.outline:
-        doubt = pixels.doubted_pixels(pixels.contrast**2 / (region.rows * region.columns))
-        if file is not None and not pixels.sample.is_covered:
-            # A rim that moves outwards changes blocks that are observed in part.
-            part = pixels.rim_share
-            doubt += file.added_at_a_rim(part, part * pixels.view.swing**2 / 64.0)
-        found.doubt.update(dict.fromkeys(pixels.outline, doubt))
+    if pixels.sample.outline:
+        doubt = pixels.rims.unsampled(
+            pixels.contrast**2 / (region.rows * region.columns), pixels.file
+        )
+        doubt += pixels.rims.cut_blocks(file)
+        square = 3.0 * pixels.contrast**2
+        found.doubt.update(
+            {n: doubt + square * pixels.rims.crossed(n) for n in pixels.sample.outline}
+        )
     for name, variance in pixels.variances.items():
         found.alone[name] = (
             float(pixels.mean_at_whole(variance * unclipped))
@@ -46,7 +49,7 @@ def observed_image(pixels: SampledPixels) -> Observed:
         found.alone[pixels.files[0].name] = file.own_change
         squares = np.array([found.shown(name) for name in pixels.moving])
         doubts = np.array([found.doubt.get(name, 0.0) for name in pixels.moving])
-        rims = np.array([pixels.moved_rims(name) for name in pixels.moving]) * 8.0 / region.rows
+        rims = np.array([pixels.rims.moved(name) for name in pixels.moving]) * 8.0 / region.rows
         inside, _, more = (of_sets[1:] for of_sets in file.added)
         added = inside + file.added_at_rims(np.minimum(rims, 1.0), squares + doubts)
         alone = np.maximum(added, -squares)
@@ -70,14 +73,18 @@ def observed_profile(pixels: SampledPixels) -> Observed:
             above = normal_share((pixels.levels - WHITE) / np.maximum(spread[filed], _SHARP_NOISE))
             error = math.sqrt(file.own_change)
             tables[filed] += (below - above) * error / math.sqrt(2.0 * math.pi)
-        found = pixels.look_each(tables, pixels.read_back(sets))
+        found = pixels.table.look_each(tables, pixels.read_back(sets))
         return pixels.mean_of_rows(found) * weights
 
     found = Observed(everything, seen, sorted(everything))
     region = pixels.view.region
-    if pixels.outline:
-        share = pixels.contrast**2 / (region.rows**2 * region.columns)
-        found.doubt.update(dict.fromkeys(pixels.outline, pixels.doubted_pixels(share)))
+    if pixels.sample.outline:
+        square = pixels.contrast**2
+        doubt = pixels.rims.unsampled(square / (region.rows**2 * region.columns), pixels.file)
+        doubt += pixels.rims.cut_blocks_of_means(pixels.file, pixels.contrast)
+        found.doubt.update(
+            {n: doubt + square * pixels.rims.crossed(n) for n in pixels.sample.outline}
+        )
     if file is None:
         variances = {n: float(pixels.mean_at_whole(v)) for n, v in pixels.variances.items()}
         found.add_noise({n: v / rows for n, v in variances.items()}, region.columns)

@@ -1,18 +1,19 @@
 """How leaving effects out changes the enhanced signal, estimated from a sample."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
-from occ_model.arrays import FloatArray, IndexArray
+from occ_model.arrays import BoolArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
-from occ_model.effects.sampled_pixels import Names, SampledPixels
-from occ_model.effects.signal_sampling import SignalSampling
+from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
+from occ_model.effects.simulated_columns import Names
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
@@ -24,14 +25,17 @@ _ROUNDING_MARGIN = 0.02
 _LARGE_STEP = 32.0
 """Levels by which an enhancement can part neighbouring levels, so that one column matters."""
 
-_LEAST_SAMPLED_COLUMNS = 3
-"""Sampled columns near a large step from which the sample shows what happens there."""
+_MOST_GAIN = 8.0
+"""Times by which an enhancement raises contrasts at most, where noise smooths it."""
 
 _CLIPPED_NOISE = 8.0
 """Noise in grey levels that black and white cut off noticeably."""
 
 _LEAST_SMOOTHING_NOISE = 0.5
 """Noise in grey levels below which the enhancement's steps show between the levels."""
+
+_LEAST_TABULATED_NOISE = 1.5
+"""Noise in steps of the table from which a curve that it smooths is interpolated closely."""
 
 
 def signal_swing(pixels: SampledPixels) -> float:
@@ -76,26 +80,29 @@ class _Curves:
         """Return the mean of enhanced pixels at each level."""
         key = included - self._lenses
         if key not in self._curves:
-            enhancement = self._pixels.enhancement(included)
+            enhancement = self._pixels.columns.enhancement(included)
             self._curves[key] = enhancement.mean(self.noise(included).passed)
         return self._curves[key]
 
     def enhanced(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
         """Return the means of enhanced pixels of some mean values, shape as ``values``."""
         pixels = self._pixels
-        found = pixels.look_each(np.stack([self.curve(one) for one in sets]), values)
+        found = pixels.table.look_each(np.stack([self.curve(one) for one in sets]), values)
+        tabulated = max(_LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
         for included, own, of_own in zip(sets, values, found, strict=True):
             noise = self.noise(included)
-            if noise.least < _LEAST_SMOOTHING_NOISE:
+            if noise.least < tabulated:
                 flat = np.clip(own, 0.0, WHITE)
                 filed = self._files & included
                 own_noise = (
-                    pixels.look(noise.spread, flat) if filed else pixels.noise_at(included, flat)
+                    pixels.table.look(noise.spread, flat)
+                    if filed
+                    else pixels.noise_at(included, flat)
                 )
-                sharp = own_noise < _LEAST_SMOOTHING_NOISE
+                sharp = own_noise < tabulated
                 if sharp.any():
                     steps = PassedSteps.of(flat[sharp], own_noise[sharp])
-                    of_own[sharp] = pixels.enhancement(included).mean(steps)
+                    of_own[sharp] = pixels.columns.enhancement(included).mean(steps)
         return found
 
 
@@ -123,10 +130,12 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     jump = contrast if pixels.scene.model.enhancement == "none" else WHITE
     few = len(sample.columns) >= region.columns
     part = _DOUBTED_RIM_OF_FEW if few else _DOUBTED_RIM
-    doubt = pixels.doubted_pixels(contrast**2 / (region.rows**2 * region.columns))
-    for name in pixels.outline:  # a pixel of a rim is enhanced or not
-        own = pixels.moved_rims(name) * (part * jump / region.rows) ** 2
-        found.doubt[name] = doubt + own
+    doubt = pixels.rims.unsampled(contrast**2 / (region.rows**2 * region.columns), pixels.file)
+    gain = min(contrast / pixels.view.swing, _MOST_GAIN)
+    doubt += pixels.rims.cut_blocks_of_means(pixels.file, pixels.contrast) * gain**2
+    for name in pixels.sample.outline:  # a pixel of a rim is enhanced or not
+        own = pixels.rims.moved(name) * (part * jump / region.rows) ** 2
+        found.doubt[name] = doubt + own + pixels.rims.crossed(name) * jump**2
     for name, square in fluctuations.items():
         found.doubt[name] = found.doubt.get(name, 0.0) + square
     _doubt_sharp_steps(pixels, found)
@@ -140,7 +149,7 @@ def _beside(pixels: SampledPixels, included: Names, values: FloatArray) -> Float
     spread = pixels.spread(included)
     if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
         return np.rint(np.clip(values, 0.0, WHITE))
-    return pixels.look(clipped_mean(pixels.levels, spread, WHITE), values)
+    return pixels.table.look(clipped_mean(pixels.levels, spread, WHITE), values)
 
 
 def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
@@ -153,10 +162,10 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
     if float(spread.min()) >= _LEAST_SMOOTHING_NOISE:
         return
     whole = np.clip(pixels.whole, 0.0, WHITE)
-    sharp = pixels.look(spread, whole) < _LEAST_SMOOTHING_NOISE
+    sharp = pixels.table.look(spread, whole) < _LEAST_SMOOTHING_NOISE
     if not sharp.any():
         return
-    enhancement = pixels.enhancement(pixels.names)
+    enhancement = pixels.columns.enhancement(pixels.names)
     if pixels.file is None:
         curve = enhancement.curve.astype(np.float64)
         below = np.minimum(whole, WHITE - 1.0).astype(np.int64)
@@ -174,48 +183,41 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
 def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     """Doubt columns near a large step of the enhancement that the sample does not have.
 
-    An equalization makes one where many columns share a value. A change of less than their
-    distance from it carries none of them across.
+    An equalization makes one where many columns share a value. What each column of the profile
+    changes there is summed over all columns, less what those of the sample stand for.
     """
     sample, region = pixels.sample, pixels.view.region
     if len(sample.columns) >= region.columns:
         return
-    enhancement = pixels.enhancement(pixels.names)
+    enhancement = pixels.columns.enhancement(pixels.names)
     steps = np.diff(enhancement.curve.astype(np.float64))
     large = np.flatnonzero(steps > _LARGE_STEP)
     if not len(large):
         return
-    profile = pixels.profile(pixels.names)[region.first_column : region.last_column]
-    sampled = profile[sample.columns - region.first_column]
-    middles = np.asarray(large + 0.5, dtype=np.float64)
-    each = [pixels.noise_at(frozenset({effect.name}), middles) ** 2 for effect in pixels.noises]
-    by_noise = np.array(each).reshape(-1, len(large))
-    noise = np.maximum(np.sqrt(by_noise.sum(axis=0)), _ROUNDING_MARGIN)
-    moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2))[:, None]
+    profile = pixels.columns.profile(pixels.names)[region.first_column : region.last_column]
+    missed = np.full(len(profile), 1.0 / len(profile))
+    np.subtract.at(missed, sample.columns - region.first_column, sample.weights)
+    middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
+    away = np.abs(profile - middles)
 
-    def doubts(near: Callable[[FloatArray], IndexArray], shares: FloatArray) -> FloatArray:
-        """Return those of effects by the share of pixels that are carried across each step."""
-        unseen = near(sampled) < _LEAST_SAMPLED_COLUMNS
-        squares = (steps[large] * np.minimum(shares, 0.5)) ** 2
-        return np.asarray((near(profile) / len(profile) * unseen * squares).sum(axis=1))
+    def doubt(name: str, near: BoolArray, carried: FloatArray) -> None:
+        squares = np.where(near, steps[large][:, None] * np.minimum(carried, 0.5), 0.0) ** 2
+        total = max(float((squares @ missed).sum()), 0.0)
+        found.doubt[name] = found.doubt.get(name, 0.0) + total
 
-    def passed_by_noise(values: FloatArray) -> IndexArray:
-        reached = np.maximum(2.0 * pixels.noise_at(pixels.names, values), _ROUNDING_MARGIN)
-        near = np.abs(values - middles[:, None]) < reached  # a full pixel has no noise
-        return np.asarray(np.count_nonzero(near, axis=1))
-
-    def passed(values: FloatArray) -> IndexArray:
-        ordered, reached = np.sort(values), np.maximum(moved, _ROUNDING_MARGIN)
-        upper, lower = (ordered.searchsorted(middles + side * reached) for side in (1.0, -1.0))
-        return np.asarray(upper - lower)
-
-    rest = np.maximum(noise**2 - by_noise, _ROUNDING_MARGIN**2)
-    passing = np.sqrt(by_noise) / (3.0 * noise) / region.rows
-    of_noise = doubts(passed_by_noise, np.hypot(by_noise / rest / 8.0, np.sqrt(passing)))
-    of_changes = doubts(passed, 0.4 * moved / noise)
-    names = (*(effect.name for effect in pixels.noises), *pixels.moving)
-    for name, doubt in zip(names, (*of_noise.tolist(), *of_changes.tolist()), strict=True):
-        found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+    noise = pixels.noise_at(pixels.names, profile)  # a full pixel has none
+    reached = away < np.maximum(2.0 * noise, _ROUNDING_MARGIN)
+    for effect in pixels.noises:
+        own = pixels.noise_at(frozenset({effect.name}), profile) ** 2
+        rest = np.maximum(noise**2 - own, _ROUNDING_MARGIN**2)
+        by_chance = np.sqrt(own / (rest + own)) / 3.0 / region.rows
+        doubt(effect.name, reached, np.sqrt((own / rest / 8.0) ** 2 + by_chance))
+    least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
+    moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2)).tolist()
+    for name, own in zip(pixels.moving, moved, strict=True):
+        doubt(name, away < max(own, _ROUNDING_MARGIN), 0.4 * own / least)
+        if least.min() < _LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
+            found.doubt[name] += SURE_DEVIATIONS * found.sampling_error(name, region.columns)
 
 
 def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
@@ -230,6 +232,6 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     )
     cut = float(pixels.mean_at_whole(lost))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
-    doubt = cut * pixels.file.own_change * min(gain, 8.0) ** 2 / 4.0
+    doubt = cut * pixels.file.own_change * min(gain, _MOST_GAIN) ** 2 / 4.0
     for effect in (*pixels.noises, *pixels.files):
         found.doubt[effect.name] = found.doubt.get(effect.name, 0.0) + doubt

@@ -1,7 +1,8 @@
 """The plan: which effects are simulated for a scene, at a tolerance."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 from occ_model.effects.effect import Effect
@@ -126,6 +127,22 @@ def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
         effect.name, effect.label, effect.kind, effect.stage, estimate, estimate, included,
         by_hand is not None, why, reason,
     )  # fmt: skip
+
+
+def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Plan:
+    """Decide which effects are simulated in several pictures: those that any of them calls for."""
+    present = {e.name for e in EFFECTS if any(e.is_present(view.scene) for view in views)}
+    present -= {name for name, is_on in settings.force.items() if not is_on}
+    chosen = plan_of(views[0], settings)
+    for view in views[1:]:
+        if present <= set(chosen.included):
+            break  # none can call for more
+        other = plan_of(view, settings)
+        pairs = zip(chosen.decisions, other.decisions, strict=True)
+        decisions = tuple(max(pair, key=lambda d: (d.included, d.estimate)) for pair in pairs)
+        left_out = max(chosen.left_out, other.left_out)
+        chosen = replace(chosen, decisions=decisions, left_out=left_out)
+    return chosen
 
 
 def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:

@@ -96,6 +96,11 @@ class Sample:
         starts = starts[column[starts + 7] - column[starts] == 7]
         return np.asarray(ordered[starts[:, None] + np.arange(8)])
 
+    @cached_property
+    def outline(self) -> frozenset[str]:
+        """The effects that move or soften the rims of the panel."""
+        return max(self.covers, key=len)
+
     @property
     def arrays(self) -> tuple[FloatArray, ...]:
         """All that it holds."""

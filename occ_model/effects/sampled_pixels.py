@@ -4,21 +4,16 @@ import math
 from collections.abc import Iterable, Sequence
 from functools import cached_property, lru_cache
 
-import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from occ_model.arrays import BoolArray, FloatArray
-from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
-    FLAT,
     WHITE,
-    ColumnLight,
+    fast_power,
     luminance_of,
     panel_values,
     pixel_value,
-    saturate,
     surroundings_values,
 )
 from occ_model.camera.projection import geometry_of
@@ -33,24 +28,16 @@ from occ_model.effects.effect import (
     PixelEffect,
 )
 from occ_model.effects.file_change import FileChange, RimBlocks
+from occ_model.effects.level_table import LevelTable, Places
 from occ_model.effects.paper_view import PaperView
 from occ_model.effects.registry import named
+from occ_model.effects.rims import Rims
 from occ_model.effects.rounding import rounding_mean
 from occ_model.effects.sample import Sample, sample_of
-
-Names = frozenset[str]
-"""Effects by name."""
-
-_LEVELS = 129
-
-_UNSAMPLED_RIM_PIXELS = 1.0
-"""Pixels of a rim that may change and that no sample shows."""
+from occ_model.effects.simulated_columns import Names, SimulatedColumns
 
 _SHARPEST = 0.5
 """Noise in grey levels from which a pixel's rounding is nothing in the mean."""
-
-_SEEN_SHARE = 0.003
-"""Change of a pixel's light from beyond a rim that can round it otherwise."""
 
 
 class SampledPixels:
@@ -72,15 +59,13 @@ class SampledPixels:
         self.files = named(self.names, FileEffect)
         self.moving = tuple(e.name for e in (*self.lights, *self.lenses, *self.limits))
         self._moving = frozenset(self.moving)
-        self.noisy = frozenset(effect.name for effect in self.noises)
-        self._lit = frozenset(effect.name for effect in (*self.lights, *self.limits))
-        self._light_of: dict[Names, ColumnLight] = {}
-        self._profile_of: dict[Names, FloatArray] = {}
+        self._noisy = frozenset(effect.name for effect in self.noises)
         self._spread_of: dict[Names, tuple[FloatArray, float]] = {}
-        self._enhancement_of: dict[Names, Enhancement] = {}
         self.sample = self._sampled()
+        self.columns = SimulatedColumns(view, self.lights, self.limits)
+        self.rims = Rims(view, self.sample)
         gains, power = self.sample.transmission, 1.0 / self.scene.camera.gamma
-        self._dimmed = {name: _power(gain, power) for name, gain in gains.items()}
+        self._dimmed = {name: fast_power(gain, power) for name, gain in gains.items()}
 
     def _sampled(self) -> Sample:
         scene, view = self.scene, self.view
@@ -128,34 +113,9 @@ class SampledPixels:
             return self.stack[[self.place(next(iter(names), "")) for names in missing]]
         return self._computed(asked)
 
-    def _light(self, included: Names) -> ColumnLight:
-        """Return the light of all columns with some effects on it."""
-        chosen = [effect for effect in self.lights if effect.name in included]
-        key = frozenset(effect.name for effect in chosen)
-        if key not in self._light_of:
-            light = self.view.light
-            for effect in chosen:
-                light = effect.apply(self.scene, light)
-            self._light_of[key] = light
-        return self._light_of[key]
-
-    def _at_columns(self, sets: Sequence[Names]) -> ColumnLight:
-        """Return the light of the sample's columns with some effects on it: (sets, columns)."""
-        lights, columns = [self._light(included) for included in sets], self.sample.columns
-        ambient = [
-            light.ambient[columns]
-            if len(light.ambient) > 1
-            else np.repeat(light.ambient, len(columns))
-            for light in lights
-        ]
-        return ColumnLight(np.stack([light.lit[columns] for light in lights]), np.stack(ambient))
-
     def _computed(self, sets: Sequence[Names]) -> FloatArray:
         sample, camera = self.sample, self.scene.camera
-        lights = [effect.name for effect in self.lights]
-        keys = [included.intersection(lights) for included in sets]
-        known = list(dict.fromkeys(keys))
-        light, places = self._at_columns(known), [known.index(key) for key in keys]
+        light, places = self.columns.light_at(sets, sample.columns)
         panel = panel_values(self.scene, light)
         values = np.empty((len(sets), *sample.rows.shape))
         if any(cover is not None for cover in sample.covers.values()) or sample.emission:
@@ -163,13 +123,13 @@ class SampledPixels:
             own = (luminance_of(panel, camera) - dark)[places][:, :, None]
             dark = dark[places][:, :, None]
             for included, one, of_panel in zip(sets, values, own, strict=True):
-                cover = sample.covers[included & self.outline]
+                cover = sample.covers[included & sample.outline]
                 one[:] = of_panel if cover is None else of_panel * cover
                 for name, gain in sample.emission.items():
                     if name in included:
                         one *= gain
             values += dark
-            values = pixel_value(np.maximum(values, 0.0, out=values), camera, _power)
+            values = pixel_value(np.maximum(values, 0.0, out=values), camera, fast_power)
         else:
             values[:] = panel[places][:, :, None]
         for included, one in zip(sets, values, strict=True):
@@ -182,21 +142,17 @@ class SampledPixels:
         return np.minimum(values, WHITE, out=values)
 
     @cached_property
-    def outline(self) -> Names:
-        """The effects that move or soften the rims of the panel."""
-        return max(self.sample.covers, key=len)
-
-    @cached_property
-    def levels(self) -> FloatArray:
+    def table(self) -> LevelTable:
         """Levels from the darkest pixel of the sample to the brightest, with any effects."""
         low, high = float(self.stack.min()), float(self.stack.max())
-        if self.sample.covers[self.outline] is not None:  # beside the panel, sampled or not
+        if self.sample.covers[self.sample.outline] is not None:  # beside the panel, sampled or not
             low = min(low, float(surroundings_values(self.scene, self.view.light).min()))
-        step = max(high - low, FLAT) / (_LEVELS - 3)
-        full = saturation_value(self.scene)
-        if low < full < high:  # where noise ends, a level of the table
-            low -= step * (1.0 - (full - low) / step % 1.0)
-        return np.asarray(low + step * np.arange(_LEVELS, dtype=np.float64), dtype=np.float64)
+        return LevelTable(low, high, saturation_value(self.scene))
+
+    @property
+    def levels(self) -> FloatArray:
+        """The levels of the table."""
+        return self.table.levels
 
     @cached_property
     def variances(self) -> dict[str, FloatArray]:
@@ -214,10 +170,10 @@ class SampledPixels:
         return self._spread(included)[1]
 
     def _spread(self, included: Names) -> tuple[FloatArray, float]:
-        key = included & self.noisy
+        key = included & self._noisy
         if key not in self._spread_of:
             own = [variance for name, variance in self.variances.items() if name in key]
-            found = np.sqrt(sum(own, np.zeros(_LEVELS)))
+            found = np.sqrt(sum(own, np.zeros(len(self.levels))))
             self._spread_of[key] = found, float(found.min())
         return self._spread_of[key]
 
@@ -226,38 +182,21 @@ class SampledPixels:
 
         Just below a full well it ends within less than two levels of the table.
         """
-        found = self.look(self.spread(included), values)
+        found = self.table.look(self.spread(included), values)
         full = saturation_value(self.scene)
-        ends = (values < full) & (values > full - (self.levels[1] - self.levels[0]))
+        ends = (values < full) & (values > full - self.table.step)
         if ends.any():
             own = (e for e in self.noises if e.name in included)
             found[ends] = np.sqrt(sum(e.spread(self.scene, values[ends]) ** 2 for e in own))
         return found
 
-    def look(self, tables: FloatArray, values: FloatArray) -> FloatArray:
-        """Interpolate tables over the levels, the last axis, at values: (..., *values.shape)."""
-        below, share = self._place(values)
-        return np.asarray(tables[..., below] + share * _steps(tables)[..., below])
-
-    def slope(self, table: FloatArray) -> FloatArray:
-        """Return the slope of a table over the levels at each of them."""
-        step = float(self.levels[1] - self.levels[0])
-        ends = np.concatenate([table[:1], table, table[-1:]])
-        slope = (ends[2:] - ends[:-2]) / (2.0 * step)
-        slope[[0, -1]] *= 2.0
-        return np.asarray(slope)
-
-    def look_each(self, tables: FloatArray, values: FloatArray) -> FloatArray:
-        """Interpolate a table of its own for each of the sets: (sets, columns, nodes)."""
-        below, share = self._place(values)
-        below += _LEVELS * np.arange(len(tables))[:, None, None]
-        flat = tables.ravel()
-        return np.asarray(flat.take(below) + share * _steps(flat).take(below))
+    @cached_property
+    def _places(self) -> Places:
+        return self.table.place(self.whole)
 
     def at_whole(self, table: FloatArray) -> FloatArray:
         """Interpolate a table at the pixels with all effects."""
-        below, share = self._place_of_whole
-        return np.asarray(table.take(below) + share * _steps(table).take(below))
+        return self.table.at(table, self._places)
 
     def mean_at_whole(self, tables: FloatArray, of: FloatArray | None = None) -> FloatArray:
         """Return the means of tables at the pixels with all effects.
@@ -271,34 +210,12 @@ class SampledPixels:
         """
         weights = self._weights_of_levels
         if of is not None:
-            weights = self._over_levels(self.sample.pixel_weights * of)
+            weights = self.table.divided(self.sample.pixel_weights * of, self._places)
         return np.asarray(tables @ weights)
 
     @cached_property
     def _weights_of_levels(self) -> FloatArray:
-        return self._over_levels(self.sample.pixel_weights)
-
-    def _over_levels(self, weights: FloatArray) -> FloatArray:
-        """Divide weights of the pixels with all effects among the levels beside each."""
-        below, share = self._place_of_whole
-        above = (weights * share).ravel()
-        found = np.asarray(np.bincount(below.ravel(), weights.ravel() - above, _LEVELS), float)
-        found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
-        return found
-
-    @cached_property
-    def _place_of_whole(self) -> tuple[NDArray[np.intp], FloatArray]:
-        return self._place(self.whole)
-
-    def _place(self, values: FloatArray) -> tuple[NDArray[np.intp], FloatArray]:
-        """Return the level below each value, and how far the value lies towards the next one."""
-        low, high = float(self.levels[0]), float(self.levels[-1])
-        place = (values - low) * ((_LEVELS - 1) / (high - low))
-        np.maximum(place, 0.0, out=place)
-        np.minimum(place, _LEVELS - 1.001, out=place)
-        below = place.astype(np.intp)
-        place -= below
-        return below, place
+        return self.table.divided(self.sample.pixel_weights, self._places)
 
     @cached_property
     def file(self) -> FileChange | None:
@@ -313,7 +230,7 @@ class SampledPixels:
             RimBlocks(
                 rows=self.view.region.rows,
                 blocks=-(-self.view.region.last_row // 8) - self.view.region.first_row // 8,
-                share=self.rim_share,
+                share=self.rims.share,
                 cut=_cut_rows(self.view.region.first_row) + _cut_rows(self.view.region.last_row),
                 is_level=self.view.sides is not None,
             ),
@@ -329,7 +246,7 @@ class SampledPixels:
         if not self.variances:
             return {}
         inner = self.whole[:, self.sample.inner]
-        means = self.look(np.stack(list(self.variances.values())), inner).mean(axis=(1, 2))
+        means = self.table.look(np.stack(list(self.variances.values())), inner).mean(axis=(1, 2))
         return dict(zip(self.variances, means.tolist(), strict=True))
 
     @cached_property
@@ -343,55 +260,17 @@ class SampledPixels:
         return dict(zip(self.variances, pairs, strict=True))
 
     @property
-    def rim_share(self) -> float:
-        """The share of the region's pixels that lie in a file's blocks with a rim."""
-        region = self.view.region
-        if self.sample.is_covered:
-            return 0.0
-        if self.view.sides is None:
-            return min(1.0, 8.0 / region.rows + 8.0 / region.columns)
-        ends, sides = self._level_rims
-        return min(1.0, 4.0 * ends / region.rows + 4.0 * sides / region.columns)
-
-    @property
-    def _level_rims(self) -> tuple[int, int]:
-        """How many rims of a level panel the picture shows, of those along rows and columns."""
-        region, camera = self.view.region, self.scene.camera
-        ends = (region.first_row > 0) + (region.last_row < camera.rows)
-        return ends, (region.first_column > 0) + (region.last_column < camera.columns)
-
-    def moved_rims(self, name: str) -> float:
-        """Return how many rims of a column, 0 to 2, an effect moves or softens in the mean."""
-        covers, sample = self.sample.covers, self.sample
-        whole, without = covers[self.outline], covers[self.outline - {name}]
-        if whole is without or whole is None or without is None:
-            return 0.0
-        moved = np.abs(whole - without) > _SEEN_SHARE
-        middle = sample.inner.start + 2
-        above, below = moved[:, :middle].any(axis=1), moved[:, middle:].any(axis=1)
-        return float(((above * 1.0 + below) * sample.weights).sum())
-
-    @property
     def contrast(self) -> float:
         """The difference of the brightest and the darkest pixel of the sample."""
         return float(self.levels[-1] - self.levels[0])
 
-    def doubted_pixels(self, square: float) -> float:
-        """Return the mean square of a few pixels of a rim, of which a sample need not show any.
-
-        A file spreads them over their block. A panel that covers all of the picture has no rim.
-        """
-        if self.sample.is_covered:
-            return 0.0
-        doubt = _UNSAMPLED_RIM_PIXELS * square
-        if self.file is not None:
-            pixels = self.view.region.rows * self.view.region.columns
-            doubt += self.file.added_at_a_rim(min(64.0 / pixels, self.rim_share), doubt)
-        return doubt
-
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
         """Return the mean of each column over its rows."""
         return np.asarray(np.einsum("...cn,cn->...c", seen, self.sample.row_weights))
+
+    def mean_of_columns(self, seen: FloatArray) -> float:
+        """Return the mean over the columns."""
+        return float(seen @ self.sample.weights)
 
     def mean_of(self, pixels: FloatArray) -> FloatArray:
         """Return the mean over all pixels, shape (...)."""
@@ -405,36 +284,15 @@ class SampledPixels:
             return values
         for at in filed:  # pixels are whole levels before they are in a file
             if self.least_noise(sets[at]) < _SHARPEST:  # a full pixel has no noise
-                spread = self.look(self.spread(sets[at]), values[at])
+                spread = self.table.look(self.spread(sets[at]), values[at])
                 values[at] += rounding_mean(values[at], spread)
         noise = np.array([self.noise_with(sets[at]) for at in filed])
         values[filed] = self.file.means(values[filed], noise)
         return values
 
-    def profile(self, included: Names) -> FloatArray:
-        """Return the values of all columns on the panel that some effects leave."""
-        key = included & self._lit
-        if key not in self._profile_of:
-            light, known = self._light(key), self.view
-            is_known = light is known.light
-            found = known.values if is_known else panel_values(self.scene, light, _power)
-            for limit in self.limits:
-                if limit.name in key:
-                    found = limit.apply(self.scene, found)
-            self._profile_of[key] = saturate(found)
-        return self._profile_of[key]
-
-    def enhancement(self, included: Names) -> Enhancement:
-        """Return the receiver's enhancement of the profile that some effects leave."""
-        key = included & self._lit
-        if key not in self._enhancement_of:
-            method = self.scene.model.enhancement
-            self._enhancement_of[key] = Enhancement(self.profile(included), method)
-        return self._enhancement_of[key]
-
     def inside(self, sets: Sequence[Names]) -> BoolArray | None:
         """Return which pixels of the sample are the panel's, None where all are."""
-        covers = [self.sample.covers[included & self.outline] for included in sets]
+        covers = [self.sample.covers[included & self.sample.outline] for included in sets]
         if all(cover is None for cover in covers):
             return None
         shape = self.sample.rows.shape
@@ -455,14 +313,3 @@ def _cut_rows(end: int) -> float:
     """Return the variance of the sum of the rows of a block that end at a row, by a pixel's."""
     rows = end % 8
     return rows * (8 - rows) / 8.0
-
-
-def _steps(tables: FloatArray) -> FloatArray:
-    """Return the differences of neighbours, some times faster than NumPy's."""
-    return np.asarray(tables[..., 1:] - tables[..., :-1])
-
-
-def _power(values: FloatArray, power: float) -> FloatArray:
-    """Return a power, some times faster than NumPy's."""
-    found: FloatArray = np.asarray(cv2.pow(values.reshape(-1, 1), power), dtype=np.float64)
-    return found.reshape(values.shape)

@@ -10,8 +10,8 @@ from occ_model.camera.enhancement import PassedSteps
 from occ_model.camera.photometry import WHITE
 from occ_model.effects.sampled_pixels import SampledPixels
 
-_FLUCTUATION = 4.0
-"""Standard deviations by which few pixels that are rounded otherwise may exceed their mean."""
+SURE_DEVIATIONS = 3.5
+"""Standard deviations by which the mean square of few columns may exceed its expectation."""
 
 
 class SignalSampling:
@@ -26,42 +26,46 @@ class SignalSampling:
         self._rows = pixels.view.region.rows
         self._spread = spread = pixels.spread(pixels.names)
         passed = PassedSteps.of(np.clip(pixels.levels, 0.0, WHITE), spread)
-        curve, self._deviation, jumps = pixels.enhancement(pixels.names).smoothed(passed)
-        self._even = pixels.slope(curve) ** 2
-        self._uneven = np.maximum(pixels.slope(jumps) - self._even, 0.0)
+        curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).smoothed(passed)
+        self._even = pixels.table.slope(curve) ** 2
+        self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
         inside = pixels.inside([pixels.names])
         self._inside = None if inside is None else inside[0]  # beside the panel nothing is enhanced
-        self._beside = 0.0 if inside is None else float(pixels.mean_of(~inside[0]))
-        self._gain = self._of_panel(self._even) + self._beside
+        self._beside = 0.0 if inside is None else pixels.mean_of_rows(~inside[0])
+        self._gain = pixels.mean_of_columns(self._of_panel(self._even) + self._beside)
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
         self._pixel = float(pixels.mean_at_whole(self._even + self._uneven)) * one
         # One pixel whose noise is drawn otherwise.
         self._drawn = float(pixels.mean_at_whole(self._even * spread**2)) * one
+        self._of_columns = {**self._of_noise(), **self._of_file(), **self._of_changes()}
 
-    def _of_panel(self, table: FloatArray) -> float:
-        """Return the mean of a table over all pixels, as if it were 0 beside the panel."""
-        return float(self._pixels.mean_at_whole(table, self._inside))
+    def _of_panel(self, table: FloatArray) -> FloatArray:
+        """Return the mean of a table over the rows, as if it were 0 beside the panel."""
+        found = self._pixels.at_whole(table)
+        return self._pixels.mean_of_rows(found if self._inside is None else found * self._inside)
 
     def of_effects(self) -> dict[str, float]:
         """Return it for each effect, by name."""
-        return {**self._of_noise, **self._of_file(), **self._of_changes}
+        mean = self._pixels.mean_of_columns
+        return {name: mean(squares) for name, squares in self._of_columns.items()}
 
     def fluctuations(self) -> dict[str, float]:
-        """Return by how much it may be larger for effects that move few pixels, by name."""
-        total = 0.25 * float((self._spread**2).max())
-        few = {n: v for n, v in self._of_noise.items() if self._variance_of(n) < total}
-        found = {**few, **self._of_changes}
-        return {n: _FLUCTUATION * math.sqrt(v * self._pixel) for n, v in found.items()}
+        """Return by how much it may be larger in the columns of one picture, by name.
 
-    def _variance_of(self, name: str) -> float:
-        return float(self._pixels.variances[name].max())
+        The mean square of n numbers of the variance v deviates by the root of (2 v^2 + k) / n. The
+        fourth cumulant k is that of few pixels that pass large steps.
+        """
+        mean, n = self._pixels.mean_of_columns, self._pixels.view.region.columns
+        return {
+            name: SURE_DEVIATIONS * math.sqrt(2.0 * mean(v**2) / n + mean(v) * self._pixel)
+            for name, v in self._of_columns.items()
+        }
 
-    def _of_mean(self, square: float, of_means: float) -> float:
+    def _of_mean(self, square: FloatArray, of_means: float) -> FloatArray:
         """Return that of a mean: of its pixels' deviations, and what is known of means."""
         return square / self._rows + of_means * self._gain
 
-    @cached_property
-    def _of_noise(self) -> dict[str, float]:
+    def _of_noise(self) -> dict[str, FloatArray]:
         pixels, total = self._pixels, self._spread**2
         found = {}
         for name, variance in pixels.variances.items():
@@ -75,19 +79,18 @@ class SignalSampling:
             part = np.where(own**2 > 0.7 * total, most, np.minimum(part, most))
             square = self._of_panel(part)
             if self._inside is not None and not pixels.files:
-                square += float(pixels.mean_at_whole(own**2, ~self._inside))
+                square = square + pixels.mean_of_rows(pixels.at_whole(own**2) * ~self._inside)
             found[name] = self._of_mean(square, of_means) + self._drawn
         return found
 
-    def _of_file(self) -> dict[str, float]:
+    def _of_file(self) -> dict[str, FloatArray]:
         file = self._pixels.file
         if file is None:
             return {}
-        found = self._of_mean(self._rounded, file.own_sampling())
-        return {self._pixels.files[0].name: found}
+        return {self._pixels.files[0].name: self._of_mean(self._rounded, file.own_sampling())}
 
     @cached_property
-    def _rounded(self) -> float:
+    def _rounded(self) -> FloatArray:
         """The mean square of what a file's rounding changes in an enhanced pixel."""
         file = self._pixels.file
         moved = 0.0 if file is None else min(math.sqrt(file.own_change), 1.0)
@@ -97,22 +100,28 @@ class SignalSampling:
     @property
     def doubt_of_file(self) -> float:
         """How much more that of a file may be, whose rounding is alike in the rows of a block."""
-        return 7.0 * self._rounded / self._rows if self._pixels.files else 0.0
+        if not self._pixels.files:
+            return 0.0
+        return 7.0 * self._pixels.mean_of_columns(self._rounded) / self._rows
 
-    @cached_property
-    def _of_changes(self) -> dict[str, float]:
+    def _of_changes(self) -> dict[str, FloatArray]:
         """Return it for effects that move the pixels' means."""
         pixels = self._pixels
         changes = np.abs(pixels.stack[1:] - pixels.whole)
         of_means: FloatArray = np.zeros(len(changes))
+        by_file = np.zeros((len(changes), 1, 1))  # Like noise, also where it is no small one
         if pixels.file is not None:
             added, of_means, _ = (of_sets[1:] for of_sets in pixels.file.added)
-            changes = np.sqrt(changes**2 + np.maximum(added, 0.0)[:, None, None])
+            by_file = np.maximum(added, 0.0)[:, None, None]
+            changes = np.sqrt(changes**2 + by_file)
         np.minimum(changes, 0.5, out=changes)
         even, uneven = pixels.at_whole(self._even), pixels.at_whole(self._uneven)
         if self._inside is not None:
             even, uneven = np.where(self._inside, even, 1.0), uneven * self._inside
-        squares = pixels.mean_of(changes * (even * (1.0 - changes) + uneven)).tolist()
+        passed = np.maximum(changes, 0.8 * np.sqrt(by_file))
+        squares = pixels.mean_of_rows(
+            even * (changes * (1.0 - changes) + by_file) + uneven * passed
+        )
         return {
             name: self._of_mean(square, own)
             for name, square, own in zip(pixels.moving, squares, of_means.tolist(), strict=True)

@@ -15,8 +15,8 @@ from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks, spli
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import OpticsEffect
 from occ_model.effects.paper_view import PaperView, paper_view_of
-from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import EFFECTS, NAMES, planned
+from occ_model.effects.plan import plan_of_any
+from occ_model.effects.registry import NAMES, planned
 from occ_model.results.decoding import Region
 from occ_model.results.plan import Plan
 from occ_model.room.room import Room, RoomLamp, check_room
@@ -120,7 +120,7 @@ def render_room(
     seen = lamps_in_view(room)
     timer.stage_ended("projection")
     views = [one.view for one in seen] or [_dark_view(room.scene)]
-    chosen = _planned(views, settings)
+    chosen = plan_of_any(_extreme(views), settings)
     timer.stage_ended("plan")
     if len(views) == 1:
         frame = render_plan(views[0], chosen, seed=seed, noise=noise, timer=timer)
@@ -164,28 +164,6 @@ def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
     table = np.round(table / np.maximum(np.abs(table).max(axis=0), 1e-30), 6)
     places = {*table.argmin(axis=0).tolist(), *table.argmax(axis=0).tolist()}
     return [views[place] for place in sorted(places)]
-
-
-def _planned(views: Sequence[PaperView], settings: SimulationSettings) -> Plan:
-    """Return the plan that includes what the picture of any lamp calls for."""
-    present = {each.name for each in EFFECTS if any(each.is_present(view.scene) for view in views)}
-    present -= {name for name, is_on in settings.force.items() if not is_on}
-    first, *others = _extreme(views)
-    chosen = plan_of(first, settings)
-    for view in others:
-        if present <= set(chosen.included):
-            break  # no lamp can call for more
-        chosen = _joined(chosen, plan_of(view, settings))
-    return chosen
-
-
-def _joined(one: Plan, other: Plan) -> Plan:
-    decisions = tuple(
-        max(both, key=lambda d: (d.included, d.estimate))
-        for both in zip(one.decisions, other.decisions, strict=True)
-    )
-    left_out = max(one.left_out, other.left_out)
-    return dataclasses.replace(one, decisions=decisions, left_out=left_out)
 
 
 def _optics_of(view: PaperView, chosen: Plan) -> Optics:

@@ -9,17 +9,21 @@ from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.bit_errors import BitErrors
+from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import RateSettings, SignalPath
 from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.success_rate import check_rate, right_bits_of_images
+from occ_model.study.success_rate import check_rate, right_bits_of_images, signal_plan_of_any
 from occ_model.study.theory import panel_readout_time
-from occ_model.transmitter.packet import code_of
+from occ_model.transmitter.packet import code_of, sent_chips
 
 MOST_BITS = 100_000_000
 """Maximum number of bits of a measurement."""
+
+_PLANNED_PAYLOADS = 3
+"""Payloads whose pictures are planned: what any of them calls for, all are simulated with."""
 
 
 def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -70,16 +74,34 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     settings = RateSettings(1, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     length = scene.transmitter.payload_length
-    root = np.random.default_rng(seed)
+    root, pictures = np.random.default_rng(seed), -(-bits // length)
+    chosen = _shared_plan(scene, settings, root, pictures)
     wrong = []
-    for _ in range(-(-bits // length)):
+    for _ in range(pictures):
         sent = with_payload(scene, root.integers(0, 2, length).tolist())
         own = RateSettings(
             1, (decoder,), int(root.integers(2**32)), tolerance, settings.force, path
         )
-        ((right,),) = right_bits_of_images(sent, own, heartbeat)
+        ((right,),) = right_bits_of_images(sent, own, heartbeat, chosen)
         wrong.append(length - right)
     return bit_errors_of(scene, decoder, wrong, wrong.count(0))
+
+
+def _shared_plan(
+    scene: Scene, settings: RateSettings, root: np.random.Generator, pictures: int
+) -> Plan | None:
+    """Return the effects that all pictures are simulated with, None where they are not alike.
+
+    A picture of less than a packet can show one run of equal chips or many stripes.
+    """
+    transmitter = scene.transmitter
+    packet = len(sent_chips(transmitter)) * transmitter.switching_period
+    if panel_readout_time(scene) < packet:
+        return None
+    (random,) = root.spawn(1)
+    length, count = transmitter.payload_length, min(pictures, _PLANNED_PAYLOADS)
+    payloads = [random.integers(0, 2, length).tolist() for _ in range(count)]
+    return signal_plan_of_any([with_payload(scene, bits) for bits in payloads], settings)
 
 
 def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:

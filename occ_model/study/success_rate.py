@@ -1,7 +1,7 @@
 """Measure the success rate: the fraction of bits read rightly over several images."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.plan import complete_plan, plan_of
+from occ_model.effects.plan import complete_plan, plan_of_any
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
@@ -119,19 +119,39 @@ def right_and_whole(
     return tuple(correct), tuple(whole)
 
 
+def signal_plan_of_any(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
+    """Choose the effects that the signal of any of some scenes calls for, which differ in code."""
+    own = SimulationSettings(settings.tolerance, "signal", settings.force).checked(NAMES)
+    complete, span = complete_plan(scenes[0], own), _span(scenes[0], settings)
+    # Without pixels all effects take less time than estimating what they change.
+    if span is None or "image" in complete.kinds or own.tolerance == math.inf:
+        return plan_of_any([paper_view_of(scene) for scene in scenes], own)
+    return complete
+
+
+def _span(scene: Scene, settings: RateSettings) -> Region | None:
+    """Return the rectangle that the panel fills, None where pixels are simulated in any case."""
+    return panel_span(scene) if settings.path in ("auto", "profile") else None
+
+
 def right_bits_of_images(
-    scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
+    scene: Scene,
+    settings: RateSettings,
+    heartbeat: Heartbeat = lambda: None,
+    chosen: Plan | None = None,
 ) -> Iterator[tuple[int, ...]]:
     """Count the bits that each decoder reads rightly, one image after the other.
 
     The arguments and errors are those of :func:`right_bits`; an image does not depend on how many
-    follow it.
+    follow it. ``chosen``: the effects that are simulated, by default those that the scene's own
+    signal calls for.
     """
     transmitter = scene.transmitter
     sent = np.array(transmitter.payload_bits, dtype=np.uint8)
     duration = len(sent_chips(transmitter)) * transmitter.switching_period
-    span = panel_span(scene) if settings.path in ("auto", "profile") else None
-    chosen = _plan(scene, settings, needs_pixels=span is None)
+    span = _span(scene, settings)
+    # The images differ in phase alone: all are planned alike.
+    chosen = chosen or signal_plan_of_any([scene], settings)
     for image in range(settings.images):
         heartbeat()
         stream = np.random.default_rng(_seed_of(settings.seed, image))
@@ -140,16 +160,6 @@ def right_bits_of_images(
             changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
         read = _read(scene.replace(**changes), settings, chosen, span, stream)
         yield tuple(_right_bits(seen, sent) for seen in read)
-
-
-def _plan(scene: Scene, settings: RateSettings, *, needs_pixels: bool) -> Plan:
-    """Choose the effects; the images differ in phase alone, so that all have the same."""
-    own = SimulationSettings(settings.tolerance, "signal", settings.force).checked(NAMES)
-    complete = complete_plan(scene, own)
-    # Without pixels all effects take less time than estimating what they change.
-    if needs_pixels or "image" in complete.kinds or own.tolerance == math.inf:
-        return plan_of(paper_view_of(scene), own)
-    return complete
 
 
 def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:

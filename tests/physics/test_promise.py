@@ -101,6 +101,13 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
         pytest.param(90146, "profile", id="full pixels are rounded before they are in a file"),
         pytest.param(182023, "signal", id="a file of noise that black and white cut off"),
         pytest.param(180059, "image", id="the light falls off above and below a few columns"),
+        pytest.param(182335, "signal", id="noise that ends at white, beside a step of 221 levels"),
+        pytest.param(182218, "signal", id="noise of less than the levels of a table"),
+        pytest.param(182297, "signal", id="two columns have half of the change"),
+        pytest.param(182322, "signal", id="a file changes pixels by several levels"),
+        pytest.param(410148, "signal", id="a rim moves into a block that is observed in part"),
+        pytest.param(410128, "profile", id="an upright rim crosses a column"),
+        pytest.param(410406, "signal", id="full pixels beside a step, some of them sampled"),
     ],
 )
 def test_the_promise_holds_where_it_was_once_broken(number: int, observable: Observable) -> None:

@@ -1,5 +1,7 @@
 """Laws of the bit error rate, its interval, and the bits a second that follow."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy import integrate, optimize
@@ -7,7 +9,9 @@ from scipy import integrate, optimize
 import occ_model as occ
 from occ_model.errors import ParameterError
 from occ_model.results.bench import BenchPoint, written
+from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
+from occ_model.study import success_rate
 from occ_model.study.bit_error_rate import (
     bit_errors_of,
     error_interval,
@@ -48,6 +52,37 @@ def test_same_seed_same_errors() -> None:
     assert found[0] == found[1]
     assert 0 < found[0].errors < 200
     assert found[0].errors != found[2].errors or found[0].low != found[2].low
+
+
+def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
+    """Return the plans that each picture of a measurement is simulated with."""
+    used: list[Plan] = []
+    whole = success_rate._read
+
+    def reading(*arguments: Any) -> Any:
+        used.append(arguments[2])
+        return whole(*arguments)
+
+    monkeypatch.setattr(success_rate, "_read", reading)
+    occ.bit_error_rate(scene, bits=bits, seed=2)
+    return used
+
+
+def test_pictures_of_whole_packets_are_simulated_with_what_any_payload_calls_for(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    scene = occ.load_preset("phone-136us-real").replace(rows=60, switching_frequency=14.1e3)
+    first, *others = plans_of(scene, 50, monkeypatch)
+    assert all(other is first for other in others)
+    alone = occ.plan(scene, observable="signal")
+    assert set(alone.included) <= set(first.included)
+
+
+def test_pictures_of_less_than_a_packet_are_planned_one_by_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    plans = plans_of(SCENE.replace(columns=40, switching_frequency=4e3), 60, monkeypatch)
+    assert len({id(one) for one in plans}) == len(plans)
 
 
 @pytest.mark.parametrize("payload", ["", "text:HELLO", "bits:0110"])

@@ -1,0 +1,74 @@
+"""Quantities that are tabulated over the grey levels, such as the noise of a pixel."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import FLAT
+
+_LEVELS = 129
+
+Places = tuple[NDArray[np.intp], FloatArray]
+"""The level below each value, and how far the value lies towards the next one."""
+
+
+class LevelTable:
+    """Levels from the lowest to the highest value, both with a margin, one of them at ``full``.
+
+    A table of any quantity has a value for each, along its last axis.
+    """
+
+    def __init__(self, low: float, high: float, full: float) -> None:
+        self.step = max(high - low, FLAT) / (_LEVELS - 3)
+        if low < full < high:  # where noise ends
+            low -= self.step * (1.0 - (full - low) / self.step % 1.0)
+        self.levels: FloatArray = low + self.step * np.arange(_LEVELS, dtype=np.float64)
+
+    def place(self, values: FloatArray) -> Places:
+        """Return where values lie among the levels."""
+        low, high = float(self.levels[0]), float(self.levels[-1])
+        share = (values - low) * ((_LEVELS - 1) / (high - low))
+        np.maximum(share, 0.0, out=share)
+        np.minimum(share, _LEVELS - 1.001, out=share)
+        below = share.astype(np.intp)
+        share -= below
+        return below, share
+
+    def at(self, table: FloatArray, places: Places) -> FloatArray:
+        """Interpolate one table at some places, shape as these."""
+        below, share = places
+        return np.asarray(table.take(below) + share * _steps(table).take(below))
+
+    def look(self, tables: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate tables at values: (..., *values.shape)."""
+        below, share = self.place(values)
+        return np.asarray(tables[..., below] + share * _steps(tables)[..., below])
+
+    def look_each(self, tables: FloatArray, values: FloatArray) -> FloatArray:
+        """Interpolate a table of its own for each of the values along their first axis."""
+        below, share = self.place(values)
+        below += _LEVELS * np.arange(len(tables)).reshape(-1, *(1,) * (values.ndim - 1))
+        return self.at(tables.ravel(), (below, share))
+
+    def slope(self, table: FloatArray) -> FloatArray:
+        """Return the slope of a table at each level."""
+        ends = np.concatenate([table[:1], table, table[-1:]])
+        slope = (ends[2:] - ends[:-2]) / (2.0 * self.step)
+        slope[[0, -1]] *= 2.0
+        return np.asarray(slope)
+
+    def divided(self, weights: FloatArray, places: Places) -> FloatArray:
+        """Divide weights among the levels beside their places.
+
+        The product of a table with it is the weighted sum of what is interpolated there.
+        """
+        below, share = places
+        above = (weights * share).ravel()
+        found = np.asarray(np.bincount(below.ravel(), weights.ravel() - above, _LEVELS), float)
+        found[1:] += np.bincount(below.ravel(), above, _LEVELS)[:-1]
+        return found
+
+
+def _steps(tables: FloatArray) -> FloatArray:
+    """Return the differences of neighbours, some times faster than NumPy's."""
+    return np.asarray(tables[..., 1:] - tables[..., :-1])

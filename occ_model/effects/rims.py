@@ -1,0 +1,107 @@
+"""The panel's rims in a sample of the pixels: what effects move there, and what no sample shows."""
+
+from functools import cached_property
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.effects.file_change import FileChange
+from occ_model.effects.paper_view import PaperView
+from occ_model.effects.sample import Sample
+
+_UNSAMPLED_PIXELS = 1.0
+"""Pixels of a rim that may change and that no sample shows."""
+
+_SEEN_SHARE = 0.003
+"""Change of a pixel's light from beyond a rim that can round it otherwise."""
+
+
+class Rims:
+    """The rims of a scene's panel. A panel that covers all of the picture has none."""
+
+    def __init__(self, view: PaperView, sample: Sample) -> None:
+        self._region, self._camera = view.region, view.scene.camera
+        self._swing = view.swing
+        self._is_level = view.sides is not None
+        self._sample = sample
+
+    @cached_property
+    def shares(self) -> tuple[float, float]:
+        """The shares of the pixels in blocks of a file with rims along the rows, and upright ones.
+
+        A turned rim is both.
+        """
+        region, camera = self._region, self._camera
+        if self._sample.is_covered:
+            return 0.0, 0.0
+        ends = (region.first_row > 0) + (region.last_row < camera.rows)
+        sides = (region.first_column > 0) + (region.last_column < camera.columns)
+        if not self._is_level:
+            ends = sides = 2
+        return min(1.0, 4.0 * ends / region.rows), min(1.0, 4.0 * sides / region.columns)
+
+    @property
+    def share(self) -> float:
+        """The share of the pixels in a file's blocks with any rim."""
+        return min(1.0, sum(self.shares))
+
+    def _moved(self, name: str) -> FloatArray | None:
+        """Return what an effect changes in the panel's share of each pixel, None for nothing."""
+        covers, outline = self._sample.covers, self._sample.outline
+        whole, without = covers[outline], covers[outline - {name}]
+        if whole is without or whole is None or without is None:
+            return None
+        return whole - without
+
+    def moved(self, name: str) -> float:
+        """Return how many rims of a column, 0 to 2, an effect moves or softens in the mean."""
+        moved, sample = self._moved(name), self._sample
+        if moved is None:
+            return 0.0
+        is_seen = np.abs(moved) > _SEEN_SHARE
+        middle = sample.inner.start + 2
+        above, below = is_seen[:, :middle].any(axis=1), is_seen[:, middle:].any(axis=1)
+        return float(((above * 1.0 + below) * sample.weights).sum())
+
+    def crossed(self, name: str) -> float:
+        """Return the mean square of the error of a column's share of an upright rim.
+
+        Where an effect moves the rim in some of a column's nodes within the panel and not in the
+        others, the nodes tell the share of its rows to a third.
+        """
+        moved = self._moved(name)
+        if moved is None:
+            return 0.0
+        spans = np.ptp(moved[:, self._sample.inner], axis=1)
+        return float(spans**2 @ self._sample.weights) / 9.0
+
+    def unsampled(self, square: float, file: FileChange | None) -> float:
+        """Return the mean square of a few pixels of a rim, of which a sample need not show any.
+
+        A file spreads them over their block.
+        """
+        if self._sample.is_covered:
+            return 0.0
+        found = _UNSAMPLED_PIXELS * square
+        if file is not None:
+            pixels = self._region.rows * self._region.columns
+            found += file.added_at_a_rim(min(64.0 / pixels, self.share), found)
+        return found
+
+    def cut_blocks(self, file: FileChange | None) -> float:
+        """Return the mean square of what a file changes beside a rim that moves outwards.
+
+        Its blocks are observed in part.
+        """
+        return file.added_at_a_rim(self.share, self.share * self._swing**2 / 64.0) if file else 0.0
+
+    def cut_blocks_of_means(self, file: FileChange | None, contrast: float) -> float:
+        """Return the same in the means of columns, if a column of upright blocks becomes bright.
+
+        Where noise spreads it over the file's steps, it differs from block to block.
+        """
+        if file is None:
+            return 0.0
+        added = file.added_at_a_rim(self.shares[1], self.shares[1] * contrast**2 / 8.0)
+        alike = file.undithered_share
+        return added * (alike + (1.0 - alike) / file.block_rows)

@@ -1,0 +1,78 @@
+"""The columns of a whole picture as some of the effects leave them: they cost microseconds."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
+from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.photometry import ColumnLight, fast_power, panel_values, saturate
+from occ_model.effects.effect import LightEffect, PixelEffect
+from occ_model.effects.paper_view import PaperView
+
+Names = frozenset[str]
+"""Effects by name."""
+
+
+class SimulatedColumns:
+    """The light of a view's columns, their values and the receiver's enhancement of these.
+
+    Each is known by the effects on it: on the light, and on a pixel's mean value.
+    """
+
+    def __init__(
+        self, view: PaperView, lights: Sequence[LightEffect], limits: Sequence[PixelEffect]
+    ) -> None:
+        self._view = view
+        self._lights, self._limits = lights, limits
+        self._of_light = frozenset(effect.name for effect in lights)
+        self._of_value = self._of_light.union(effect.name for effect in limits)
+        self._light: dict[Names, ColumnLight] = {}
+        self._profile: dict[Names, FloatArray] = {}
+        self._enhancement: dict[Names, Enhancement] = {}
+
+    def light(self, included: Names) -> ColumnLight:
+        """Return the light of all columns."""
+        key = included & self._of_light
+        if key not in self._light:
+            light = self._view.light
+            for effect in self._lights:
+                if effect.name in key:
+                    light = effect.apply(self._view.scene, light)
+            self._light[key] = light
+        return self._light[key]
+
+    def light_at(self, sets: Sequence[Names], columns: IndexArray) -> tuple[ColumnLight, list[int]]:
+        """Return the different lights at some columns, (lights, columns), and whose each is."""
+        keys = [included & self._of_light for included in sets]
+        known = list(dict.fromkeys(keys))
+        lights = [self.light(key) for key in known]
+        ambient = [
+            light.ambient[columns]
+            if len(light.ambient) > 1
+            else np.repeat(light.ambient, len(columns))
+            for light in lights
+        ]
+        found = ColumnLight(np.stack([light.lit[columns] for light in lights]), np.stack(ambient))
+        return found, [known.index(key) for key in keys]
+
+    def profile(self, included: Names) -> FloatArray:
+        """Return the values of all columns on the panel."""
+        key = included & self._of_value
+        if key not in self._profile:
+            light, view = self.light(key), self._view
+            is_known = light is view.light
+            found = view.values if is_known else panel_values(view.scene, light, fast_power)
+            for limit in self._limits:
+                if limit.name in key:
+                    found = limit.apply(view.scene, found)
+            self._profile[key] = saturate(found)
+        return self._profile[key]
+
+    def enhancement(self, included: Names) -> Enhancement:
+        """Return the receiver's enhancement of the profile."""
+        key = included & self._of_value
+        if key not in self._enhancement:
+            method = self._view.scene.model.enhancement
+            self._enhancement[key] = Enhancement(self.profile(included), method)
+        return self._enhancement[key]

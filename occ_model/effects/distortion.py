@@ -162,7 +162,7 @@ def _view(lens: Lens, corner: float, needed: float) -> _View:
             parameters=("radial_k1", "radial_k2", "tangential_p1", "tangential_p2"),
         )
     radius = float(radii[last])
-    # The rays that a lens without distortion would need are included: the bound compares with it.
+    # The rays that a lens without distortion would need are included: an estimate compares both.
     kept = max(radius, needed)
     return _View(radius, circle * kept / math.cos(math.pi / _DIRECTIONS))
 

@@ -2,7 +2,7 @@
 
 An effect belongs to one stage of the light's way from the panel to the file. It says whether a
 scene has it (``is_present``), and simulates it (``apply``). How much leaving it out changes what is
-observed follows from that, on a sample of the pixels: see :mod:`occ_model.effects.change`.
+observed follows from that, on a sample of the pixels: see :mod:`occ_model.effects.estimates`.
 """
 
 from abc import ABC, abstractmethod

@@ -47,8 +47,7 @@ def observed(pixels: SampledPixels, observable: Observable) -> Observed:
         square = rims * max(pixels.view.swing, pixels.contrast) ** 2 / 64.0
         at_rims = pixels.file.undithered_share * pixels.file.added_at_a_rim(rims, square)
         doubt += at_rims if observable == "image" else at_rims / pixels.file.block_rows
-        for name in pixels.names:
-            found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+        found.add_doubt(pixels.names, doubt)
     return found
 
 

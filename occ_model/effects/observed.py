@@ -1,7 +1,7 @@
 """What is observed of a sample of pixels, and how it changes without some of the effects."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 
@@ -54,6 +54,11 @@ class Observed:
         """
         self.alone.update(squares)
         self.known.update(dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values)))
+
+    def add_doubt(self, names: Iterable[str], square: float) -> None:
+        """Add a mean square to what the sample may not show of some effects."""
+        for name in names:
+            self.doubt[name] = self.doubt.get(name, 0.0) + square
 
     def shown(self, name: str) -> float:
         """Return the mean square of what leaving out an effect changes, as the sample shows it."""

@@ -97,5 +97,5 @@ def observed_profile(pixels: SampledPixels) -> Observed:
             added, more = (float(of_sets[pixels.place(name)]) for of_sets in file.added[1:])
             found.alone[name] = added
             added += 2.0 * more / file.block_rows
-            found.doubt[name] = found.doubt.get(name, 0.0) + added
+            found.add_doubt([name], added)
     return found

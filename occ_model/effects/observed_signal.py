@@ -137,7 +137,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
         own = pixels.rims.moved(name) * (part * jump / region.rows) ** 2
         found.doubt[name] = doubt + own + pixels.rims.crossed(name) * jump**2
     for name, square in fluctuations.items():
-        found.doubt[name] = found.doubt.get(name, 0.0) + square
+        found.add_doubt([name], square)
     _doubt_sharp_steps(pixels, found)
     _doubt_large_steps(pixels, found)
     _doubt_a_cut_file(pixels, found)
@@ -175,9 +175,7 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
         error = np.full(whole.size, math.sqrt(pixels.file.own_change))
         reached = enhancement.moments(whole.ravel(), error)[1].reshape(whole.shape)
     square = pixels.mean_of_rows(np.where(sharp, reached, 0.0) ** 2)
-    doubt = float((square * pixels.sample.weights).sum())
-    for name in pixels.names:
-        found.doubt[name] = found.doubt.get(name, 0.0) + doubt
+    found.add_doubt(pixels.names, float((square * pixels.sample.weights).sum()))
 
 
 def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
@@ -195,17 +193,20 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     if not len(large):
         return
     profile = pixels.columns.profile(pixels.names)[region.first_column : region.last_column]
-    missed = np.full(len(profile), 1.0 / len(profile))
+    missed = np.full(region.columns, 1.0 / region.columns)
     np.subtract.at(missed, sample.columns - region.first_column, sample.weights)
     middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
+    noise = pixels.noise_at(pixels.names, profile)  # a full pixel has none
+    moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2)).tolist()
+    reach = max(2.0 * float(noise.max()), *moved, _ROUNDING_MARGIN)
+    close = (np.abs(profile - middles) < reach).any(axis=0)
+    profile, missed, noise = profile[close], missed[close], noise[close]
     away = np.abs(profile - middles)
 
     def doubt(name: str, near: BoolArray, carried: FloatArray) -> None:
         squares = np.where(near, steps[large][:, None] * np.minimum(carried, 0.5), 0.0) ** 2
-        total = max(float((squares @ missed).sum()), 0.0)
-        found.doubt[name] = found.doubt.get(name, 0.0) + total
+        found.add_doubt([name], max(float((squares @ missed).sum()), 0.0))
 
-    noise = pixels.noise_at(pixels.names, profile)  # a full pixel has none
     reached = away < np.maximum(2.0 * noise, _ROUNDING_MARGIN)
     for effect in pixels.noises:
         own = pixels.noise_at(frozenset({effect.name}), profile) ** 2
@@ -213,11 +214,11 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
         by_chance = np.sqrt(own / (rest + own)) / 3.0 / region.rows
         doubt(effect.name, reached, np.sqrt((own / rest / 8.0) ** 2 + by_chance))
     least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
-    moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2)).tolist()
     for name, own in zip(pixels.moving, moved, strict=True):
         doubt(name, away < max(own, _ROUNDING_MARGIN), 0.4 * own / least)
         if least.min() < _LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
-            found.doubt[name] += SURE_DEVIATIONS * found.sampling_error(name, region.columns)
+            error = found.sampling_error(name, region.columns)
+            found.add_doubt([name], SURE_DEVIATIONS * error)
 
 
 def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
@@ -233,5 +234,4 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     cut = float(pixels.mean_at_whole(lost))
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change * min(gain, _MOST_GAIN) ** 2 / 4.0
-    for effect in (*pixels.noises, *pixels.files):
-        found.doubt[effect.name] = found.doubt.get(effect.name, 0.0) + doubt
+    found.add_doubt((effect.name for effect in (*pixels.noises, *pixels.files)), doubt)

@@ -15,9 +15,7 @@ from occ_model.camera.photometry import (
     FLAT,
     WHITE,
     ColumnLight,
-    luminance_levels,
     panel_values,
-    pixel_value,
 )
 from occ_model.camera.projection import panel_corners
 from occ_model.results.decoding import Region
@@ -129,15 +127,3 @@ def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
 
 def _first_from(place: float, size: int) -> int:
     return math.ceil(min(max(place, 0.0), float(size)))
-
-
-def reachable_luminances(scene: Scene) -> tuple[float, float]:
-    """Return the least light of the dark panel and the most of the lit one, flicker included."""
-    dark, bright = luminance_levels(scene).tolist()
-    depth = scene.surroundings.flicker_depth
-    return dark * (1.0 - depth), bright + dark * depth
-
-
-def saturated_value(luminance: float, scene: Scene) -> float:
-    """Return the pixel value of a luminance, at most the largest one."""
-    return min(float(pixel_value(np.array([luminance]), scene.camera)[0]), WHITE)

@@ -3,9 +3,9 @@
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import WHITE, luminance_levels, pixel_value
 from occ_model.camera.sensor import converter_step, deviation, saturation_value
 from occ_model.effects.effect import Cost, NoiseEffect, PixelEffect, Values
-from occ_model.effects.paper_view import reachable_luminances, saturated_value
 from occ_model.scene.scene import Scene
 
 
@@ -22,18 +22,14 @@ class FullWell(PixelEffect):
 
     def is_present(self, scene: Scene) -> bool:
         """Return whether any column can have more light than a full well holds."""
-        return _above_full_well(scene) > 0.0
+        dark, bright = luminance_levels(scene)
+        most = bright + dark * scene.surroundings.flicker_depth
+        return min(float(pixel_value(most, scene.camera)), WHITE) > saturation_value(scene)
 
     def apply(self, scene: Scene, values: Values) -> Values:
         """Limit the values to that of a full well."""
         full = np.asarray(saturation_value(scene), dtype=values.dtype)
         return np.minimum(values, full)
-
-
-def _above_full_well(scene: Scene) -> float:
-    """Return the grey levels of the brightest column above a full well's, negative if below."""
-    brightest = saturated_value(reachable_luminances(scene)[1], scene)
-    return brightest - saturation_value(scene)
 
 
 class FixedPattern(NoiseEffect):

@@ -79,21 +79,9 @@ def plugin_names(group: str) -> tuple[str, ...]:
 
 
 def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
-    """Import what a plug-in offers.
+    """Import what a plug-in offers under a name, which has to be of a kind and have the name too.
 
-    Parameters
-    ----------
-    group
-        The entry point.
-    name
-        The plug-in's name in it, which the object must have as well.
-    kind
-        The type that the object must have.
-
-    Raises
-    ------
-    PluginError
-        There is no such plug-in, its import fails, or it is something else.
+    Raises PluginError where there is no such plug-in, its import fails, or it is something else.
     """
     entry = _found(group).get(name)
     if entry is None:
@@ -107,8 +95,7 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
         raise PluginError(
             f"{described(group, name)} is a {type(offered).__name__}, not a {kind.__name__}."
         )
-    own = getattr(offered, "name", None)
-    if not isinstance(own, str) or own != name:  # an array would compare its elements
+    if (own := getattr(offered, "name", None)) != name:
         raise PluginError(f"{described(group, name)} calls itself {shown(own)}.")
     return offered
 
@@ -120,24 +107,11 @@ def described(group: str, name: str) -> str:
     return f"The plug-in {one_line(name)!r} of the package {one_line(str(package))!r}"
 
 
-def title_of(offered: object, who: str) -> str:
-    """Return the title of what a plug-in offers, in one line.
-
-    Raises
-    ------
-    PluginError
-        It has none.
-    """
-    try:
-        return one_line(str(getattr(offered, "title", "")))
-    except FAULTS as error:
-        raise PluginError(f"{who} has no title: {reason(error)}") from None
+def title_of(offered: object) -> str:
+    """Return the title of what a plug-in offers, in one line."""
+    return one_line(str(getattr(offered, "title", "")))
 
 
 def reason(error: BaseException) -> str:
     """Write an exception of a plug-in as the end of a sentence."""
-    try:
-        text = one_line(str(error))
-    except FAULTS:
-        text = "it gives no reason"
-    return f"{type(error).__name__}: {text}."
+    return f"{type(error).__name__}: {one_line(str(error))}."

@@ -82,4 +82,4 @@ def _plugin(name: str) -> Decoder:
             return DecodeResult(name, signal=signal, failure=f"{who} gives {problem}.")
         return replace(result, decoder=name, failure=plain_reason(result.failure), location=None)
 
-    return Decoder(name, plugins.title_of(offered, who), read)
+    return Decoder(name, plugins.title_of(offered), read)

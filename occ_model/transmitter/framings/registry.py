@@ -63,8 +63,7 @@ def _guarded(offered: Framing) -> Framing:
             return Framed.nothing(f"{who} gives {problem}.")
         return Framed(read.headers, plain_bits(read.bits), plain_reason(read.failure))
 
-    title = plugins.title_of(offered, who)
-    return replace(offered, title=title, encode=encode, decode=decode)
+    return replace(offered, title=plugins.title_of(offered), encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(

@@ -73,8 +73,7 @@ def _guarded(offered: LineCode) -> LineCode:
             return Decoded(failure=f"{who} gives bits, but not where they break the code, or why.")
         return Decoded(plain_bits(read.bits), read.violations, plain_reason(read.failure))
 
-    title = plugins.title_of(offered, who)
-    return replace(offered, title=title, encode=encode, decode=decode)
+    return replace(offered, title=plugins.title_of(offered), encode=encode, decode=decode)
 
 
 LINE_CODES = Registry(

@@ -3,7 +3,6 @@
 import os
 from argparse import Namespace
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_gui.core.workspace import Workspace
@@ -84,23 +83,12 @@ def start_of(options: Namespace, scene: Scene, settings: SimulationSettings, own
     return Start(first, asked, kept_settings(), file, options.fresh)
 
 
-def kept_settings() -> "QSettings | None":
-    """Open the stored preferences; None if no file can store them, as Qt would block on each."""
-    from PySide6.QtCore import QSettings, QStandardPaths
+def kept_settings() -> "QSettings":
+    """Open the stored preferences: those of the folder that the environment names, or of Qt's."""
+    from PySide6.QtCore import QSettings
 
-    from occ_gui.files.kept_file import is_something_else, usable_settings_path
     from occ_gui.files.session_file import STATE_FOLDER, state_folder
 
-    is_named = bool(os.environ.get(STATE_FOLDER))
-    if is_named:
-        preferred = state_folder() / "settings.ini"
-    else:
-        place = QStandardPaths.StandardLocation.GenericConfigLocation
-        preferred = Path(QStandardPaths.writableLocation(place), *_NAMES).with_suffix(".conf")
-    path = usable_settings_path(preferred)
-    if path is None:
-        return None
-    shared = preferred.parent.with_suffix(".conf")  # Qt reads the organisation's file as well
-    if is_named or path != preferred or is_something_else(shared):
-        return QSettings(str(path), QSettings.Format.IniFormat)
+    if os.environ.get(STATE_FOLDER):
+        return QSettings(str(state_folder() / "settings.ini"), QSettings.Format.IniFormat)
     return QSettings(*_NAMES)

@@ -9,8 +9,6 @@ from secrets import token_hex
 
 from PySide6.QtCore import QLockFile
 
-from occ_gui.files.kept_file import is_something_else
-
 _PREFIX = ".export-"
 _NAME = re.compile(re.escape(_PREFIX) + r"[a-z0-9_]{8}")
 
@@ -36,8 +34,6 @@ def remove_left_behind(folder: Path) -> None:
     names = {path.name.removesuffix(".lock") for path in folder.glob(f"{_PREFIX}*")}
     for name in filter(_NAME.fullmatch, names):
         aside = folder / name
-        if is_something_else(Path(f"{aside}.lock")):
-            continue
         lock = _lock_of(aside)
         if not lock.tryLock(0):  # its process is running, here or on another computer
             continue

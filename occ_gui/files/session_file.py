@@ -8,7 +8,7 @@ from typing import Any
 
 from PySide6.QtCore import QLockFile
 
-from occ_gui.files.kept_file import LARGEST, is_something_else
+from occ_gui.files.kept_file import LARGEST
 from occ_gui.files.session_record import Kept, kept_in, record_of
 from occ_model.errors import OccError, OutputError
 from occ_model.files.reading import read_text
@@ -65,8 +65,6 @@ class SessionFile:
             newest = max(readable, key=lambda path: (_count_in(records[path]), _time_of(path)))
             self.last = kept_in(records[newest])
         for path in sorted(paths, key=lambda path: not _is_in_use(records[path])):
-            if is_something_else(path.with_suffix(".lock")):  # QLockFile would block on a pipe
-                continue
             lock = QLockFile(str(path.with_suffix(".lock")))
             lock.setStaleLockTime(0)  # never stale by age, only if its process has ended
             if not lock.tryLock(0):

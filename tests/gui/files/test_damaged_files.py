@@ -1,25 +1,22 @@
 """The window starts whatever the files contain that it reads at its start."""
 
-import itertools
 import json
 import os
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from _pytest.mark import ParameterSet
 from gui.starts import PROJECT, Starts
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.app.start import kept_settings
 from occ_gui.core.workspace import FIRST_SETTINGS, Workspace
-from occ_gui.files.kept_file import LARGEST, MOST_NAMES, usable_settings_path
+from occ_gui.files.kept_file import LARGEST
 from occ_gui.files.preferences import Preferences
 from occ_gui.files.session_file import SessionFile
 from occ_gui.files.session_record import Kept
@@ -132,62 +129,13 @@ sys.exit(app.main([]))
 """
 
 
-FILES_OF_WINDOW = (
-    ("session-1.json",), ("session-1.lock",), ("settings.ini",), ("settings.ini.lock",),
-    ("settings.ini", "settings-new.ini"),
-)  # fmt: skip
-
-
-def every_file_and_damage() -> Iterator[ParameterSet]:
-    """Pair each file with each damage; every day each of both once."""
-    for place, (files, kind) in enumerate(itertools.product(FILES_OF_WINDOW, NO_FILES)):
-        number, damage = divmod(place, len(NO_FILES))
-        everyday = damage % len(FILES_OF_WINDOW) == number
-        yield pytest.param(
-            files, NO_FILES[kind], id=f"{' '.join(files)}-{kind}",
-            marks=() if everyday else pytest.mark.whole,
-        )  # fmt: skip
-
-
-@pytest.mark.parametrize(("names", "damage"), list(every_file_and_damage()))
+@pytest.mark.parametrize("kind", NO_FILES)
 def test_what_is_no_file_does_not_keep_the_window_from_starting(
-    tmp_path: Path, starts: Starts, names: tuple[str, ...], damage: Damage
+    tmp_path: Path, starts: Starts, kind: str
 ) -> None:
-    for name in names:
-        damage(tmp_path / name)
+    NO_FILES[kind](tmp_path / "session-1.json")
     window = starts.run(program=LOOK, OCC_STATE=str(tmp_path))
     assert (window.returncode, window.stderr) == (0, "")
-
-
-@pytest.mark.parametrize("damage", NO_FILES.values(), ids=NO_FILES)
-@pytest.mark.parametrize("ending", ["", ".lock"])
-def test_settings_are_stored_where_qt_does_not_wait(
-    tmp_path: Path, ending: str, damage: Damage
-) -> None:
-    preferred = tmp_path / "settings.ini"
-    chosen = []
-    while (path := usable_settings_path(preferred)) is not None:
-        chosen.append(path)
-        damage(tmp_path / f"{path.name}{ending}")
-        assert len(chosen) <= MOST_NAMES
-    assert chosen[:2] == [preferred, tmp_path / "settings-new.ini"]
-    assert len(set(chosen)) == MOST_NAMES
-
-
-def test_files_that_qt_can_use_are_not_replaced(tmp_path: Path) -> None:
-    preferred = tmp_path / "settings.ini"
-    preferred.touch()
-    (tmp_path / "settings.ini.lock").touch()  # that of another window
-    assert usable_settings_path(preferred) == preferred
-
-
-def test_without_a_usable_file_no_settings_are_stored(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("OCC_STATE", str(tmp_path))
-    while (path := usable_settings_path(tmp_path / "settings.ini")) is not None:
-        path.mkdir()
-    assert kept_settings() is None
 
 
 READ_SETTINGS = """
@@ -196,15 +144,10 @@ print(kept_settings().value("view/margins"))
 """
 
 
-@pytest.mark.parametrize("damaged", [None, "occ-explorer.conf"])
-def test_what_is_no_file_beside_the_default_settings_does_not_block(
-    tmp_path: Path, damaged: str | None
-) -> None:
+def test_the_default_settings_are_those_of_the_users_folder(tmp_path: Path) -> None:
     folder = tmp_path / "occ-explorer"
     folder.mkdir()
     (folder / "occ-gui.conf").write_text("[view]\nmargins=no\n", "ascii")
-    if damaged is not None:
-        os.mkfifo(tmp_path / damaged)
     environment = {**os.environ, "XDG_CONFIG_HOME": str(tmp_path)}
     del environment["OCC_STATE"]
     read = subprocess.run(

@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
 import matplotlib as mpl
@@ -65,39 +64,10 @@ def undecodable(path: Path) -> None:
     path.write_bytes(b"lines.linewidth: 2 # \xff\xfe\n")
 
 
-def foreign_backend(path: Path) -> None:
-    path.write_text("backend: nonsense\nno such key: 1\nno colon\n", encoding="utf-8")
-
-
-def unreadable(path: Path) -> None:
-    taste(path)
-    path.chmod(0)
-
-
-def endless(path: Path) -> None:
-    os.mkfifo(path)
-
-
-@pytest.mark.parametrize(
-    "make",
-    [
-        taste,
-        pytest.param(undecodable, marks=pytest.mark.whole),
-        pytest.param(foreign_backend, marks=pytest.mark.whole),
-        pytest.param(unreadable, marks=pytest.mark.whole),
-        pytest.param(
-            endless,
-            marks=[
-                pytest.mark.whole,
-                pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes"),
-            ],
-        ),
-    ],
-)
 def test_no_settings_file_in_the_working_folder_reaches_a_figure(
-    make: Callable[[Path], None], tmp_path: Path, plain: str
+    tmp_path: Path, plain: str
 ) -> None:
-    make(tmp_path / "matplotlibrc")
+    taste(tmp_path / "matplotlibrc")
     assert drawn(tmp_path) == plain
 
 

@@ -76,7 +76,7 @@ def run_program(
         say(name, INTERRUPTED)
         return EXIT_INTERRUPTED
     except OccError as error:
-        say(name, f"{error}{_missing_folder()}")
+        say(name, str(error))
         return EXIT_MISUSE
     except Exception as error:  # noqa: BLE001 - a traceback would tell a user nothing
         return _say_failure(name, error)
@@ -225,27 +225,14 @@ def _say_failure(name: str, error: Exception) -> int:
     elif isinstance(error, OSError):
         reason = one_line(error.strerror or str(error))
         if error.filename is None:
-            say(name, f"Writing or reading failed: {reason}.{_missing_folder()}")
+            say(name, f"Writing or reading failed: {reason}.")
         else:
             file = one_line(os.fsdecode(error.filename))
-            say(name, f"{file}: {reason}.{_missing_folder()}")
+            say(name, f"{file}: {reason}.")
     else:
         kind, text = type(error).__name__, one_line(" ".join(str(error).split()))
         say(name, f"A mistake in this program, {_place(error.__traceback__)}: {kind}: {text}.")
     return EXIT_FAILURE
-
-
-def _missing_folder() -> str:
-    """Say that the working folder is gone, where it is: names of files begin in it."""
-    try:
-        os.getcwd()  # noqa: PTH109 - pathlib is slow to import
-    except FileNotFoundError:
-        folder = os.environ.get("PWD", "")
-        named = f" {one_line(folder)}" if folder else ""
-        return f" The working folder{named} was removed: change to another one."
-    except OSError:
-        pass
-    return ""
 
 
 def _discard_unwritten_output() -> None:

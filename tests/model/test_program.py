@@ -273,17 +273,3 @@ def test_a_sweep_with_few_open_files_is_done_without_a_traceback(most: int, tmp_
     assert (done.returncode, "Traceback" in done.stderr) == (0, False), done.stderr
     assert "3 points" in done.stdout
     assert len((tmp_path / "rates.csv").read_text().splitlines()) > 3
-
-
-def test_a_working_folder_that_was_removed_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    folder = tmp_path / "gone"
-    folder.mkdir()
-    monkeypatch.chdir(folder)
-    monkeypatch.setenv("PWD", str(folder))
-    folder.rmdir()
-    for words in (["render", "-o", "out.png"], ["match", "photo.jpg"]):
-        assert main(words) != 0
-        said = capsys.readouterr().err
-        assert said.endswith(f" The working folder {folder} was removed: change to another one.\n")

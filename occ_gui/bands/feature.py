@@ -1,9 +1,14 @@
 """The pane of the bars, declared."""
 
-from occ_gui.bands.figures import bands_figures
+from typing import TYPE_CHECKING
+
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.feature import Feature, Pane
+from occ_gui.shell.feature import Draw, Feature, Figure, Pane
+from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from occ_model.figures.drawing import Drawing
 
 
 def bands(scenes: SceneStore) -> Feature[Scene]:
@@ -21,4 +26,29 @@ def bands(scenes: SceneStore) -> Feature[Scene]:
         make=make,
         part=lambda workspace, _: workspace.scene,
         figures=bands_figures(),
+    )
+
+
+def bands_figures() -> tuple[Figure, ...]:
+    """Declare the figures: both need the scene alone."""
+
+    def bars(_pane: object, shown: Snapshot) -> Draw:
+        def draw() -> "Drawing":
+            from occ_model.figures.bands import bands_drawing
+
+            return bands_drawing(shown.frame.scene)
+
+        return draw
+
+    def flicker(_pane: object, shown: Snapshot) -> Draw:
+        def draw() -> "Drawing":
+            from occ_model.figures.bands import flicker_drawing
+
+            return flicker_drawing(shown.frame.scene)
+
+        return draw
+
+    return (
+        Figure(name="bands", title="Bars", draw=bars),
+        Figure(name="flicker", title="Flicker for the eye", draw=flicker),
     )

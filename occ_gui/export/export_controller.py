@@ -12,8 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QWidget
 from occ_gui.background.task import Task
 from occ_gui.export.jobs import Exported, ExportJob, FigureRequest, export
 from occ_gui.files.preferences import Preferences
-from occ_gui.shell.feature import Service
-from occ_gui.shell.figures import NothingToDraw
+from occ_gui.shell.feature import NothingToDraw, Service
 from occ_gui.shell.shell import Shell
 from occ_gui.simulation.present_results import PresentResults
 from occ_gui.simulation.snapshot import Snapshot

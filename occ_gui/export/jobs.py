@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from occ_gui.export.export_folder import folder_aside, remove_left_behind
-from occ_gui.shell.figures import Draw
+from occ_gui.shell.feature import Draw
 from occ_model.errors import OutputError
 from occ_model.files.writing import check_replaceable, make_folder
 from occ_model.scene.provenance import Provenance

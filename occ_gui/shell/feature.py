@@ -3,15 +3,39 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeAlias, TypeVar
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.background.task import Task
 from occ_gui.core.workspace import Workspace
-from occ_gui.shell.figures import Figure
 from occ_gui.shell.results import MadeOf, Results
+from occ_gui.simulation.snapshot import Snapshot
+from occ_model.errors import OccError
+
+if TYPE_CHECKING:
+    from occ_model.figures.drawing import Drawing
+
+
+Draw: TypeAlias = "Callable[[], Drawing]"
+"""Makes a drawing, on another thread than the window's: it touches no widget."""
+
+
+class NothingToDraw(OccError):  # noqa: N818 - not an error: the data are not complete yet
+    """There are no data yet for a figure."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Figure:
+    name: str
+    title: str
+    draw: Callable[[Any, Snapshot], Draw]
+    """Says how the figure is drawn, of the pane and the results on the window; the pane is None
+    where it was never seen. Raises NothingToDraw."""
+    is_another: Callable[[Any], bool] = lambda _pane: True
+    """Whether it differs at the moment from all other figures."""
+
 
 Part = TypeVar("Part")
 

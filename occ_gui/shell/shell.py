@@ -8,8 +8,7 @@ from PySide6.QtGui import QAction, QHideEvent, QShowEvent
 from PySide6.QtWidgets import QDockWidget, QVBoxLayout, QWidget
 
 from occ_gui.core.store import Store
-from occ_gui.shell.feature import Feature, Pane, Service
-from occ_gui.shell.figures import Draw, Figure
+from occ_gui.shell.feature import Draw, Feature, Figure, Pane, Service
 from occ_gui.shell.results import Board
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.event_filters import leave_drops_to_window

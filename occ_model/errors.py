@@ -5,14 +5,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Self
 
-_LONGEST_VALUE = 80
-"""Characters of a value that a sentence quotes."""
-
-_LONGEST_NAME = 200
-"""Characters of a name or title that a sentence or a label shows."""
-
-_LONGEST_TEXT = 1_000_000
-"""Characters of a text that is shown whole."""
+_LONGEST_VALUE = 80  # characters of a value that a sentence quotes
+_LONGEST_NAME = 200  # characters of a name or title that a sentence or a label shows
+_LONGEST_TEXT = 1_000_000  # characters of a text that is shown whole
 
 
 class OccError(Exception):

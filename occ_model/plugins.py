@@ -16,17 +16,14 @@ LINE_CODES = "occ_explorer.line_codes"
 FRAMINGS = "occ_explorer.framings"
 DECODERS = "occ_explorer.decoders"
 
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")
-"""What a plug-in can be called."""
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,59}")  # what a plug-in can be called
 
 _Kind = TypeVar("_Kind")
 
-FAULTS = (Exception, SystemExit)
-"""What a plug-in may raise that does not end the program."""
+FAULTS = (Exception, SystemExit)  # what a plug-in may raise that does not end the program
 
 
-_at_work: dict[int, str] = {}
-"""The plug-in that each thread is in."""
+_at_work: dict[int, str] = {}  # the plug-in that each thread is in
 
 
 @contextmanager

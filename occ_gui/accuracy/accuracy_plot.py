@@ -22,37 +22,19 @@ COLOURS: dict[str, QColor] = dict(
     zip(ACCURACY_PARTS, (SIMULATION, BAND, PHOTO, REGION, NOISE), strict=True)
 )
 
-_GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}
-"""The symbols as characters."""
-
-_FLOOR = round(math.log10(LEAST_ERROR))
-"""Power of ten at which all smaller errors are drawn."""
-
-_LEAST_HEIGHT = 56
-"""Pixels: in a low window all panes share the height."""
+_GLYPHS = {"o": "●", "s": "■", "t1": "▲", "t": "▼", "d": "◆"}  # the symbols as characters
+_FLOOR = round(math.log10(LEAST_ERROR))  # power of ten at which all smaller errors are drawn
+_LEAST_HEIGHT = 56  # pixels: in a low window all panes share the height
 
 _LEGEND_HEIGHT = 220
 
-_LABEL_GAP = 14
-"""Pixels between an axis, its numbers and its label."""
-
-_CURVES = ("integration",)
-"""The parts whose points are joined."""
-
-_OUTDATED_OPACITY = 0.3
-"""Opacity of points that were measured for an earlier scene."""
-
-_MARGIN = 0.35
-"""Smallest margin around the points, in powers of ten."""
-
-_RING = 10.0
-"""Margin in pixels that the ring around a point needs."""
-
-_FARTHEST_POWER = 12.0
-"""Largest and, negated, smallest power of ten that the axes can show."""
-
-_LEAST_POWERS = 0.01
-"""Smallest range of the axes, in powers of ten."""
+_LABEL_GAP = 14  # pixels between an axis, its numbers and its label
+_CURVES = ("integration",)  # the parts whose points are joined
+_OUTDATED_OPACITY = 0.3  # opacity of points that were measured for an earlier scene
+_MARGIN = 0.35  # smallest margin around the points, in powers of ten
+_RING = 10.0  # margin in pixels that the ring around a point needs
+_FARTHEST_POWER = 12.0  # largest and, negated, smallest power of ten that the axes can show
+_LEAST_POWERS = 0.01  # smallest range of the axes, in powers of ten
 
 
 class AccuracyPlot(QWidget):

@@ -46,8 +46,7 @@ class AccuracyView(QWidget):
     effect_switched = Signal(str, object)
     """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
 
-    refused = Signal(str)
-    """Why an entered value is refused."""
+    refused = Signal(str)  # why an entered value is refused
 
     mended = Signal()
     """An allowed tolerance was entered, whether or not it differs from the last one."""

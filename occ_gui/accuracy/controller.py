@@ -16,8 +16,7 @@ from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.study.forecast import forecast
 
-IDLE_MS = 700
-"""Milliseconds without a change after which the study starts."""
+IDLE_MS = 700  # milliseconds without a change after which the study starts
 
 
 class AccuracyPane(Protocol):

@@ -15,8 +15,7 @@ from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.accuracy import accuracy, point_count
 from occ_model.study.effect_differences import CompleteSimulation
 
-_RUNS, _PATIENCE = 5, 1.0
-"""Pictures are made so often in turn; no more often after so many seconds."""
+_RUNS, _PATIENCE = 5, 1.0  # pictures are made so often in turn; no more often after so many seconds
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,11 +26,8 @@ _Index = QModelIndex | QPersistentModelIndex
 
 Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
 
-_GAP = 4
-"""Pixels between two things that are drawn side by side."""
-
-_BAR_SHARE = 0.5
-"""Share of the cell's width for the bar; the number takes the rest."""
+_GAP = 4  # pixels between two things that are drawn side by side
+_BAR_SHARE = 0.5  # share of the cell's width for the bar; the number takes the rest
 
 
 def image_of(pixels: ByteArray) -> QImage:
@@ -104,8 +101,7 @@ class TimeCell(QStyledItemDelegate):
 _LEAST_LEVELS, _MOST_LEVELS = 0.01, 300.0
 """Ends of the axis of errors, in levels; it is logarithmic."""
 
-_NUMBER_WIDTH = 44
-"""Pixels of the number beside the axis."""
+_NUMBER_WIDTH = 44  # pixels of the number beside the axis
 
 
 def axis_of(area: QRect) -> tuple[int, int]:

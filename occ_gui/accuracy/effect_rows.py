@@ -7,8 +7,7 @@ from occ_model.results.effect_costs import EffectCrop, EffectDifference, Forecas
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision
 
-ELSE = "everything else"
-"""Key of the last row, which is no effect."""
+ELSE = "everything else"  # key of the last row, which is no effect
 
 
 @dataclass(frozen=True, slots=True)

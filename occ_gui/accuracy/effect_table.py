@@ -38,14 +38,12 @@ _Index = QModelIndex | QPersistentModelIndex
 _TINT = QColor(REGION)
 _TINT.setAlpha(48)
 
-LOWEST_ROW, HIGHEST_ROW = 16, 28
-"""Pixels of a row in a low pane and in a high one."""
+LOWEST_ROW, HIGHEST_ROW = 16, 28  # pixels of a row in a low pane and in a high one
 
 _LEAST_ROWS = 4
 """Rows in view at the least, so that no window grows beyond its screen: the others scroll."""
 
-_ROWS = 11
-"""Rows that the table has room for before it has any."""
+_ROWS = 11  # rows that the table has room for before it has any
 
 _PICTURE_WIDTH = 92
 _TIME_WIDTH = 104
@@ -200,8 +198,7 @@ class EffectTable(QTableView):
     switched = Signal(str, object)
     """An effect's name, and the choice: True (on), False (off) or None (the plan decides)."""
 
-    chosen = Signal(str)
-    """The effect whose row is selected."""
+    chosen = Signal(str)  # the effect whose row is selected
 
     tolerance_dragged = Signal(float)
 

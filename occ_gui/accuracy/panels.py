@@ -8,14 +8,9 @@ from PySide6.QtWidgets import QTabBar, QWidget
 
 _GAP = 8
 
-_TALL = 440
-"""Height in pixels from which panels stand one over the other."""
-
-_COLUMNS = 1100
-"""Width in pixels from which a high pane has two columns."""
-
-_TOP_SHARE = 0.56
-"""Largest share of the height for the upper panel."""
+_TALL = 440  # height in pixels from which panels stand one over the other
+_COLUMNS = 1100  # width in pixels from which a high pane has two columns
+_TOP_SHARE = 0.56  # largest share of the height for the upper panel
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision
 
-_NEW_MS = 8000
-"""For how long what the plan has switched is marked, and told in the status line."""
+_NEW_MS = 8000  # for how long what the plan has switched is marked, and told in the status line
 
 
 class PlanChanges:
@@ -36,8 +35,7 @@ class PlanChanges:
 class PlanNews(QObject):
     """Tells for a while what the plan of the latest picture has switched."""
 
-    changed = Signal(object)
-    """The decisions that are new; none when they are no news any more."""
+    changed = Signal(object)  # the decisions that are new; none when they are no news any more
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)

@@ -12,8 +12,7 @@ SORTED = (STAGE, EFFECT, ERROR, TIME)
 LEAST_SCATTER = 0.1
 """Times that differ by less than this share of the longer one are about equal, measured or not."""
 
-Order: TypeAlias = tuple[int, bool]
-"""A column, and whether its largest value comes first."""
+Order: TypeAlias = tuple[int, bool]  # a column, and whether its largest value comes first
 
 AS_LIGHT_TRAVELS: Order = (STAGE, False)
 

@@ -12,8 +12,7 @@ from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results.plan import Way
 from occ_model.scene.simulation_settings import TOLERANCE
 
-STEPS = 200
-"""Positions between the slider's ends, infinity and zero, while no marks are known."""
+STEPS = 200  # positions between the slider's ends, infinity and zero, while no marks are known
 
 _INFINITE = ("∞", "inf", "infinity", "infinite")
 
@@ -41,8 +40,7 @@ class ToleranceSlider(QWidget):
 
     edited = Signal(float)
 
-    refused = Signal(str)
-    """Why an entered value is refused."""
+    refused = Signal(str)  # why an entered value is refused
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

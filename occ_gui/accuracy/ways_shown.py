@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 from occ_model.results.accuracy import CLOSED_FORM, AccuracyPoint
 
-_EVERY = 4
-"""Of the samplings, every fourth one is a point; the curve joins them all."""
+_EVERY = 4  # of the samplings, every fourth one is a point; the curve joins them all
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,8 +36,7 @@ if TYPE_CHECKING:
 
     from occ_gui.app.application import Application
 
-_IMPORT = builtins.__import__
-"""What carries out an import before Qt is there."""
+_IMPORT = builtins.__import__  # what carries out an import before Qt is there
 
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 """Environment variables, one of which names the display."""
@@ -56,14 +55,9 @@ THEMES = ("system", "light", "dark")
 
 _TURN_MS = 200
 
-_TURN_S = 0.001
-"""Time slice of a thread while others wait."""
-
-_LARGEST_SIDE = 16384
-"""Pixels of a side of the window; a larger window cannot be drawn."""
-
-_PATIENCE_MS = 60_000
-"""Longest time that a screenshot waits for the picture."""
+_TURN_S = 0.001  # time slice of a thread while others wait
+_LARGEST_SIDE = 16384  # pixels of a side of the window; a larger window cannot be drawn
+_PATIENCE_MS = 60_000  # longest time that a screenshot waits for the picture
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -16,8 +16,7 @@ from occ_model.errors import one_line
 _log = logging.getLogger(__name__)
 _qt_log = logging.getLogger("qt")
 
-_LINES = 60
-"""Lines of the last messages that are kept."""
+_LINES = 60  # lines of the last messages that are kept
 
 _LEVELS = {
     QtMsgType.QtDebugMsg: logging.DEBUG,

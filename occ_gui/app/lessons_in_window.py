@@ -15,20 +15,17 @@ _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match"
 class LessonsInWindow(QObject):
     """Connects the lessons with the window, once their pane is made."""
 
-    noted = Signal(str)
-    """The outcome of an action, shown until the scene changes."""
+    noted = Signal(str)  # the outcome of an action, shown until the scene changes
 
     columns_held = Signal(object)
     """How many columns a lesson keeps in view; None for as many as usual."""
 
-    photo_explained = Signal(bool)
-    """Whether the step of a lesson that is shown is about the photo."""
+    photo_explained = Signal(bool)  # whether the step of a lesson that is shown is about the photo
 
     def __init__(self, window: MainWindow, shell: Shell) -> None:
         super().__init__()
         self._window, self._shell = window, shell
-        self._brought = ""
-        """The pane that a step has opened; empty for none."""
+        self._brought = ""  # the pane that a step has opened; empty for none
         shell.made.connect(self._connect)
 
     def _connect(self, name: str, pane: Any) -> None:

@@ -8,8 +8,7 @@ from typing import Generic, TypeVar
 
 Request = TypeVar("Request")
 
-PAUSE = 0.15
-"""Seconds: changes that follow each other faster are one movement, such as a drag."""
+PAUSE = 0.15  # seconds: changes that follow each other faster are one movement, such as a drag
 
 _REMEMBERED_REQUESTS = 64
 """Former requests whose end is remembered; the result of an older one is of any age."""

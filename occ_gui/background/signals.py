@@ -30,14 +30,9 @@ class JobChannel(QObject):
     results_ready = Signal(object, list)
     """A request, and results of it: no more often than a window can be drawn."""
 
-    finished = Signal(object)
-    """The request whose results have all been given."""
-
-    failed = Signal(str)
-    """A sentence that says why no more results come."""
-
-    status_message = Signal(str)
-    """A sentence on what happened meanwhile; the work goes on."""
+    finished = Signal(object)  # the request whose results have all been given
+    failed = Signal(str)  # a sentence that says why no more results come
+    status_message = Signal(str)  # a sentence on what happened meanwhile; the work goes on
 
     def __init__(self, queue: "WorkQueue", number: int) -> None:
         super().__init__(queue)
@@ -66,8 +61,7 @@ class JobChannel(QObject):
             self._requests.clear()
             self._queue.scheduler().cancel(self._number, self._next)
 
-    stop = cancel
-    """The processes end with the queue, which others use, too."""
+    stop = cancel  # the processes end with the queue, which others use, too
 
     def _forget_before(self, run: int) -> None:
         for number in [number for number in self._requests if number < run]:

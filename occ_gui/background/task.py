@@ -78,14 +78,9 @@ class Task(QObject, Generic[Request, Result]):
     reported = Signal(object)
     finished = Signal(object)
 
-    failed = Signal(str)
-    """A sentence that says why there is none."""
-
-    failed_for = Signal(str, object)
-    """The same, and the names of the parameters that it is about."""
-
-    idle = Signal()
-    """Nothing is at work or waiting any more."""
+    failed = Signal(str)  # a sentence that says why there is none
+    failed_for = Signal(str, object)  # the same, and the names of the parameters that it is about
+    idle = Signal()  # nothing is at work or waiting any more
 
     _begun = Signal(object)
 

@@ -4,8 +4,7 @@ from PySide6.QtCore import QObject, QThread
 
 from occ_model import plugins
 
-PATIENCE_MS = 2000
-"""How long the ends of all threads together wait for plug-ins."""
+PATIENCE_MS = 2000  # how long the ends of all threads together wait for plug-ins
 
 _LOOK_MS = 50
 

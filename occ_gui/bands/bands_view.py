@@ -23,20 +23,17 @@ from occ_model.scene.units import HERTZ, SECOND
 
 _DIGITS = 4
 
-_ROOM = 6
-"""Pixels above and below the text of a row, together."""
+_ROOM = 6  # pixels above and below the text of a row, together
 
 _LEAST_HEIGHT = 260
 
-_USUAL = 1 / 60
-"""Shutter time in seconds that the table shows in its middle at first."""
+_USUAL = 1 / 60  # shutter time in seconds that the table shows in its middle at first
 
 
 class BandsView(QWidget):
     """A headline, sentences, the map and the table of the shutter speeds."""
 
-    exposure_chosen = Signal(float)
-    """The user takes an exposure time, in seconds."""
+    exposure_chosen = Signal(float)  # the user takes an exposure time, in seconds
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -12,8 +12,7 @@ from occ_gui.widgets.plot import new_plot
 from occ_model.scene.parameters import quantity
 from occ_model.scene.units import HERTZ, SECOND, Unit
 
-_VALLEYS = 8
-"""Lines that are drawn: those above lie closer than the cells."""
+_VALLEYS = 8  # lines that are drawn: those above lie closer than the cells
 
 _DEPTHS = (1e-3, 1.0)
 
@@ -23,8 +22,7 @@ _KINDS = (1.0, 2.0, 5.0)
 class DepthPlot(QWidget):
     """The map; a click takes an exposure."""
 
-    chosen = Signal(float)
-    """The user takes an exposure time, in seconds."""
+    chosen = Signal(float)  # the user takes an exposure time, in seconds
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -16,8 +16,7 @@ from occ_model.study.bench.bench import bench_scene, check_bench, measure_bench_
 from occ_model.study.bench.bounds import bench_bounds
 from occ_model.study.bit_error_rate import check_frame_rate
 
-_RANK = -1
-"""Below all others: somebody waits for it."""
+_RANK = -1  # below all others: somebody waits for it
 
 
 class BenchController(QObject):

@@ -17,22 +17,16 @@ from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import Plot, new_plot
 from occ_model.results.bench import BenchBounds, BenchPoint
 
-RATES, BITS = "rates", "bits"
-"""What is drawn: bit error rates, or bits a second."""
+RATES, BITS = "rates", "bits"  # what is drawn: bit error rates, or bits a second
 
 AXES = ("exposure", "noise")
 
 SYMBOLS = ("o", "s", "t1", "d", "star", "p")
 COLOURS: tuple[QColor, ...] = (SIMULATION, BAND, PHOTO, REGION, NOISE)
 
-_FLOOR = {RATES: -6, BITS: 0}
-"""Powers of ten at which all that is smaller is drawn."""
-
-_MARGIN = 0.06
-"""Margin beside the points, as a share of their range."""
-
-_TOP = 0.3
-"""Margin above the points, in powers of ten."""
+_FLOOR = {RATES: -6, BITS: 0}  # powers of ten at which all that is smaller is drawn
+_MARGIN = 0.06  # margin beside the points, as a share of their range
+_TOP = 0.3  # margin above the points, in powers of ten
 
 _SIZE = 8
 _FARTHEST_POWER, _LEAST_POWERS = 12.0, 0.01

@@ -29,26 +29,19 @@ from occ_gui.widgets.work_bar import WorkBar
 from occ_model.results.bench import BenchBounds, BenchPoint, BenchRequest
 from occ_model.scene.recording import FRAME_RATE
 
-_LEAST_WITH_TABLE = 420
-"""Pixels of height from which the table stands below the plots."""
+_LEAST_WITH_TABLE = 420  # pixels of height from which the table stands below the plots
 
 _SAMPLE = QSize(14, 14)
 
 
 class BenchView(QWidget):
-    choice_changed = Signal(object)
-    """The user has chosen what is measured next: a BenchChoice."""
+    choice_changed = Signal(object)  # the user has chosen what is measured next: a BenchChoice
 
     asked = Signal()
 
-    cancelled = Signal()
-    """The user stops the measurement."""
-
-    frame_rate_edited = Signal(float)
-    """The pictures a second that the user has entered."""
-
-    refused = Signal(str)
-    """Why an entered value is refused."""
+    cancelled = Signal()  # the user stops the measurement
+    frame_rate_edited = Signal(float)  # the pictures a second that the user has entered
+    refused = Signal(str)  # why an entered value is refused
 
     def __init__(
         self, decoders: Sequence[str], chosen: Sequence[str], parent: QWidget | None = None

@@ -12,11 +12,8 @@ from occ_model.errors import OccError, one_line
 
 T = TypeVar("T")
 
-NO_GESTURE = -1
-"""The gesture of a change that is a step of its own."""
-
-MOST_STEPS = 500
-"""Steps that can be undone; each of them keeps two scenes in memory."""
+NO_GESTURE = -1  # the gesture of a change that is a step of its own
+MOST_STEPS = 500  # steps that can be undone; each of them keeps two scenes in memory
 
 
 class Selection(QObject, Generic[T]):

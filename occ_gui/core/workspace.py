@@ -45,14 +45,11 @@ class Workspace:
     settings: SimulationSettings = FIRST_SETTINGS
     frame_rate: float = FRAME_RATE.default
     shown: Shown = "rate"
-    decoder: str = "threshold"
-    """Whose result and steps are shown."""
-    whose: str = PICTURES[0]
-    """Whose picture is shown, one of PICTURES."""
+    decoder: str = "threshold"  # whose result and steps are shown
+    whose: str = PICTURES[0]  # whose picture is shown, one of PICTURES
     overlay: str = "beside"
     """How a photo is shown with the picture: beside it, or over it in one of several ways."""
-    is_enhanced: bool = False
-    """Whether profiles are shown after the receiver's enhancement."""
+    is_enhanced: bool = False  # whether profiles are shown after the receiver's enhancement
     photo: PhotoChoice = field(default_factory=PhotoChoice)
     film: FilmChoice = field(default_factory=FilmChoice)
     room: RoomChoice = field(default_factory=RoomChoice)

@@ -14,20 +14,11 @@ _CELL = 24
 _GAP = 3
 _LABEL = 66
 
-_NARROWEST = 9.0
-"""Pixels of a cell below which a digit does not fit."""
-
-_BAR = 3
-"""Pixels of a bar and the gap beside it."""
-
-_OVER = 2
-"""Pixels by which a bar of wrong bits is longer than its row at either end."""
-
-_MOST_DIGITS = 64
-"""Bits up to which the tool tip writes them out."""
-
-_FADED_OPACITY = 0.35
-"""Opacity of bits that are not of the present scene."""
+_NARROWEST = 9.0  # pixels of a cell below which a digit does not fit
+_BAR = 3  # pixels of a bar and the gap beside it
+_OVER = 2  # pixels by which a bar of wrong bits is longer than its row at either end
+_MOST_DIGITS = 64  # bits up to which the tool tip writes them out
+_FADED_OPACITY = 0.35  # opacity of bits that are not of the present scene
 
 _RIGHT = QColor(colours.RIGHT)
 _WRONG = QColor(colours.WRONG)

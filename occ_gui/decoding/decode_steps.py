@@ -18,11 +18,8 @@ from occ_model.results.decoding import DecodeResult
 _CHIP_STRIP_HEIGHT = 0.16
 """Height of the strip of chips below the signal, as a fraction of the signal's range."""
 
-_LEAST_HEIGHT = 104
-"""Pixels, with the name of either axis in whole."""
-
-_COLOURS = (BAND, SIMULATION)
-"""Colours of the run lengths of zeros and of ones."""
+_LEAST_HEIGHT = 104  # pixels, with the name of either axis in whole
+_COLOURS = (BAND, SIMULATION)  # colours of the run lengths of zeros and of ones
 
 
 class _LevelAxis(Axis):

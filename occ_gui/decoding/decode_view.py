@@ -23,8 +23,7 @@ _STEPS = ("bright", "region", "threshold", "chip", "chips", "correlation", "conf
 class DecodeView(QWidget):
     """The result in a sentence, sent and received bits, and the quantities measured on the way."""
 
-    decoder_chosen = Signal(str)
-    """The name of the decoder that the user chose to see."""
+    decoder_chosen = Signal(str)  # the name of the decoder that the user chose to see
 
     def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -9,11 +9,8 @@ from PySide6.QtWidgets import QLabel, QWidget
 from occ_model import colours
 from occ_model.scene.payload import Piece, compared
 
-_MAX_SHOWN_LETTERS = 120
-"""Letters that are shown; the bits of the others are in the strip of bits."""
-
-_MISSING = "·"
-"""In place of a letter that was not received."""
+_MAX_SHOWN_LETTERS = 120  # letters that are shown; the bits of the others are in the strip of bits
+_MISSING = "·"  # in place of a letter that was not received
 
 
 class PayloadText(QLabel):

@@ -21,8 +21,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.limits import SEARCHED, usual_images
 
-RATE = 99.0
-"""Success rate, in percent, from which a decoder counts as reading."""
+RATE = 99.0  # success rate, in percent, from which a decoder counts as reading
 
 IMAGES = 20
 
@@ -58,8 +57,7 @@ class AdviceRequest:
 class AdvisorController(QObject):
     """Connects the stores, the job channel and the pane."""
 
-    went = Signal(str)
-    """The scene was set to a limit; the decoder that reads there."""
+    went = Signal(str)  # the scene was set to a limit; the decoder that reads there
 
     def __init__(
         self,

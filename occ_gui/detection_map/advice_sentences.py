@@ -31,8 +31,7 @@ class AdviceLine:
 
 
 class AdviceSentences:
-    frames_a_second = FRAMES_A_SECOND
-    """Pictures a second by which bits a second are counted."""
+    frames_a_second = FRAMES_A_SECOND  # pictures a second by which bits a second are counted
 
     def lines(self, advice: Advice) -> list[AdviceLine]:
         """Write a title and a few lines on what was found."""

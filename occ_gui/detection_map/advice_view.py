@@ -25,8 +25,7 @@ _LEAST = QSize(200, 60)
 class AdviceView(QWidget):
     """Sentences on the highest frequency and the working exposures of each decoder."""
 
-    asked = Signal()
-    """The user asks for advice on the current scene."""
+    asked = Signal()  # the user asks for advice on the current scene
 
     cancelled = Signal()
     back_asked = Signal()

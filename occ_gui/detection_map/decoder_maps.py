@@ -31,11 +31,8 @@ _MOST_IN_A_ROW, _LEAST_OF_TWO_ROWS = 2, 360
 
 
 class MapPlots(QWidget):
-    picked = Signal(object)
-    """The point that the user chose, by its indices along both axes."""
-
-    pointed = Signal(object)
-    """The point under the mouse, None if there is none."""
+    picked = Signal(object)  # the point that the user chose, by its indices along both axes
+    pointed = Signal(object)  # the point under the mouse, None if there is none
 
     def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)

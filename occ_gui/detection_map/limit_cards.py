@@ -18,8 +18,7 @@ from occ_model.results.limits import WorkingRange
 
 _PARAMETER = "switching_frequency"
 
-_REST_MS = 800
-"""Milliseconds that a scene must be at rest before its limits are searched."""
+_REST_MS = 800  # milliseconds that a scene must be at rest before its limits are searched
 
 
 def _written(frequency: float) -> str:
@@ -29,8 +28,7 @@ def _written(frequency: float) -> str:
 class LimitCards(QWidget):
     """A card for each decoder; while they are seen, the limits of a new scene are asked for."""
 
-    asked = Signal()
-    """The limits of the present scene are wanted."""
+    asked = Signal()  # the limits of the present scene are wanted
 
     destination_chosen = Signal(str, float, str)
     """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""

@@ -30,8 +30,7 @@ STYLES: dict[str, Qt.PenStyle] = {
 }
 """Dash pattern of each limit: dashes can be told apart on any colour and by any eye."""
 
-Point = tuple[float, float]
-"""Positions along both axes, from 0 to 1."""
+Point = tuple[float, float]  # positions along both axes, from 0 to 1
 
 _INK, _PAPER = QColor("black"), QColor("white")
 _CASING = QColor(255, 255, 255, 210)
@@ -55,8 +54,7 @@ class MapPlot(QWidget):
     and twice as long to paint, and need their own code for labels, hatching and picking as well.
     """
 
-    picked = Signal(int, int)
-    """The point that the user chose, by its indices along both axes."""
+    picked = Signal(int, int)  # the point that the user chose, by its indices along both axes
 
     pointed = Signal(object)
     """The point under the mouse or chosen by the arrow keys, None if there is none."""

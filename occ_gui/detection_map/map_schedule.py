@@ -18,8 +18,7 @@ SHAPE = (25, 13)
 """Points along both axes: of two processes the first stage takes some 40 ms, all of them under a
 second."""
 
-IMAGES = (1, 2, 5)
-"""Images a point, one after the other."""
+IMAGES = (1, 2, 5)  # images a point, one after the other
 
 COARSE, FINE, SURE = 0, 2, 4
 """Ranks: the first answer, all points, and more images of each. Strips go in between."""

@@ -28,15 +28,13 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import FRAME_RATE
 from occ_model.scene.scene import Scene
 
-_LEAST_WITH_CARDS = 480
-"""Pixels of height from which the cards of the limits stand above the map."""
+_LEAST_WITH_CARDS = 480  # pixels of height from which the cards of the limits stand above the map
 
 
 class MapView(QWidget):
     """The map with its choices, and a second page with the advice."""
 
-    axes_chosen = Signal(str, str)
-    """The parameters that the user chose for the axes, x and y."""
+    axes_chosen = Signal(str, str)  # the parameters that the user chose for the axes, x and y
 
     image_effects_switched = Signal(bool)
     """Whether rows of the picture are simulated where the scene needs them."""
@@ -44,14 +42,9 @@ class MapView(QWidget):
     shown_chosen = Signal(str)
     """Whether the user sees success rates (``"rate"``) or bits a second (``"bits"``)."""
 
-    frame_rate_edited = Signal(float)
-    """The pictures a second that the user has entered."""
-
-    picked = Signal(object)
-    """The point that the user chose, by its indices along both axes."""
-
-    pointed = Signal(object)
-    """The point under the mouse, None if there is none."""
+    frame_rate_edited = Signal(float)  # the pictures a second that the user has entered
+    picked = Signal(object)  # the point that the user chose, by its indices along both axes
+    pointed = Signal(object)  # the point under the mouse, None if there is none
 
     def __init__(
         self,

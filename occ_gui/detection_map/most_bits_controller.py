@@ -19,8 +19,7 @@ from occ_model.study.most_bits import DECODERS, VARIED, example_of, unvaried
 _COUNTER = len(decoders.DECODERS) + 1
 """The counter of the pictures tried: those before are the advice's."""
 
-_RANK = -1
-"""Below all others: somebody waits for it, and it leaves them a process."""
+_RANK = -1  # below all others: somebody waits for it, and it leaves them a process
 
 _LOOK_MS = 200
 
@@ -40,8 +39,7 @@ class MostBitsRequest:
 class MostBitsController(QObject):
     """Connects the scene, the job channel and the pane."""
 
-    went = Signal(str)
-    """The scene has become what carries most; the decoder that reads it."""
+    went = Signal(str)  # the scene has become what carries most; the decoder that reads it
 
     def __init__(
         self,

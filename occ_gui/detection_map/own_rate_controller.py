@@ -15,11 +15,8 @@ from occ_model.parallel.job import Job, Stage
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.points import MeasuredPoints, measure_points
 
-IMAGES = 20
-"""Pictures of which the rate is: as many as those of the limits."""
-
-_RANK = 1
-"""After a first answer of the map, before all else."""
+IMAGES = 20  # pictures of which the rate is: as many as those of the limits
+_RANK = 1  # after a first answer of the map, before all else
 
 
 @dataclass(frozen=True, slots=True)

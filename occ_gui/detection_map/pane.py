@@ -17,8 +17,7 @@ from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 class MapPane(Pane[None]):
     """The map and the searches beside it, which go on while the pane is hidden."""
 
-    went = Signal(str)
-    """The user has gone to a limit of this decoder."""
+    went = Signal(str)  # the user has gone to a limit of this decoder
 
     def __init__(self, scenes: SceneStore, measuring: Measuring) -> None:
         view = MapView(QUICK_DECODERS, tuple(DECODERS))

@@ -18,15 +18,13 @@ from occ_model.scene.parameters import PARAMETERS
 if TYPE_CHECKING:
     from occ_gui.detection_map.own_rate_controller import OwnRate
 
-IMAGES = 5
-"""Pictures of a position: as many as a point of the map has in the end."""
+IMAGES = 5  # pictures of a position: as many as a point of the map has in the end
 
 _HEIGHT = 6
 
 _OUTDATED_OPACITY = 0.35
 
-_AT_HANDLE = 3
-"""Pixels that the present scene's colour is seen on either side of the handle."""
+_AT_HANDLE = 3  # pixels that the present scene's colour is seen on either side of the handle
 
 
 class SliderStrip(QWidget):
@@ -145,14 +143,12 @@ class SliderStrip(QWidget):
 class SliderStrips(QObject):
     """The strips behind the main sliders."""
 
-    seen = Signal(bool)
-    """Whether the strips have become visible or hidden."""
+    seen = Signal(bool)  # whether the strips have become visible or hidden
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._rows = rows
-        self.legend = StripLegend()
-        """What the colours mean, for the place below the sliders."""
+        self.legend = StripLegend()  # what the colours mean, for the place below the sliders
         self.strips: dict[str, SliderStrip] = {}
         for name, row in rows.items():
             strip = SliderStrip(row.slider, PARAMETERS[name].label)

@@ -16,11 +16,8 @@ from occ_model.results.sweep_request import SweepPoint
 
 POSITIONS = 29
 
-STRIDES = (4, 1)
-"""Distances between measured positions: a coarse strip first, then all positions."""
-
-RANKS = (3, 3)
-"""After all points of a map that is seen, before further images of them."""
+STRIDES = (4, 1)  # distances between measured positions: a coarse strip first, then all positions
+RANKS = (3, 3)  # after all points of a map that is seen, before further images of them
 
 
 class SliderStripPane(Protocol):

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 
 PROCESSES = 2
 
-NICENESS = 10
-"""How far the processes yield to the window."""
+NICENESS = 10  # how far the processes yield to the window
 
 START_MS = 400
 """Milliseconds that the strips wait at first: the window and its first picture come before them."""

@@ -23,8 +23,7 @@ from occ_model.study.sweep.points import measure_points
 IMAGE_EFFECTS = tuple(effect.name for effect in EFFECTS if effect.kind == "image")
 """Effects that a profile cannot show: a point with them takes some twenty times as long."""
 
-SEED = 1
-"""Of all rates: that of :func:`occ_model.sweep`, so that its table is the map's."""
+SEED = 1  # of all rates: that of :func:`occ_model.sweep`, so that its table is the map's
 
 UNSEEN: dict[str, ParameterValue] = {
     "start_time": 0.0,
@@ -33,8 +32,7 @@ UNSEEN: dict[str, ParameterValue] = {
 }
 """Parameters that no rate depends on, as it is a mean over all start times."""
 
-PRELOAD = __name__
-"""The module that a worker process needs."""
+PRELOAD = __name__  # the module that a worker process needs
 
 
 @dataclass(frozen=True, slots=True)

@@ -22,8 +22,7 @@ class ColumnPicker(QObject):
     hovered = Signal(int)
     clicked = Signal(int)
 
-    stepped = Signal(int)
-    """The number of columns to move on, negative to the left."""
+    stepped = Signal(int)  # the number of columns to move on, negative to the left
 
     released = Signal()
 

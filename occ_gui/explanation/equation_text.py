@@ -8,8 +8,7 @@ from PySide6.QtWidgets import QFrame, QTextBrowser, QWidget
 
 from occ_model.results.teaching import Equation, Term
 
-HIGHLIGHT_MS = 1500
-"""Milliseconds that a term stays marked after one of its parameters has changed."""
+HIGHLIGHT_MS = 1500  # milliseconds that a term stays marked after one of its parameters has changed
 
 _MARK = "background-color:#F7D774; color:#000000; font-weight:600; text-decoration:underline;"
 """Marked by colour, weight and underline, so that colour-blind readers see it too."""

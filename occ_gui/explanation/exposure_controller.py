@@ -26,8 +26,7 @@ class ColumnMark(Protocol):
 class ExposureController(QObject):
     """Keeps the chosen column, held or under the mouse, and computes its exposure while visible."""
 
-    held = Signal(int)
-    """The column that the user has chosen, until another is."""
+    held = Signal(int)  # the column that the user has chosen, until another is
 
     def __init__(self, pane: ExposurePane, mark: ColumnMark) -> None:
         super().__init__()

@@ -25,8 +25,7 @@ _MICRO = 1e6
 _SHADE = 60
 _LEAST_HEIGHT = 92
 
-_LEAST_SPAN = 1e-6
-"""Smallest range of the time axis, as a fraction of the time that is drawn."""
+_LEAST_SPAN = 1e-6  # smallest range of the time axis, as a fraction of the time that is drawn
 
 
 class ExposurePlot(QWidget):
@@ -34,8 +33,7 @@ class ExposurePlot(QWidget):
 
     column_chosen = Signal(int)
 
-    hold_chosen = Signal(bool)
-    """Whether the column stays chosen when the mouse moves."""
+    hold_chosen = Signal(bool)  # whether the column stays chosen when the mouse moves
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

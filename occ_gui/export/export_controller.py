@@ -23,8 +23,7 @@ from occ_model.scene.provenance import ENDINGS
 _WITH_FIGURE = ("profile", "accuracy", "map", "bench", "bands", "room")
 """Panes with a figure of their own, of the same name; for any other the picture is copied."""
 
-_ENDING = "export/ending"
-"""Under this key the ending of the last exported file is stored."""
+_ENDING = "export/ending"  # under this key the ending of the last exported file is stored
 
 
 class ExportController(Service):

@@ -28,8 +28,7 @@ _FILMS = "*.mp4 *.mov *.m4v *.avi *.mkv *.webm *.gif *.png *.apng"
 _RAW = "*.dng *.nef *.cr2 *.cr3 *.arw *.raf *.rw2 *.orf *.pef"
 _PHOTOS = f"{_PICTURES} *.heic *.heif *.avif *.gif *.ppm *.pgm *.jp2 {_RAW}"
 
-_MOVING = (".gif", ".png", ".apng")
-"""Endings of pictures, and of films."""
+_MOVING = (".gif", ".png", ".apng")  # endings of pictures, and of films
 _FILM_ENDINGS = tuple(f".{name}" for name in ("mp4", "mov", "m4v", "avi", "mkv", "webm", "3gp"))
 
 

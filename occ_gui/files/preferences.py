@@ -4,19 +4,15 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QSettings, Signal
 
-MOST_RECENT = 8
-"""Most recent files in the list."""
+MOST_RECENT = 8  # most recent files in the list
 
 _FILES, _FOLDER = "files/recent", "files/folder"
 _EXPORTS = "files/exports"
 _FOLDERS = (_FOLDER, _EXPORTS)
 _MARGINS, _NO = "view/margins", "no"
 
-_MAX_TEXT_LENGTH = 1_000_000
-"""Maximum characters of a stored text."""
-
-_LONGEST_PATH = 4096
-"""Most characters of a stored path; no system allows longer ones."""
+_MAX_TEXT_LENGTH = 1_000_000  # maximum characters of a stored text
+_LONGEST_PATH = 4096  # most characters of a stored path; no system allows longer ones
 
 
 class Preferences(QObject):
@@ -25,8 +21,7 @@ class Preferences(QObject):
     ``settings``: where they are stored; None to keep them only while the window is open.
     """
 
-    changed = Signal()
-    """The list of recent files has changed."""
+    changed = Signal()  # the list of recent files has changed
 
     def __init__(self, settings: QSettings | None = None) -> None:
         super().__init__()

@@ -19,8 +19,7 @@ STATE_FOLDER = "OCC_STATE"
 
 _FORMAT = 1
 
-_MOST_WINDOWS = 8
-"""Windows that can be open at a time, each with its own session file."""
+_MOST_WINDOWS = 8  # Windows that can be open at a time, each with its own session file
 
 
 def state_folder() -> Path:
@@ -45,8 +44,7 @@ class SessionFile:
         self._lock: QLockFile | None = None
         self._path: Path | None = None
         self.crashed: Kept | None = None
-        self.last: Kept | None = None
-        """What was written last, whichever window wrote it."""
+        self.last: Kept | None = None  # what was written last, whichever window wrote it
         # If the folder cannot be made, the first writing reports it.
         with suppress(OccError):
             make_folder(folder)

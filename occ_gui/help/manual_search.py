@@ -16,8 +16,7 @@ class Section:
 
     title: str
     """The page's title in the table of contents, and the heading where it is not the page's own."""
-    link: str
-    """Page and heading, such as ``guide.md#set-up-a-scene``."""
+    link: str  # page and heading, such as ``guide.md#set-up-a-scene``
     heading: str
     text: str
 

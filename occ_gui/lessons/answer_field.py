@@ -8,8 +8,7 @@ from occ_gui.lessons.texts import button, paragraph
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.results.lessons import CheckedAnswer
 
-_LONGEST = 300
-"""Characters of an answer."""
+_LONGEST = 300  # characters of an answer
 
 _SIGNS = {"right": "✓", "near": "≈", "wrong": "✗", "unreadable": "?", None: "→"}
 """The outcome as a sign, so that it is not told by colour alone."""

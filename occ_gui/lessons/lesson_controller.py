@@ -34,24 +34,16 @@ class LessonController(QObject):
     ``store``: what the user has set, which a lesson replaces while it is under way.
     """
 
-    status_message = Signal(str)
-    """The reason why a step is incomplete."""
-
-    pane_wanted = Signal(str)
-    """The name of the pane that a step refers to; empty for none."""
-
-    control_wanted = Signal(str)
-    """The name of the parameter that a step is about; empty for none."""
+    status_message = Signal(str)  # the reason why a step is incomplete
+    pane_wanted = Signal(str)  # the name of the pane that a step refers to; empty for none
+    control_wanted = Signal(str)  # the name of the parameter that a step is about; empty for none
 
     columns_held = Signal(object)
     """How many columns a step keeps in view, so that a change of the scene is seen as such; None
     for as many as usual."""
 
-    equation_wanted = Signal(str)
-    """The name of the equation that explains a step; empty for none."""
-
-    action_wanted = Signal(str)
-    """What a step has a button for, as the step names it."""
+    equation_wanted = Signal(str)  # the name of the equation that explains a step; empty for none
+    action_wanted = Signal(str)  # what a step has a button for, as the step names it
 
     report_asked = Signal(Lesson)
 

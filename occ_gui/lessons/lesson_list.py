@@ -15,11 +15,8 @@ _LEFT = "text-align: left; padding: 8px;"
 class LessonList(QWidget):
     """A button for each lesson, with its summary below."""
 
-    chosen = Signal(str)
-    """The name of the lesson to begin or continue."""
-
-    folder_asked = Signal()
-    """The folder of the user's own lessons is to be opened."""
+    chosen = Signal(str)  # the name of the lesson to begin or continue
+    folder_asked = Signal()  # the folder of the user's own lessons is to be opened
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -15,8 +15,7 @@ _WANTED_HEIGHT = 320
 
 
 class LessonView(QWidget):
-    list_asked = Signal()
-    """The list is to be shown again."""
+    list_asked = Signal()  # the list is to be shown again
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -27,8 +27,7 @@ class LessonPane(Pane[None]):
     ``preferences``: stores the folder of a report and the student's name.
     """
 
-    noted = Signal(str)
-    """The outcome of an action, for as long as the scene stays."""
+    noted = Signal(str)  # the outcome of an action, for as long as the scene stays
 
     def __init__(
         self,

@@ -14,20 +14,17 @@ from occ_model.results.lessons import CheckedAnswer, Lesson
 from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
 
-LEAST = QSize(200, 160)
-"""Smallest size in pixels: then a question with its text scrolls."""
+LEAST = QSize(200, 160)  # smallest size in pixels: then a question with its text scrolls
 
 _EQUATION_HEIGHT = 112
 
-_REVEALING_MS = 100
-"""How long the explanation is being laid out at most."""
+_REVEALING_MS = 100  # how long the explanation is being laid out at most
 
 _ANIMATION_HEIGHT = 200
 
 
 class StepPage(QWidget):
-    moved = Signal(int)
-    """The number of steps to go forward; negative to go back."""
+    moved = Signal(int)  # the number of steps to go forward; negative to go back
 
     list_asked = Signal()
     again_asked = Signal()

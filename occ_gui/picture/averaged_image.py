@@ -33,8 +33,7 @@ class AveragedImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has n
         self._rect = QRectF()
         self._first_row = -math.inf
         self._drawn: tuple[QRect, tuple[int, int], QImage] | None = None
-        self.values_drawn = 0
-        """The number of pixels whose grey levels are written into them."""
+        self.values_drawn = 0  # the number of pixels whose grey levels are written into them
 
     def set_image(
         self, image: ByteArray, rect: QRectF | None = None, halves: Sequence[ByteArray] = ()

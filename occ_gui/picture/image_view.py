@@ -23,21 +23,15 @@ from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
 
 _GAINS = (1, 2, 4, 8)
-_APART = 8
-"""Pixels between the controls of one picture and the caption of the other."""
-
-_FIRST_GAIN = 4
-"""Without a factor, differences of a few grey levels would look black."""
+_APART = 8  # pixels between the controls of one picture and the caption of the other
+_FIRST_GAIN = 4  # without a factor, differences of a few grey levels would look black
 
 
 class ImageView(QWidget):
     """The simulated picture with the decoder's region, and the photo beside or over it."""
 
-    mode_chosen = Signal(str)
-    """The way of showing the photo that the user chose, one of MODES."""
-
-    picture_chosen = Signal(str)
-    """Whose picture is shown from now on, one of PICTURES."""
+    mode_chosen = Signal(str)  # the way of showing the photo that the user chose, one of MODES
+    picture_chosen = Signal(str)  # whose picture is shown from now on, one of PICTURES
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

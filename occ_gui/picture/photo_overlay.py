@@ -33,8 +33,7 @@ def rect_of(image: ByteArray, placement: Placement) -> QRectF:
 class PhotoOverlay(QObject):
     """The items drawn over the simulated picture while a photo is shown over it."""
 
-    placed = Signal(object)
-    """The user moved or scaled the photo: a Placement."""
+    placed = Signal(object)  # the user moved or scaled the photo: a Placement
 
     def __init__(self, box: pg.ViewBox) -> None:
         super().__init__()

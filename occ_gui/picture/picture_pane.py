@@ -14,14 +14,9 @@ from occ_model.results.decoding import Region
 
 _REGION_PEN = pg.mkPen(REGION, width=2)
 
-_MAX_DISTANCE = 1e7
-"""Largest distance from the first pixel that can be shown, in pixels."""
-
-_LARGEST_SPAN = 4e6
-"""Largest range of the view in pixels."""
-
-_LEAST_SPAN = 0.5
-"""Smallest range of the view in pixels."""
+_MAX_DISTANCE = 1e7  # largest distance from the first pixel that can be shown, in pixels
+_LARGEST_SPAN = 4e6  # largest range of the view in pixels
+_LEAST_SPAN = 0.5  # smallest range of the view in pixels
 
 
 class PicturePane(QWidget):

@@ -31,8 +31,7 @@ class CompareView(QWidget):
     It draws only while it is visible, as :meth:`set_seen` says.
     """
 
-    pin_asked = Signal(str)
-    """The user pins the current state as "A" or "B"."""
+    pin_asked = Signal(str)  # the user pins the current state as "A" or "B"
 
     go_asked = Signal(str)
     clear_asked = Signal()

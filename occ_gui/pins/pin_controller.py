@@ -24,8 +24,7 @@ from occ_model.scene.scene import GROUPS
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.simulation.render import render_with
 
-_LONGEST_PAYLOAD = 24
-"""Characters of a payload that the table shows."""
+_LONGEST_PAYLOAD = 24  # characters of a payload that the table shows
 
 
 _NAMES = ("A", "B")
@@ -37,14 +36,9 @@ class PinController(QObject):
     What is pinned is the present state: while it is being computed, the pin waits for it.
     """
 
-    status_message = Signal(str)
-    """What was done, or why it could not be done."""
-
-    changed = Signal()
-    """Something else is pinned."""
-
-    both_pinned = Signal()
-    """There are two states to compare, as the user has just asked for."""
+    status_message = Signal(str)  # what was done, or why it could not be done
+    changed = Signal()  # something else is pinned
+    both_pinned = Signal()  # there are two states to compare, as the user has just asked for
 
     def __init__(
         self,

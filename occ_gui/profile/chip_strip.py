@@ -11,8 +11,7 @@ from occ_gui.widgets.pens import PHOTO
 from occ_gui.widgets.plot import Plot
 from occ_model.results.match import ChipReading
 
-_CERTAIN = 0.95
-"""Probability that all chips are right from which they are drawn in full."""
+_CERTAIN = 0.95  # probability that all chips are right from which they are drawn in full
 
 
 class ChipStrip(QWidget):
@@ -21,8 +20,7 @@ class ChipStrip(QWidget):
     ``left``: pixels of the plot's axis, where the button has its place.
     """
 
-    copied = Signal(str)
-    """A text was copied: a sentence that says so."""
+    copied = Signal(str)  # a text was copied: a sentence that says so
 
     def __init__(self, plot: Plot, left: int) -> None:
         super().__init__()

@@ -27,15 +27,13 @@ from occ_gui.widgets.pens import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thi
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
 
-_LEAST_HEIGHT = 76
-"""Pixels: in a low window all panes share the height."""
+_LEAST_HEIGHT = 76  # pixels: in a low window all panes share the height
 
 _AXIS_WIDTH = 52
 _LONGEST_LEVEL, _AXIS_GAPS = "-200", 14
 """Pixels: the least width of an axis, and what lies between its name, numbers and ticks."""
 
-_SHADE = 20
-"""Opacity of the text's colour over the columns that are not read, of 255."""
+_SHADE = 20  # opacity of the text's colour over the columns that are not read, of 255
 
 _BEYOND_ANY_PICTURE = 1e7
 
@@ -47,11 +45,8 @@ class ProfileView(QWidget):
     a photo is open, the residual of photo minus simulation is drawn below.
     """
 
-    enhanced_chosen = Signal(bool)
-    """Whether the user chose the enhanced columns."""
-
-    photo_shown = Signal(object)
-    """The PhotoProfile that is shown from now on, or None."""
+    enhanced_chosen = Signal(bool)  # whether the user chose the enhanced columns
+    photo_shown = Signal(object)  # the PhotoProfile that is shown from now on, or None
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -20,8 +20,7 @@ from occ_model.study.room_map import RoomMapRequest, RoomPoint, floor_under, roo
 _WIDTH = 900
 """Columns of the picture that is shown: area means, as a coarser one would show false stripes."""
 
-SIDE = 5
-"""Places of the map on each side of the floor."""
+SIDE = 5  # places of the map on each side of the floor
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -42,8 +42,7 @@ class RoomPane(Pane[RoomChoice]):
         self._map.finished.connect(self.view.show_map)
         self._map.failed.connect(self.view.show_no_map)
         self.tasks = (self._look, self._map)
-        self._mapped: Room | None = None
-        """The room whose map is shown or measured."""
+        self._mapped: Room | None = None  # the room whose map is shown or measured
         self._lengths = Gestures()
         self.view.room_chosen.connect(lambda name: self.take(name, load_room(name)))
         self.view.file_asked.connect(self._ask_for_file)

@@ -9,8 +9,7 @@ from occ_gui.room.jobs import ShownRoom
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 
-_NAME = 0.025
-"""Share of the picture's height that half a name takes."""
+_NAME = 0.025  # share of the picture's height that half a name takes
 
 
 class PicturePlot(QWidget):

@@ -20,11 +20,8 @@ from occ_model.room.room import Place
 _DEVIATIONS = 2.0
 _ROUND = np.linspace(0.0, 2.0 * math.pi, 49)
 
-_SEEN_SIZE = 0.04
-"""Share of the plan's width from which an ellipse can be seen."""
-
-_MARGIN = 0.8
-"""Metres around the lamps."""
+_SEEN_SIZE = 0.04  # share of the plan's width from which an ellipse can be seen
+_MARGIN = 0.8  # metres around the lamps
 
 _DASHES = Qt.PenStyle.DashLine
 
@@ -33,8 +30,7 @@ class PlanPlot(QWidget):
     camera_moved = Signal(float, float, int)
     """The user drags the camera: x and y in metres, and the gesture."""
 
-    aim_moved = Signal(float, float, int)
-    """The user drags the middle of what the camera sees."""
+    aim_moved = Signal(float, float, int)  # the user drags the middle of what the camera sees
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

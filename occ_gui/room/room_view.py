@@ -35,23 +35,15 @@ _LEGEND = (
 class RoomView(QWidget):
     """A choice of rooms, a headline, the plan beside the picture, and the floor's map."""
 
-    room_chosen = Signal(str)
-    """The user chooses a room of the program."""
-
-    file_asked = Signal()
-    """The user wants to choose a room file."""
-
-    photo_asked = Signal()
-    """The user wants to choose a photo of the room."""
-
-    photo_closed = Signal()
-    """The user wants to see what the camera sees in place of the photo."""
+    room_chosen = Signal(str)  # the user chooses a room of the program
+    file_asked = Signal()  # the user wants to choose a room file
+    photo_asked = Signal()  # the user wants to choose a photo of the room
+    photo_closed = Signal()  # the user wants to see what the camera sees in place of the photo
 
     focal_length_given = Signal(float)
     """The user gives the photo's equivalent focal length, in metres."""
 
-    map_asked = Signal()
-    """The user wants the map over the floor measured."""
+    map_asked = Signal()  # the user wants the map over the floor measured
 
     def __init__(self, names: Sequence[str], parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -29,15 +29,13 @@ class CodeEntry(QWidget):
     edited = Signal(str, object, int)
     """The parameter's name, code or payload, its value, and the number of the gesture."""
 
-    refused = Signal(str)
-    """The reason why an input is not valid."""
+    refused = Signal(str)  # the reason why an input is not valid
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._bits, self._code, self._payload = 0, -1, ""
         self._gestures = Gestures()
-        self.title = QLabel()
-        """What is sent, to stand above the fields."""
+        self.title = QLabel()  # what is sent, to stand above the fields
         self.number = CountEdit(count("code"))
         self.number.setAccessibleName("Code as a number")
         self.bits = QLineEdit()

@@ -18,8 +18,7 @@ class CountEdit(QSpinBox):
     Qt's own would read ``1,5`` as 15, and leave out the characters that it does not allow.
     """
 
-    accepted = Signal()
-    """What was typed is an allowed number, also if it is the one shown before."""
+    accepted = Signal()  # what was typed is an allowed number, also if it is the one shown before
 
     refused = Signal(str)
     """The reason why an input is not valid; the field shows the last value again."""

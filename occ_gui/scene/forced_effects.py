@@ -29,8 +29,7 @@ class ForcedEffects(QWidget):
     It is hidden while there are none.
     """
 
-    released = Signal()
-    """The user leaves all effects to the plan."""
+    released = Signal()  # the user leaves all effects to the plan
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

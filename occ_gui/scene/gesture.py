@@ -6,8 +6,7 @@ from PySide6.QtCore import QElapsedTimer
 
 from occ_gui.core.store import NO_GESTURE
 
-_PAUSE_MS = 700
-"""A longer pause between two changes of a control ends a gesture."""
+_PAUSE_MS = 700  # a longer pause between two changes of a control ends a gesture
 
 _numbers = count()
 

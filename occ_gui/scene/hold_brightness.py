@@ -15,8 +15,7 @@ class HoldBrightness(QObject):
 
     switched = Signal(bool)
 
-    status_message = Signal(str)
-    """The reason why the brightness could not be held."""
+    status_message = Signal(str)  # the reason why the brightness could not be held
 
     def __init__(self, store: SceneStore) -> None:
         super().__init__()

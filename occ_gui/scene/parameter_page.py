@@ -9,15 +9,13 @@ from PySide6.QtWidgets import QFrame, QScrollArea
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.widgets.event_filters import leave_drops_to_window
 
-_BAR = 20
-"""Pixels that the scroll bar takes at most."""
+_BAR = 20  # pixels that the scroll bar takes at most
 
 
 class ParameterPage(QScrollArea):
     """A page with the controls of some parameters; by default without headings."""
 
-    made = Signal(object)
-    """Its controls have been made: the ParameterPanel."""
+    made = Signal(object)  # its controls have been made: the ParameterPanel
 
     def __init__(
         self, names: Sequence[str], make: Callable[[], ParameterPanel] | None = None

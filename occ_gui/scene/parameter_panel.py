@@ -15,8 +15,7 @@ from occ_model.scene.parameter_kinds import Parameter, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 
-_MARGINS = (9, 9, 9, 2)
-"""Pixels beside the rows; below them stands the margin of the pane."""
+_MARGINS = (9, 9, 9, 2)  # pixels beside the rows; below them stands the margin of the pane
 
 
 class ParameterPanel(QWidget):

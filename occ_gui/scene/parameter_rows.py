@@ -31,8 +31,7 @@ from occ_model.scene.refusal import refusal_of
 
 _SLIDER_STEPS = 1000
 
-_DIGITS = 4
-"""Significant digits of a value in a message."""
+_DIGITS = 4  # significant digits of a value in a message
 
 
 class ParameterRow(QWidget):
@@ -41,8 +40,7 @@ class ParameterRow(QWidget):
     edited = Signal(str, object, int)
     """Name, value in SI units, and the number of the gesture that the change belongs to."""
 
-    refused = Signal(str)
-    """The reason why an input is not valid."""
+    refused = Signal(str)  # the reason why an input is not valid
 
     value: ParameterValue | None = None
     """The value that the controls show, or that the user has entered; None before the first."""

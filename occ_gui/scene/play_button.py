@@ -11,11 +11,8 @@ _ICON = 12
 class PlayButton(IconButton):
     """Shows whether a slider runs; the right mouse button asks for a menu."""
 
-    switched = Signal(str, bool)
-    """The parameter, and whether its slider is to run."""
-
-    menu_asked = Signal(str)
-    """The parameter whose menu is to be opened."""
+    switched = Signal(str, bool)  # the parameter, and whether its slider is to run
+    menu_asked = Signal(str)  # the parameter whose menu is to be opened
 
     def __init__(self, name: str, label: str, parent: QWidget | None = None) -> None:
         super().__init__("play", _ICON, parent)

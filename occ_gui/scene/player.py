@@ -10,8 +10,7 @@ from occ_model.scene.scene import Scene
 
 _TURN_MS = 40
 
-SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}
-"""Seconds from one end to the other."""
+SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}  # seconds from one end to the other
 
 _RELATIVE_TOLERANCE = 1e-9
 
@@ -23,11 +22,8 @@ class Player(QObject):
     their parameters.
     """
 
-    film_asked = Signal(str)
-    """The parameter whose run is to be written as an animation."""
-
-    run_changed = Signal(str)
-    """The parameter whose slider runs from now on; empty for none."""
+    film_asked = Signal(str)  # the parameter whose run is to be written as an animation
+    run_changed = Signal(str)  # the parameter whose slider runs from now on; empty for none
 
     def __init__(
         self,
@@ -37,8 +33,7 @@ class Player(QObject):
     ) -> None:
         super().__init__(parent)
         self._rows, self._buttons = rows, buttons
-        self.playing = ""
-        """The parameter that runs; empty for none."""
+        self.playing = ""  # the parameter that runs; empty for none
         self.speed, self.is_looping = "normal", True
         self._direction = 1.0
         self._fraction = 0.0

@@ -9,8 +9,7 @@ from occ_model.errors import ParameterError
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.refusal import refusal_of
 
-_STEP = 0.01
-"""Step of the arrows, as a fraction of the slider's range."""
+_STEP = 0.01  # step of the arrows, as a fraction of the slider's range
 
 _WIDEST = "888.888 cd/m²"
 
@@ -22,8 +21,7 @@ class QuantityEdit(QAbstractSpinBox):
     rounded.
     """
 
-    edited = Signal(float)
-    """The value that the user entered, in SI units."""
+    edited = Signal(float)  # the value that the user entered, in SI units
 
     refused = Signal(str)
     """The reason why an input is not valid; the field shows the last value again."""

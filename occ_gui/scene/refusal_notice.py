@@ -31,8 +31,7 @@ class RefusalNotice(QLabel):
     removes it. Screen readers announce it, and read it as the description of the field.
     """
 
-    dismissed = Signal()
-    """The user has clicked the sentence away."""
+    dismissed = Signal()  # the user has clicked the sentence away
 
     def __init__(self, field: QWidget) -> None:
         super().__init__(field)

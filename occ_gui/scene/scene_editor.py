@@ -10,11 +10,8 @@ from occ_model.scene.parameter_kinds import ParameterValue
 class SceneEditor(QObject):
     """Receives the edits of all controls and changes the scene in the store."""
 
-    edit_started = Signal()
-    """A value was entered, whether or not it differs from the scene's."""
-
-    input_refused = Signal(str)
-    """The reason why an input is not valid."""
+    edit_started = Signal()  # a value was entered, whether or not it differs from the scene's
+    input_refused = Signal(str)  # the reason why an input is not valid
 
     def __init__(self, store: SceneStore) -> None:
         super().__init__()

@@ -22,8 +22,7 @@ _MOST_OF_A_CHANGE = 2
 class SceneStore(QObject):
     changed = Signal(object)
 
-    refused = Signal(str)
-    """The reason why a change was not made; the scene is unchanged."""
+    refused = Signal(str)  # the reason why a change was not made; the scene is unchanged
 
     refused_for = Signal(str, object)
     """The same, and the names of the parameters that were to be changed."""

@@ -24,8 +24,7 @@ class SettingsStore(QObject):
 
     changed = Signal(object)
 
-    refused = Signal(str)
-    """The reason why a change was not made; the settings are unchanged."""
+    refused = Signal(str)  # the reason why a change was not made; the settings are unchanged
 
     def __init__(self, store: Store, effect_labels: Mapping[str, str] | None = None) -> None:
         super().__init__()

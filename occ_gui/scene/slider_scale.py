@@ -15,14 +15,12 @@ from occ_model.scene.parameter_kinds import Quantity
 
 _SMALLER = 0.85
 _TICK, _GAP = 4.0, 4.0
-_OVER = 3.0
-"""Pixels by which a name at one side of its mark reaches to the other side."""
+_OVER = 3.0  # pixels by which a name at one side of its mark reaches to the other side
 
 _DIGITS = 4
 _Text: TypeAlias = tuple[str, QRectF]
 
-_TOOLTIP_DISTANCE = 6.0
-"""Pixels from a mark within which its tooltip is shown."""
+_TOOLTIP_DISTANCE = 6.0  # pixels from a mark within which its tooltip is shown
 
 
 class SliderScale(QWidget):

@@ -60,8 +60,7 @@ class Service(QObject):
 
     status_message = Signal(str)
 
-    tasks: tuple[Task[Any, Any], ...] = ()
-    """The work that is waited for, and that ends with it."""
+    tasks: tuple[Task[Any, Any], ...] = ()  # the work that is waited for, and that ends with it
 
     measures: tuple[Work, ...] = ()
     """What measures, for which nobody waits as for a picture; it ends with it, too."""
@@ -89,8 +88,7 @@ class Pane(Service, Generic[Part]):
     made_of: Mapping[QWidget, MadeOf] = MappingProxyType({})
     """What is marked while that of which it is made is of an earlier scene."""
 
-    verdicts: tuple[VerdictView, ...] = ()
-    """What says whether the code was read."""
+    verdicts: tuple[VerdictView, ...] = ()  # what says whether the code was read
 
     def __init__(self, widget: QWidget) -> None:
         super().__init__()
@@ -112,12 +110,9 @@ class Feature(Generic[Part]):
     """
 
     name: str
-    title: str = ""
-    """The title of the pane; empty where there is none."""
-    help: str = ""
-    """Page and heading of the manual that explain the pane."""
-    make: Callable[[], Any] = Service
-    """Makes a Pane where there is a title, and else a Service."""
+    title: str = ""  # the title of the pane; empty where there is none
+    help: str = ""  # page and heading of the manual that explain the pane
+    make: Callable[[], Any] = Service  # makes a Pane where there is a title, and else a Service
     part: Callable[[Workspace, Results], Part | None] = lambda _workspace, _results: None
     """What of the window the pane shows; None for nothing that it could show."""
     goes_on_hidden: bool = False

@@ -17,8 +17,7 @@ VERDICT_DELAY = 0.06
 """Seconds for which a verdict of an earlier scene is not marked, some four frames of a screen."""
 
 
-_DIGITS = 4
-"""Significant digits of a slider's value."""
+_DIGITS = 4  # significant digits of a slider's value
 
 
 class OutdatedMarks(QObject):

@@ -32,42 +32,29 @@ T = TypeVar("T")
 class Results:
     """What was computed last; each part says itself what it was computed from."""
 
-    snapshot: Snapshot | None = None
-    """The exact picture, and what is read of it."""
+    snapshot: Snapshot | None = None  # the exact picture, and what is read of it
 
     picture: Picture | None = None
     """The picture that is there first: a draft, or the exact one before it is decoded."""
 
-    reading: Reading | None = None
-    """What is read of the scene, by its picture or sooner."""
-
-    before: Snapshot | None = None
-    """The exact picture before the latest step."""
-
-    switched: tuple[Decision, ...] = ()
-    """The effects that the plan has just switched in or out."""
-
-    opened: "OpenPhoto | None" = None
-    """The photo that was read last; another one may be on its way."""
+    reading: Reading | None = None  # what is read of the scene, by its picture or sooner
+    before: Snapshot | None = None  # the exact picture before the latest step
+    switched: tuple[Decision, ...] = ()  # the effects that the plan has just switched in or out
+    opened: "OpenPhoto | None" = None  # the photo that was read last; another one may be on its way
 
     lamps: "tuple[Lamp, ...]" = ()
 
-    stripes: "StripeSearch | None" = None
-    """Its stripes, or those of the part that is matched."""
+    stripes: "StripeSearch | None" = None  # its stripes, or those of the part that is matched
 
     chips: "ChipReading | None" = None
 
-    match: "FoundMatch | None" = None
-    """What the match that was asked for last has come to."""
-
-    listed: "ListedRows | None" = None
-    """What was found in the photos of the table."""
+    match: "FoundMatch | None" = None  # what the match that was asked for last has come to
+    listed: "ListedRows | None" = None  # what was found in the photos of the table
 
     photo_profile: "PhotoProfile | None" = None
     """The profile of the open photo, beside the simulated one."""
 
-    film: "Video | None" = None
-    """The film of a file that was opened last."""
+    film: "Video | None" = None  # the film of a file that was opened last
 
     @property
     def photo(self) -> "Photo | None":

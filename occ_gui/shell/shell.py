@@ -27,11 +27,8 @@ class DockWindow(Protocol):
 class Shell(QObject):
     """The declared features, each made when it is first wanted, with their panes in docks."""
 
-    made = Signal(str, object)
-    """A pane has been made: its name, and the Pane."""
-
-    said = Signal(str)
-    """A sentence of one of the features for the status line."""
+    made = Signal(str, object)  # a pane has been made: its name, and the Pane
+    said = Signal(str)  # a sentence of one of the features for the status line
 
     def __init__(self, store: Store, board: Board) -> None:
         super().__init__()

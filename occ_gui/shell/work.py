@@ -23,14 +23,9 @@ class Work(QObject, Generic[Request, Result]):
 
     begun = Signal()
 
-    ended = Signal()
-    """The request was met, has failed, or is not wanted any more."""
-
-    found = Signal(object)
-    """A result that the task has just given; it is on the board."""
-
-    failed = Signal(str)
-    """A sentence that says why there is no result."""
+    ended = Signal()  # the request was met, has failed, or is not wanted any more
+    found = Signal(object)  # a result that the task has just given; it is on the board
+    failed = Signal(str)  # a sentence that says why there is no result
 
     def __init__(
         self,

@@ -3,8 +3,7 @@
 from occ_gui.simulation.snapshot import ColumnView
 from occ_model.scene.parameters import PARAMETERS
 
-_MIN_VISIBLE_DRIFT = 0.05
-"""Drift in columns per packet below which it is not seen."""
+_MIN_VISIBLE_DRIFT = 0.05  # drift in columns per packet below which it is not seen
 
 
 def drift_of(reading: ColumnView) -> str:

@@ -44,8 +44,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
 
-_REST_TIME = 0.05
-"""Seconds without a change after which the exact picture is begun."""
+_REST_TIME = 0.05  # seconds without a change after which the exact picture is begun
 
 _LONGEST_PAINT = 0.1
 """Seconds for which work waits at most until the window has painted what it has been given."""
@@ -91,14 +90,9 @@ class SimulationController(QObject):
     reading_shown = Signal(object)
     """The Reading that the panes show from now on; a Snapshot where it is the picture's."""
 
-    snapshot_shown = Signal(object)
-    """The Snapshot of a picture that has been decoded."""
-
-    failed = Signal(str)
-    """The reason why a scene has no picture; the panes keep the last one."""
-
-    failed_for = Signal(str, object)
-    """The same, and the names of the parameters that it is about."""
+    snapshot_shown = Signal(object)  # the Snapshot of a picture that has been decoded
+    failed = Signal(str)  # the reason why a scene has no picture; the panes keep the last one
+    failed_for = Signal(str, object)  # the same, and the names of the parameters that it is about
 
     submitted = Signal()
     """The scene or a setting has changed: results of the last request are outdated."""

@@ -7,8 +7,7 @@ from occ_gui.values.simulated import LEAST_DRAFT_STEP
 LONGEST = 0.016
 """Seconds that a draft and its reading may take: the window needs as long to show them."""
 
-THINNEST = 4
-"""Rows of the screen that a row of a draft fills at most."""
+THINNEST = 4  # rows of the screen that a row of a draft fills at most
 
 LEAST_ROWS = 64
 """Rows of a draft below which it is not thinned: fewer save no time, and show too little."""

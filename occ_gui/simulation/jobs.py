@@ -20,8 +20,7 @@ from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with
 from occ_model.study.profile_reading import read_profile
 
-SMALL = 1_000_000
-"""Pixels of a picture up to which it is there at once, with whatever effects."""
+SMALL = 1_000_000  # pixels of a picture up to which it is there at once, with whatever effects
 
 
 class _Beside(TypedDict):

@@ -17,8 +17,7 @@ class PresentResults(QObject):
     it. Where a scene has no picture, they are told so, and what they asked for is not done.
     """
 
-    status_message = Signal(str)
-    """Whether a request waits, or why it was given up."""
+    status_message = Signal(str)  # whether a request waits, or why it was given up
 
     def __init__(self, simulation: SimulationController) -> None:
         super().__init__()

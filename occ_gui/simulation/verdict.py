@@ -9,8 +9,7 @@ from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.results.decoding import DecodeResult
 
-_LONGEST_PAYLOAD = 24
-"""Characters of a payload that a title shows."""
+_LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
 
 _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 

@@ -14,8 +14,7 @@ def header_texts() -> tuple[str, ...]:
 
 
 _MARKS = {State.GOOD: " ✓", State.BAD: " ✗"}
-_PADDING = 4
-"""Pixels of a cell that no text covers."""
+_PADDING = 4  # pixels of a cell that no text covers
 
 
 def have_room_for_marks(metrics: QFontMetrics, widths: Iterable[float]) -> bool:

@@ -27,16 +27,13 @@ from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.payload import Piece, compared, form_of
 
-Span: TypeAlias = tuple[float, float]
-"""Where a bit is drawn: its first and its last x."""
+Span: TypeAlias = tuple[float, float]  # where a bit is drawn: its first and its last x
 
 _CHIPS, _BITS = 20, 22
-_GAP = 3
-"""Pixels of the cells, and between them, in text of the usual size."""
+_GAP = 3  # pixels of the cells, and between them, in text of the usual size
 
 
-_MISSING = "·"
-"""In place of a letter that was not received."""
+_MISSING = "·"  # in place of a letter that was not received
 
 
 class CodeRow(StoryRow):

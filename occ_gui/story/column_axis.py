@@ -7,14 +7,9 @@ from occ_gui.story.measure_cursors import MeasureCursors
 GUTTER = 104
 """Pixels at the left of each row, for its name and its levels, in text of the usual size."""
 
-MARGIN = 12
-"""Pixels at the right of each row."""
-
-_LEAST_SPAN = 4.0
-"""Fewest columns in view."""
-
-_MARGIN_FRACTION = 0.5
-"""Most empty space beside the picture, as a part of what is in view."""
+MARGIN = 12  # pixels at the right of each row
+_LEAST_SPAN = 4.0  # fewest columns in view
+_MARGIN_FRACTION = 0.5  # most empty space beside the picture, as a part of what is in view
 
 
 class ColumnAxis(QObject):
@@ -31,8 +26,7 @@ class ColumnAxis(QObject):
         self.first, self.last = -0.5, 99.5
         self._home = (self.first, self.last)
         self._ends = (self.first, self.last)
-        self.gutter = GUTTER
-        """Pixels at the left of each row."""
+        self.gutter = GUTTER  # pixels at the left of each row
         self.is_following = True
 
     @property
@@ -107,8 +101,7 @@ class ColumnAxis(QObject):
 class Crosshair(QObject):
     """The column under the mouse, the column whose exposure is shown, and the cursors."""
 
-    pointed_at = Signal()
-    """The mouse is at another column, or at none."""
+    pointed_at = Signal()  # the mouse is at another column, or at none
 
     chosen = Signal()
 

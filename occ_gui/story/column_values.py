@@ -10,8 +10,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
 _MICRO = 1e6
-_MOST_CHIPS = 20_000
-"""Chips in an exposure up to which its light is added up while the mouse moves."""
+_MOST_CHIPS = 20_000  # chips in an exposure up to which its light is added up while the mouse moves
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,12 +9,10 @@ from PySide6.QtCore import QLineF
 
 from occ_model.arrays import FloatArray
 
-DASH = (7.0, 5.0)
-"""Pixels of a dash, and of the gap after it."""
+DASH = (7.0, 5.0)  # pixels of a dash, and of the gap after it
 
 
-_STRAIGHT = 1e-6
-"""Pixels from the line between its neighbours up to which a point lies on it."""
+_STRAIGHT = 1e-6  # pixels from the line between its neighbours up to which a point lies on it
 
 
 def _corners(xs: FloatArray, ys: FloatArray) -> tuple[FloatArray, FloatArray]:

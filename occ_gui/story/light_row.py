@@ -36,16 +36,12 @@ _STRIP, _LABEL = 18, 15
 """Pixels of the strip of the bits sent, and of the window's name, in text of the usual size."""
 
 _LEAST_FOR_STRIP = 66
-_LEAST_CHIP = 1.5
-"""Fewest pixels of a chip that is drawn."""
+_LEAST_CHIP = 1.5  # fewest pixels of a chip that is drawn
 
 _LEAST_FOR_DIGIT = 9
 
-_MOST_LETTERS = 60
-"""Letters of a payload that is told in words."""
-
-_GRIP = 6
-"""Pixels beside the window that still belong to it."""
+_MOST_LETTERS = 60  # letters of a payload that is told in words
+_GRIP = 6  # pixels beside the window that still belong to it
 
 
 class LightRow(StoryRow):

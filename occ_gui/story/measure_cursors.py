@@ -8,21 +8,18 @@ from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
-NAMES = ("1", "2")  # A and B are pins
-_START = (0.3, 0.6)
-"""Where the cursors stand at first, as parts of what is in view."""
+NAMES = ("1", "2")  # a and B are pins
+_START = (0.3, 0.6)  # where the cursors stand at first, as parts of what is in view
 
 
 class MeasureCursors(QObject):
     """Two columns that the user moves, or none while nothing is measured."""
 
-    changed = Signal()
-    """A cursor has moved, or they have been switched on or off."""
+    changed = Signal()  # a cursor has moved, or they have been switched on or off
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.columns: list[float] = []
-        """The columns of A and B; empty while nothing is measured."""
+        self.columns: list[float] = []  # the columns of A and B; empty while nothing is measured
 
     def switch(self, on: bool, first: float, last: float) -> None:
         self.columns = [first + part * (last - first) for part in _START] if on else []

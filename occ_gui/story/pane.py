@@ -23,8 +23,7 @@ StoryPart: TypeAlias = tuple[Reading | None, Picture | None, PhotoProfile | None
 """Reading, picture and profile of a photo, whose result is shown, and whose picture."""
 
 
-_REST_MS = 250
-"""Milliseconds from the first picture to the look for further decoders."""
+_REST_MS = 250  # milliseconds from the first picture to the look for further decoders
 
 
 class StoryPane(Pane[StoryPart]):

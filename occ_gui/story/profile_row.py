@@ -22,8 +22,7 @@ from occ_model.results.decoding import DecodeResult
 
 _LEAST_HEIGHT = 56
 _STEPS = (10.0, 20.0, 50.0, 100.0)
-_LEAST_SPACING = 26
-"""Fewest pixels between two numbers of the levels."""
+_LEAST_SPACING = 26  # fewest pixels between two numbers of the levels
 
 _ROUNDED = 20.0
 """The largest level is rounded up to a multiple of this, so that the axis rarely changes."""
@@ -33,8 +32,7 @@ _SHADE = 22 / 255
 """Share of the text's colour in that of the columns that the decoder does not read."""
 
 _WIDTH, _THIN = 2.0, 1.2
-_CROWDED = 2
-"""Columns a pixel of the screen from which a curve is drawn thinner."""
+_CROWDED = 2  # columns a pixel of the screen from which a curve is drawn thinner
 
 
 class ProfileRow(StoryRow):

@@ -13,8 +13,7 @@ from occ_model.scene.scene import Scene
 
 _HEIGHT = 18
 _TICK = 5
-_SPACING = 76
-"""Fewest pixels from one number to the next."""
+_SPACING = 76  # fewest pixels from one number to the next
 
 _MICRO = 1e6
 

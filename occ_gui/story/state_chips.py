@@ -12,14 +12,9 @@ from occ_gui.widgets.state_look import State
 if TYPE_CHECKING:
     from occ_gui.detection_map.own_rate_controller import OwnRate
 
-_COMPUTING = "computing"
-"""The chip of results that are still to come."""
-
-_READS = 0.99
-"""Share of the bits from which a decoder counts as reading."""
-
-_MOST_FORCED = 2
-"""Effects switched by hand that have a chip each; more share one."""
+_COMPUTING = "computing"  # the chip of results that are still to come
+_READS = 0.99  # share of the bits from which a decoder counts as reading
+_MOST_FORCED = 2  # effects switched by hand that have a chip each; more share one
 
 
 def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:

@@ -35,14 +35,12 @@ _ZOOMS = {Qt.Key.Key_Plus: 0.8, Qt.Key.Key_Equal: 0.8, Qt.Key.Key_Minus: 1.25}
 _NOTCH = 120
 _A_NOTCH = 0.85
 
-_GRIP = 6
-"""Pixels from a measuring cursor within which the mouse takes it."""
+_GRIP = 6  # pixels from a measuring cursor within which the mouse takes it
 
 _MOST_FITS = 4
 """Times that a font is made smaller: letters are as wide as whole pixels, not as the size says."""
 
-_CLICK = 4
-"""Most pixels between press and release of a click."""
+_CLICK = 4  # most pixels between press and release of a click
 
 
 class StoryRow(QWidget):

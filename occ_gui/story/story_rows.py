@@ -29,24 +29,19 @@ from occ_model.results.frame import PICTURES
 RANGES = ("packets", "panel")
 """What is in view until the user moves the columns: the first packets, or the whole panel."""
 
-_MARGIN_FRACTION = 0.01
-"""Space beside the range, as a part of it."""
+_MARGIN_FRACTION = 0.01  # space beside the range, as a part of it
 
 
 class StoryRows(QWidget):
     """The four rows, the scales above and below them, and the values at the crosshair."""
 
-    values_changed = Signal(str)
-    """The values of the column at the crosshair, in words."""
+    values_changed = Signal(str)  # the values of the column at the crosshair, in words
 
     measured_changed = Signal(str)
     """What is measured between the cursors, in words; empty while nothing is."""
 
-    range_left = Signal()
-    """The user has zoomed or moved the columns."""
-
-    range_kept = Signal()
-    """The range is again the one that is set for the results."""
+    range_left = Signal()  # the user has zoomed or moved the columns
+    range_kept = Signal()  # the range is again the one that is set for the results
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

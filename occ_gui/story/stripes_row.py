@@ -16,11 +16,8 @@ from occ_gui.widgets.pens import REGION
 from occ_model.arrays import ByteArray, FloatArray
 
 _LEAST_HEIGHT = 40
-_NAME = 22
-"""Pixels of the row's name above the thumbnail."""
-
-_LEAST_THUMBNAIL = 32
-"""Pixels of height of a thumbnail in which a frame can still be made out."""
+_NAME = 22  # pixels of the row's name above the thumbnail
+_LEAST_THUMBNAIL = 32  # pixels of height of a thumbnail in which a frame can still be made out
 
 
 class StripesRow(StoryRow):

@@ -6,14 +6,9 @@ from PySide6.QtGui import QFont, QFontMetrics
 
 from occ_gui.story.column_axis import GUTTER
 
-_WIDEST_WORD = "chips"
-"""The widest of the words beside a row's name."""
-
-GAPS = 14
-"""Pixels between and around a name and what stands beside it."""
-
-_WIDEST = 2 * GUTTER
-"""More would leave the columns too little room."""
+_WIDEST_WORD = "chips"  # the widest of the words beside a row's name
+GAPS = 14  # pixels between and around a name and what stands beside it
+_WIDEST = 2 * GUTTER  # more would leave the columns too little room
 
 
 def line_height(metrics: QFontMetrics, usual: int, around: int = 2) -> int:

@@ -23,11 +23,8 @@ AVERAGES_LESSON = "2-past-the-shutter"
 class VerdictBar(StateBar):
     """The verdict on the code that is read from the simulated picture."""
 
-    step_chosen = Signal(object)
-    """The user takes the step that helps, a :class:`Step`."""
-
-    lesson_wanted = Signal(str)
-    """The user asks for the lesson on what is shown, by its name."""
+    step_chosen = Signal(object)  # the user takes the step that helps, a :class:`Step`
+    lesson_wanted = Signal(str)  # the user asks for the lesson on what is shown, by its name
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

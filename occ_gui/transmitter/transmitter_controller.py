@@ -22,8 +22,7 @@ from occ_model.boards.transmission import Transmission, transmission
 from occ_model.errors import OccError, one_line
 from occ_model.scene.scene import Scene
 
-_BOARD = "transmitter/board"
-"""Key of the preference that stores the board."""
+_BOARD = "transmitter/board"  # key of the preference that stores the board
 
 
 class TransmitterController(Service):

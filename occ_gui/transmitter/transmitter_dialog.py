@@ -16,8 +16,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 
-_FIGURE = QSize(700, 553)
-"""Size of the wiring on the screen, in the proportions of its figure."""
+_FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
 
 
 class TransmitterDialog(QDialog):
@@ -25,8 +24,7 @@ class TransmitterDialog(QDialog):
 
     board_chosen = Signal(str)
 
-    frequency_asked = Signal()
-    """The scene is to take the frequency that is sent."""
+    frequency_asked = Signal()  # the scene is to take the frequency that is sent
 
     save_asked = Signal()
 

@@ -40,8 +40,7 @@ class PhotoFrame:
     """A photo as it is read: along the other axis, a rectangle of it is another."""
 
     path: Path
-    shape: tuple[int, ...] = ()
-    """Rows and columns; empty where it was not read yet."""
+    shape: tuple[int, ...] = ()  # rows and columns; empty where it was not read yet
     turned: bool = False
 
 

@@ -18,8 +18,7 @@ _DEVICES = Path("/sys/class/video4linux")
 
 _IS_LINUX = platform.system() == "Linux"
 
-_MOST_PROBED = 4
-"""Cameras that are tried one by one where the system does not list them."""
+_MOST_PROBED = 4  # cameras that are tried one by one where the system does not list them
 
 _WIDTH, _HEIGHT = 1920, 1080
 _MANUAL, _AUTOMATIC = 0.25, 0.75

@@ -16,8 +16,7 @@ from occ_gui.video.film_reading import FilmReading
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_model.results.fact import Fact
 
-_MOST_TEXT = 200_000
-"""Most characters of the text that are kept on the screen: its end."""
+_MOST_TEXT = 200_000  # most characters of the text that are kept on the screen: its end
 
 _LEAST_HEIGHT = 40
 

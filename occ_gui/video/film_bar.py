@@ -23,16 +23,12 @@ from occ_gui.widgets.plain_text import in_menu
 class FilmBar(QWidget):
     open_asked = Signal()
 
-    close_asked = Signal()
-    """The user closes the film, or stops the camera."""
-
-    cameras_asked = Signal()
-    """The user wants to see which cameras there are."""
+    close_asked = Signal()  # the user closes the film, or stops the camera
+    cameras_asked = Signal()  # the user wants to see which cameras there are
 
     camera_chosen = Signal(object)
 
-    read_asked = Signal()
-    """The user begins to read the film, or stops it."""
+    read_asked = Signal()  # the user begins to read the film, or stops it
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

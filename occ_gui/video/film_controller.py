@@ -17,8 +17,7 @@ from occ_gui.video.player import FilmPlayer
 from occ_model.photo.reading.choices import SCAN_AXES
 from occ_model.results.video import Video, VideoFrame
 
-_DRAFT_STEP = 8
-"""A draft of the simulated frame shows one of so many rows, while a film plays."""
+_DRAFT_STEP = 8  # a draft of the simulated frame shows one of so many rows, while a film plays
 
 
 def _open(source: FilmSource, report: Report) -> Video:
@@ -36,13 +35,11 @@ class FilmController(QObject):
     opened = Signal(object)
     """The Video that is open now, None where there is only the simulated one."""
 
-    failed = Signal(str)
-    """Why a film cannot be opened; what was open stays."""
+    failed = Signal(str)  # why a film cannot be opened; what was open stays
 
     frame_shown = Signal(object)
 
-    frame_failed = Signal(str)
-    """Why a frame cannot be shown; the last one stays."""
+    frame_failed = Signal(str)  # why a frame cannot be shown; the last one stays
 
     def __init__(self, scenes: SceneStore, board: Board) -> None:
         super().__init__()
@@ -51,8 +48,7 @@ class FilmController(QObject):
         """What belongs to the film that is shown: one that was chosen before is not yet."""
         self.film: Video | None = None
         """The film that is open; None where there is only the simulated one."""
-        self.is_live = False
-        """Whether the film is a camera's, which keeps no frames."""
+        self.is_live = False  # whether the film is a camera's, which keeps no frames
         self.last_live: VideoFrame | None = None
         """The last frame of a camera, which stays when the camera is gone."""
         self._is_seen = False

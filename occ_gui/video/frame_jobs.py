@@ -19,11 +19,8 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.video.read_frame import read_by_itself
 
-_SMALLEST = 256
-"""Pixels of a side; smaller pictures are drawn fast enough without smaller copies."""
-
-_MOST_DRAFT_PIXELS = 1_000_000
-"""Pixels of a picture up to which it is simulated as soon as a draft."""
+_SMALLEST = 256  # pixels of a side; smaller pictures are drawn fast enough without smaller copies
+_MOST_DRAFT_PIXELS = 1_000_000  # pixels of a picture up to which it is simulated as soon as a draft
 
 
 @dataclass(frozen=True, eq=False, slots=True)

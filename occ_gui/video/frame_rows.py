@@ -26,8 +26,7 @@ class FrameStory:
 class FrameRows(QWidget):
     """The rows, with whose frame they show, and the range of columns in view."""
 
-    picture_asked = Signal()
-    """The user wants to see the whole picture large."""
+    picture_asked = Signal()  # the user wants to see the whole picture large
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -12,8 +12,7 @@ from occ_gui.video.live_video import LiveVideo
 from occ_gui.video.reading_controller import ReadingController
 from occ_model.scene.scene import Scene
 
-_TURN_MS = 30
-"""Milliseconds between two pictures on the screen."""
+_TURN_MS = 30  # milliseconds between two pictures on the screen
 
 
 def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
@@ -26,11 +25,8 @@ class LiveController(QObject):
 
     devices_found = Signal(object)
 
-    ended = Signal(str)
-    """Why the camera gives no more pictures; empty where it was stopped."""
-
-    exposure_refused = Signal(str)
-    """Why the exposure is not held."""
+    ended = Signal(str)  # why the camera gives no more pictures; empty where it was stopped
+    exposure_refused = Signal(str)  # why the exposure is not held
 
     _answered = Signal(bool, bool)
 
@@ -42,8 +38,7 @@ class LiveController(QObject):
     ) -> None:
         super().__init__()
         self._films, self._readings, self._scene = films, readings, scene
-        self.video: LiveVideo | None = None
-        """The film of the camera that is filming."""
+        self.video: LiveVideo | None = None  # the film of the camera that is filming
         self.finder: Task[None, tuple[CameraDevice, ...]] = Task(
             _find, "search for cameras", impatient=True
         )

@@ -35,8 +35,7 @@ class LiveVideo(Video):
         self.shape = (0, 0)
         self.frame_rate = self.frame_count = None
         self.source = source
-        self.axis = axis
-        """What of its pictures the rolling shutter scans, one of AXES."""
+        self.axis = axis  # what of its pictures the rolling shutter scans, one of AXES
         self._after = after
         self._changed = Condition()
         self._newest: LivePicture | None = None

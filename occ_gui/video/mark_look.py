@@ -28,8 +28,7 @@ _PATTERNS = {
     MarkState.LOST: Qt.BrushStyle.BDiagPattern,
 }
 _SAMPLE = QSize(16, 14)
-_LEAST_OUTLINE = 4.0
-"""Least width in pixels of a mark that is drawn with an outline."""
+_LEAST_OUTLINE = 4.0  # least width in pixels of a mark that is drawn with an outline
 
 
 def ink_of(state: MarkState, palette: QPalette) -> QColor:

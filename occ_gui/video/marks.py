@@ -14,12 +14,9 @@ class MarkState(IntEnum):
     """Whether a frame or a packet was read."""
 
     PENDING = 0
-    READ = 1
-    """Read: a frame whose place in what is sent is known, a packet that is as all others."""
-    UNCHECKED = 2
-    """Read, but nothing says whether it is right, or where it belongs."""
-    LOST = 3
-    """Not read, or read wrong."""
+    READ = 1  # read: a frame whose place in what is sent is known, a packet that is as all others
+    UNCHECKED = 2  # read, but nothing says whether it is right, or where it belongs
+    LOST = 3  # not read, or read wrong
 
 
 def _no_times() -> FloatArray:

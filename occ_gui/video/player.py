@@ -2,27 +2,21 @@
 
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
 
-_TURN_MS = 33
-"""Milliseconds between two frames on the screen, at least."""
-
-_USUAL_RATE = 30.0
-"""Frames a second of a film that does not say how many."""
+_TURN_MS = 33  # milliseconds between two frames on the screen, at least
+_USUAL_RATE = 30.0  # frames a second of a film that does not say how many
 
 
 class FilmPlayer(QObject):
     """Plays a film at its own speed: frames that would come late are left out."""
 
-    wanted = Signal(int)
-    """The number of the frame that is to be shown."""
+    wanted = Signal(int)  # the number of the frame that is to be shown
 
     playing_changed = Signal(bool)
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.index = 0
-        """The number of the frame that is shown, or about to be."""
-        self.count = 0
-        """How many frames there are, as far as is known."""
+        self.index = 0  # the number of the frame that is shown, or about to be
+        self.count = 0  # how many frames there are, as far as is known
         self._rate = _USUAL_RATE
         self._began_at = 0
         self._clock = QElapsedTimer()

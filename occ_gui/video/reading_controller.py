@@ -12,11 +12,8 @@ from occ_model.scene.scene import Scene
 class ReadingController(QObject):
     """The reading of one film at a time, which grows while the film is read."""
 
-    changed = Signal()
-    """More has been read, the reading has ended, or it is of another film."""
-
-    failed = Signal(str)
-    """Why a film cannot be read on; what was read of it stays."""
+    changed = Signal()  # more has been read, the reading has ended, or it is of another film
+    failed = Signal(str)  # why a film cannot be read on; what was read of it stays
 
     def __init__(self) -> None:
         super().__init__()

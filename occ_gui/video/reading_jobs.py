@@ -17,23 +17,12 @@ from occ_model.results.video_reading import FilmProgress, FrameReading, VideoRea
 from occ_model.scene.scene import Scene
 from occ_model.study.reading_facts import film_facts
 
-_INTERVAL = 0.1
-"""Seconds between two reports, so that the window can draw each of them."""
-
-_LIVE_INTERVAL = 0.03
-"""The same for a camera, whose picture is shown with each."""
-
-_LOOK_INTERVAL = 1.0
-"""Seconds between two looks at all frames together."""
-
-_LOOK_SHARE = 0.2
-"""Largest share of the time that looking at all frames together takes."""
-
-MOST_LIVE = 900
-"""Frames of a live film that are remembered: half a minute of 30 a second."""
-
-MOST_MARKS = 1_000_000
-"""Packets up to which each has a mark of its own."""
+_INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
+_LIVE_INTERVAL = 0.03  # the same for a camera, whose picture is shown with each
+_LOOK_INTERVAL = 1.0  # seconds between two looks at all frames together
+_LOOK_SHARE = 0.2  # largest share of the time that looking at all frames together takes
+MOST_LIVE = 900  # frames of a live film that are remembered: half a minute of 30 a second
+MOST_MARKS = 1_000_000  # packets up to which each has a mark of its own
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -26,14 +26,9 @@ FRAMES = Count(
 class RecordingForm(QWidget):
     """Fields of the frame rate, the jitter, the clocks and the length of the simulated film."""
 
-    changed = Signal()
-    """The user has entered another value."""
-
-    save_asked = Signal()
-    """The user writes the simulated film to a file."""
-
-    refused = Signal(str)
-    """Why a value that was entered is refused."""
+    changed = Signal()  # the user has entered another value
+    save_asked = Signal()  # the user writes the simulated film to a file
+    refused = Signal(str)  # why a value that was entered is refused
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

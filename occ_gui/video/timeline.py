@@ -36,11 +36,8 @@ _STEPS = {
 class Timeline(QWidget):
     """Frames and packets over time; a click, a drag or a key shows another frame."""
 
-    sought = Signal(int)
-    """The frame that the user wants to see."""
-
-    play_asked = Signal()
-    """The user starts or stops the film by the space bar."""
+    sought = Signal(int)  # the frame that the user wants to see
+    play_asked = Signal()  # the user starts or stops the film by the space bar
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

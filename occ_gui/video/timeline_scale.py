@@ -5,8 +5,7 @@ from dataclasses import dataclass
 
 from occ_gui.video.marks import Marks
 
-_LEAST_SPACING = 80.0
-"""Fewest pixels between two ticks."""
+_LEAST_SPACING = 80.0  # fewest pixels between two ticks
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,11 +25,8 @@ class TransportButton(IconButton):
 class Transport(QWidget):
     """Play, step back, step on, and the frame and time that are shown."""
 
-    play_asked = Signal()
-    """The user starts or stops the film."""
-
-    step_asked = Signal(int)
-    """How many frames the user goes on; back where it is below zero."""
+    play_asked = Signal()  # the user starts or stops the film
+    step_asked = Signal(int)  # how many frames the user goes on; back where it is below zero
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

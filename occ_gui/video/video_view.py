@@ -26,8 +26,7 @@ _LEAST_FORM = QSize(240, 80)
 class VideoView(QWidget):
     """Pictures above, rows, data and recording in pages below them, and the timeline."""
 
-    step_asked = Signal(int)
-    """How many frames the user goes on by a key."""
+    step_asked = Signal(int)  # how many frames the user goes on by a key
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -22,16 +22,14 @@ from occ_model.errors import OccError, one_line
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
 
-_USUAL_RATE = 30.0
-"""Frames a second where a film does not say how many."""
+_USUAL_RATE = 30.0  # frames a second where a film does not say how many
 
 
 class VideoWiring(Pane[FilmChoice]):
     status_message = Signal(str)
     open_asked = Signal()
 
-    save_asked = Signal()
-    """The user writes the simulated film to a file."""
+    save_asked = Signal()  # the user writes the simulated film to a file
 
     def __init__(self, scenes: SceneStore, board: Board) -> None:
         view = VideoView()

@@ -18,8 +18,7 @@ class Welcome(Service):
         super().__init__()
         self._window, self._shell = window, shell
         self._preferences, self._files = preferences, files
-        self.dialog: WelcomeDialog | None = None
-        """The page, while it is shown."""
+        self.dialog: WelcomeDialog | None = None  # the page, while it is shown
 
     def show_once(self) -> None:
         """Show the page if it has never been shown to this user."""

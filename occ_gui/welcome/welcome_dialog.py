@@ -11,8 +11,7 @@ _LARGER = 1.5
 class WelcomeDialog(QDialog):
     """Asks what the user wants to do first; closing it means to explore freely."""
 
-    chosen = Signal(str)
-    """The door: ``learn``, ``photo`` or ``explore``."""
+    chosen = Signal(str)  # the door: ``learn``, ``photo`` or ``explore``
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -10,14 +10,12 @@ from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
 
-_NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}
-"""Pixels that a number occupies along the axis."""
+_NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
 
 _LEAST_SPACING = 3.0
 """Least distance in pixels of ticks without numbers, where they stand at powers of ten."""
 
-_LARGEST_POWER = 300
-"""Powers of ten with a larger exponent, of either sign, are written as 1e+N."""
+_LARGEST_POWER = 300  # powers of ten with a larger exponent, of either sign, are written as 1e+N
 
 
 class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph has no types

@@ -4,11 +4,8 @@ from functools import lru_cache
 
 from PySide6.QtGui import QColor, QPalette, QPen
 
-_CONTRAST = 4.5
-"""Least contrast of text to its background by WCAG 2.1 (success criterion 1.4.3)."""
-
-_LIGHTER = 108
-"""Step of the lightness, in percent."""
+_CONTRAST = 4.5  # least contrast of text to its background by WCAG 2.1 (success criterion 1.4.3)
+_LIGHTER = 108  # step of the lightness, in percent
 
 
 def luminance(colour: QColor) -> float:

@@ -4,8 +4,7 @@ from PySide6.QtGui import QGuiApplication
 
 from occ_model.errors import one_line
 
-_MAX_SHOWN_CHARACTERS = 80
-"""Characters of a copied text that the message shows."""
+_MAX_SHOWN_CHARACTERS = 80  # characters of a copied text that the message shows
 
 
 def copy_text(text: str) -> str:

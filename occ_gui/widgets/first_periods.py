@@ -1,7 +1,6 @@
 """Words on the button that shows the first periods of what is sent: packets, or cycles."""
 
-PACKETS_IN_VIEW = 2
-"""Packets in the first view of a plot over columns."""
+PACKETS_IN_VIEW = 2  # packets in the first view of a plot over columns
 
 
 def first_periods(has_packets: bool) -> tuple[str, str]:

@@ -9,12 +9,10 @@ from occ_model.files.resources import resource_text
 
 PROGRAM = "occ-explorer"
 
-PROGRAM_SIZES = (16, 32, 48, 64, 128, 256)
-"""Sides of the program's icon in pixels."""
+PROGRAM_SIZES = (16, 32, 48, 64, 128, 256)  # sides of the program's icon in pixels
 
 _FOLDER, _ENDING = "icons", ".svg"
-_INK = "currentColor"
-"""What the drawings name in place of a colour, as in CSS."""
+_INK = "currentColor"  # what the drawings name in place of a colour, as in CSS
 
 
 @cache

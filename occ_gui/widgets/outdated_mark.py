@@ -8,11 +8,8 @@ from PySide6.QtWidgets import QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
 
-DELAY = 0.12
-"""Seconds: a pane that is behind for a shorter time is not marked, or it would flicker."""
-
-_FRESH = DELAY / 3
-"""A mark that is shown stays until a result is at most as old."""
+DELAY = 0.12  # seconds: a pane that is behind for a shorter time is not marked, or it would flicker
+_FRESH = DELAY / 3  # a mark that is shown stays until a result is at most as old
 
 _OPACITY = 0.45
 _PADDING = 8

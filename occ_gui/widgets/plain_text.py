@@ -6,8 +6,7 @@ from PySide6.QtGui import Qt  # only this one has mightBeRichText
 
 from occ_model.errors import one_line
 
-LONGEST = 4000
-"""Most characters of a text that is shown."""
+LONGEST = 4000  # most characters of a text that is shown
 
 
 def in_tool_tip(text: str) -> str:

@@ -19,8 +19,7 @@ of processor time for 1800 points, and a dashed one as a path, in 7 ms."""
 _MAX_RANGE = 2e6
 """Largest distance from zero in view, in columns, levels or runs: twice the most columns."""
 
-_LEAST_SPAN = 0.01
-"""Smallest range in view, in columns, levels or runs."""
+_LEAST_SPAN = 0.01  # smallest range in view, in columns, levels or runs
 
 _LEAST_HEIGHT = 86
 _MIN_HEIGHT_FOR_AXIS_NAME = 76

@@ -21,14 +21,9 @@ _PADDING, _MARGIN = 12, 5
 class StateBar(QWidget):
     """A title in the colours and with the icon of its state, a sentence, and a row of chips."""
 
-    MOST_LINES = 1
-    """Lines that a sentence may take where it does not fit into one."""
-
-    changed = Signal()
-    """It shows something else."""
-
-    step_taken = Signal()
-    """The user presses the button of the step that helps."""
+    MOST_LINES = 1  # lines that a sentence may take where it does not fit into one
+    changed = Signal()  # it shows something else
+    step_taken = Signal()  # the user presses the button of the step that helps
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)

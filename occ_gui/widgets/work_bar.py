@@ -5,8 +5,7 @@ from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
 
 _STEPS = 1000
 
-_PATIENCE_MS = 300
-"""Work that takes less time is not shown: the bar would only flash."""
+_PATIENCE_MS = 300  # work that takes less time is not shown: the bar would only flash
 
 
 class WorkBar(QWidget):

@@ -4,8 +4,7 @@ from PySide6.QtCore import QPoint, QRect, QSize, Signal
 from PySide6.QtGui import QMoveEvent, QResizeEvent
 from PySide6.QtWidgets import QDockWidget, QWidget
 
-_STEP = 24
-"""Pixels by which a floated pane is moved from its place, so that it is seen to float."""
+_STEP = 24  # pixels by which a floated pane is moved from its place, so that it is seen to float
 
 
 def beside(place: QRect, screen: QRect) -> QRect:
@@ -24,8 +23,7 @@ def beside(place: QRect, screen: QRect) -> QRect:
 class Dock(QDockWidget):
     """A pane that can be moved, hidden and floated."""
 
-    opened_by_user = Signal()
-    """Its entry in the menu has shown it."""
+    opened_by_user = Signal()  # its entry in the menu has shown it
 
     def __init__(self, name: str, title: str, content: QWidget, parent: QWidget) -> None:
         super().__init__(title, parent)

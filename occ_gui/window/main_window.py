@@ -32,8 +32,7 @@ _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles
 _WITH_PICTURE = "photo"
 """The pane that is about what the whole picture shows: the photo stands beside it."""
 
-_IN_STORY = ("profile", "decode")
-"""Panes that show in detail what the story shows, too."""
+_IN_STORY = ("profile", "decode")  # panes that show in detail what the story shows, too
 
 
 class MainWindow(QMainWindow):

@@ -37,8 +37,7 @@ class Menus(QObject):
         self.actions: dict[str, QAction] = {}
         self.tops: dict[str, QMenu] = {}
         self.figures: dict[str, QAction] = {}
-        self.drop_downs: dict[str, QMenu] = {}
-        """The menus that the toolbar opens, too."""
+        self.drop_downs: dict[str, QMenu] = {}  # the menus that the toolbar opens, too
         self._make_file_menu(window)
         self._make_edit_menu(undo_stack)
         self._make_photo_menu()

@@ -9,8 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QScrollArea, QWidget
 
-_OVERLAP = 6
-"""Pixels by which the ends of two neighbours may overlap at most and still stand apart."""
+_OVERLAP = 6  # pixels by which the ends of two neighbours may overlap at most and still stand apart
 
 Span = tuple[int, int]
 

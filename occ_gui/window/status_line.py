@@ -17,8 +17,7 @@ _SEEN_ANEW = (QEvent.Type.Show, QEvent.Type.Hide, QEvent.Type.Paint)
 
 _BULLET = "• "
 
-_GAP = 8
-"""Pixels to the left of a readout."""
+_GAP = 8  # pixels to the left of a readout
 
 
 class StatusLine(QStatusBar):

@@ -4,12 +4,10 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QApplication, QWidget
 
-SIZES = (100, 115, 130)
-"""Percent of the system's size of text, the normal one first."""
+SIZES = (100, 115, 130)  # percent of the system's size of text, the normal one first
 
 _SET_FONT = Qt.WidgetAttribute.WA_SetFont
-_HAS_SIZE = 0x0002
-"""The bit of Qt's resolve mask of a font whose size is set."""
+_HAS_SIZE = 0x0002  # the bit of Qt's resolve mask of a font whose size is set
 
 
 class TextSize(QObject):
@@ -19,8 +17,7 @@ class TextSize(QObject):
     scaled with it; a widget that is made later begins with the application's font.
     """
 
-    chosen = Signal(int)
-    """The size from now on, one of SIZES."""
+    chosen = Signal(int)  # the size from now on, one of SIZES
 
     def __init__(self) -> None:
         super().__init__()

@@ -10,8 +10,7 @@ THEMES = ("system", "light", "dark")
 _SCHEMES = dict(
     zip(THEMES, (Qt.ColorScheme.Unknown, Qt.ColorScheme.Light, Qt.ColorScheme.Dark), strict=True)
 )
-_STYLE = "fusion"
-"""The style that draws any palette, on every system."""
+_STYLE = "fusion"  # the style that draws any palette, on every system
 
 _ROLE = QPalette.ColorRole
 
@@ -49,11 +48,8 @@ def palette_of(theme: str) -> QPalette:
 class ThemeController(QObject):
     """Sets the application's colours: at once those of the system, later any others."""
 
-    chosen = Signal(str)
-    """The theme that is shown from now on, one of THEMES."""
-
-    coloured = Signal()
-    """The application may have other colours."""
+    chosen = Signal(str)  # the theme that is shown from now on, one of THEMES
+    coloured = Signal()  # the application may have other colours
 
     def __init__(self) -> None:
         super().__init__()

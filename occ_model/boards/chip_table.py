@@ -13,8 +13,7 @@ from occ_model.version import __version__
 
 _BYTES_A_LINE = 12
 
-_SHOWN_CHIPS = 72
-"""Longest packet that is also written as zeros and ones."""
+_SHOWN_CHIPS = 72  # longest packet that is also written as zeros and ones
 
 
 def packed(chips: ByteArray) -> bytes:

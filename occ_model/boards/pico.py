@@ -10,8 +10,7 @@ from occ_model.boards.board import Board
 from occ_model.boards.chip_table import head, python_table
 from occ_model.boards.transmission import Transmission, repeats_to_words
 
-_MAX_CYCLES = 32
-"""An instruction takes one cycle and up to 31 more."""
+_MAX_CYCLES = 32  # an instruction takes one cycle and up to 31 more
 
 PICO = Board(
     name="raspberry-pi-pico",

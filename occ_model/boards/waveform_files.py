@@ -13,23 +13,18 @@ from occ_model.boards.transmission import Transmission
 from occ_model.errors import OutputError
 from occ_model.scene.units import HERTZ
 
-HEADER = ("chip", "clock cycles", "time in s", "lit")
-"""Columns of the table of edges."""
+HEADER = ("chip", "clock cycles", "time in s", "lit")  # columns of the table of edges
 
 _VCD_UNITS = ("s", "ms", "us", "ns", "ps", "fs")
 
-HIGHEST_SAMPLE_RATE = 192_000
-"""In Hz: the highest of common sound cards."""
+HIGHEST_SAMPLE_RATE = 192_000  # in Hz: the highest of common sound cards
 
 LOWEST_SAMPLE_RATE = 8_000
 
 _USUAL_RATES = (44_100, 48_000, 96_000, 192_000)
 
-_MAX_RATES = 2_000
-"""Sample rates that are compared, from the highest."""
-
-_LARGEST_WAV = 64_000_000
-"""Samples of a file, one byte each."""
+_MAX_RATES = 2_000  # sample rates that are compared, from the highest
+_LARGEST_WAV = 64_000_000  # samples of a file, one byte each
 
 
 def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:

@@ -14,11 +14,8 @@ GATE_CAPACITANCE = 2e-9
 PULL_DOWN = 10_000
 """Resistor in ohm that keeps the light off while the board starts; 10 to 100 kOhm would do."""
 
-LED_VOLTS = 2.0
-"""Forward voltage of a single LED, in V; assumed: that of a red one."""
-
-LED_CURRENT = 0.010
-"""Current of a single LED, in A; assumed: half of what common ones bear."""
+LED_VOLTS = 2.0  # forward voltage of a single LED, in V; assumed: that of a red one
+LED_CURRENT = 0.010  # current of a single LED, in A; assumed: half of what common ones bear
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,7 @@ from occ_model.arrays import FloatArray, IndexArray, Pixels
 from occ_model.camera.row_interpolation import weighted
 from occ_model.camera.row_memory import MEMORY
 
-_BLUR_REACH = 4.0
-"""Standard deviations after which a blurred edge ends: 3e-5 of it are left."""
+_BLUR_REACH = 4.0  # standard deviations after which a blurred edge ends: 3e-5 of it are left
 
 _FINE_CELLS_A_BLUR = 4.0
 """Standard deviations of the blur, in cells, from which a coarser grid is as good."""

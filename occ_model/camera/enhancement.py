@@ -22,8 +22,7 @@ _NEGLIGIBLE_TAIL = 5.0
 _TABLE_END = 8.0
 """Standard deviations to which it is tabulated: beyond, none of 10^14 pixels is expected."""
 
-_PER_DEVIATION = 2048
-"""Entries of the table of the normal distribution to a standard deviation."""
+_PER_DEVIATION = 2048  # entries of the table of the normal distribution to a standard deviation
 
 
 def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:

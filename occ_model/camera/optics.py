@@ -31,8 +31,7 @@ def _itself(factors: Pixels) -> tuple[Pixels]:
     return (factors,)
 
 
-STAGE = "optics"
-"""The stage that the time of no effect in particular is counted under."""
+STAGE = "optics"  # the stage that the time of no effect in particular is counted under
 
 
 @dataclass(frozen=True, eq=False, slots=True)

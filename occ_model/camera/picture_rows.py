@@ -22,8 +22,7 @@ from occ_model.camera.photometry import luminance_of, pixel_value
 from occ_model.camera.row_interpolation import node_rows, row_weights, smooth_columns, weighted
 from occ_model.scene.scene import Camera
 
-BLOCK_ROWS = 64
-"""Rows that are computed at once: a whole number of blocks of a JPEG file."""
+BLOCK_ROWS = 64  # rows that are computed at once: a whole number of blocks of a JPEG file
 
 
 def in_blocks(rows: range) -> list[range]:

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray, Pixels
 
-NODES = 6
-"""Nodes of a band."""
+NODES = 6  # nodes of a band
 
 TOLERANCE = 2e-3
 """Largest error of mean values, in grey levels: far less than rounding to bytes hides."""

@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 _Made = TypeVar("_Made")
 
-LIMIT = 24 * 2**20
-"""Most bytes that are remembered: the rows of one large picture and of its draft."""
+LIMIT = 24 * 2**20  # most bytes that are remembered: the rows of one large picture and of its draft
 
 MOST_ENTRIES = 256
 """Most things that are remembered: of small pictures thousands would fill the bytes, and each takes
@@ -62,5 +61,4 @@ class RowMemory:
         return made
 
 
-MEMORY = RowMemory(LIMIT)
-"""Process-wide row cache."""
+MEMORY = RowMemory(LIMIT)  # process-wide row cache

@@ -36,19 +36,16 @@ ENDINGS = (".gif", ".mp4", ".png")
 MOST_FRAMES = 300
 _COLOURS = 128
 
-_SIZE, _DOTS = (9.6, 5.4), 100
-"""Inches of a frame, and pixels an inch."""
+_SIZE, _DOTS = (9.6, 5.4), 100  # inches of a frame, and pixels an inch
 
 _ROWS, _SHOWN_COLUMNS = 120, 900
 _DEFAULT_RATE = 15.0
-_MAX_GIF_RATE = 50.0
-"""Frames a second; players of GIF files show none faster."""
+_MAX_GIF_RATE = 50.0  # frames a second; players of GIF files show none faster
 
 _HEADROOM, _HIGHEST = 1.2, 260.0
 """The level axis reaches above the brightest level, by this factor, but no higher than this."""
 
-_MAX_TITLE_LETTERS = 110
-"""Maximum letters of a title."""
+_MAX_TITLE_LETTERS = 110  # maximum letters of a title
 
 
 def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional

@@ -17,14 +17,9 @@ from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.eye import eye_flicker, risk_limits, risk_lines
 from occ_model.study.bands.least_depth import depth_map
 
-_MAX_VALLEY_LINES = 8
-"""Lines that are drawn: those above lie closer than the cells."""
-
-_DEPTHS = (0.1, 100.0)
-"""Percent at the ends of the colours."""
-
-_MIN_MODULATION = 0.01
-"""Percent at the lower end of the chart."""
+_MAX_VALLEY_LINES = 8  # lines that are drawn: those above lie closer than the cells
+_DEPTHS = (0.1, 100.0)  # percent at the ends of the colours
+_MIN_MODULATION = 0.01  # percent at the lower end of the chart
 
 
 def bands_drawing(scene: Scene) -> Drawing:

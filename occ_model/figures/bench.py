@@ -20,8 +20,7 @@ from occ_model.study.bit_error_rate import check_frame_rate
 _TITLE = "Bit error rates and bits a second over exposure and noise"
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 
-_ARROW = 0.5
-"""Length of the arrow down from an upper end, as a fraction of it."""
+_ARROW = 0.5  # length of the arrow down from an upper end, as a fraction of it
 
 _AXES = ("exposure", "noise")
 _BOUND: dict[str, Any] = {"color": "0.35", "linestyle": "--", "linewidth": 1.0}

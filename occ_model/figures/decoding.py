@@ -16,8 +16,7 @@ from occ_model.figures.window_panes import caption, write_caption
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 
-_LONGEST_PAYLOAD = 40
-"""Characters of a payload in the title."""
+_LONGEST_PAYLOAD = 40  # characters of a payload in the title
 
 _SIGNAL: dict[str, Any] = {"color": colours.SIMULATION, "linestyle": "-"}
 _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}

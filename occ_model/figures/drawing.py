@@ -24,8 +24,7 @@ BAND = {"color": colours.BAND, "linestyle": "--"}
 PHOTO = {"color": colours.PHOTO, "linestyle": ":"}
 THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "linewidth": 0.9}
 
-FORMATS = ("png", "svg", "pdf")
-"""The file formats of a figure."""
+FORMATS = ("png", "svg", "pdf")  # the file formats of a figure
 
 ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")
 """The endings of the files that a drawing is written to."""

@@ -23,8 +23,7 @@ from occ_model.scene.provenance import Provenance
 from occ_model.teaching.explanations import explanation
 from occ_model.version import __version__
 
-_FIGURE = (7.0, 2.6)
-"""Inches of a figure in Markdown."""
+_FIGURE = (7.0, 2.6)  # inches of a figure in Markdown
 
 _MATCHED_FIGURE = (7.0, 4.2)
 

@@ -17,17 +17,10 @@ from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 from occ_model.teaching.explanations import explanation
 
-_PAGE = (8.27, 11.69)
-"""Inches of a page of A4."""
-
-_LEFT, _RIGHT = 0.08, 0.92
-"""Where lines begin and end, as fractions of the page's width."""
-
-_MAX_STEPS_A_PAGE = 5
-"""Steps of a page that can still be read."""
-
-_STEPS_OF_A_MATCH = 2
-"""Steps whose room one with a match takes."""
+_PAGE = (8.27, 11.69)  # inches of a page of A4
+_LEFT, _RIGHT = 0.08, 0.92  # where lines begin and end, as fractions of the page's width
+_MAX_STEPS_A_PAGE = 5  # steps of a page that can still be read
+_STEPS_OF_A_MATCH = 2  # steps whose room one with a match takes
 
 _SHOWN_COLUMNS = 700
 _NO_ANSWER = "." * 60

@@ -15,19 +15,16 @@ from matplotlib.textpath import text_to_path
 
 _Kind = TypeVar("_Kind", Text, Legend)
 
-_MARGIN = 0.05
-"""Inches between a text and the edge of the page."""
+_MARGIN = 0.05  # inches between a text and the edge of the page
 
 _HINTED_WIDTH_FACTOR = 1.08
 """By how much a line of small letters, placed on whole pixels, is wider than its outlines."""
 
 _MAX_LINES = 12
-_MAX_ROUNDS = 3
-"""Of making a page higher, after which its axes are placed anew."""
+_MAX_ROUNDS = 3  # of making a page higher, after which its axes are placed anew
 
 _UNKNOWN_LETTER = "□"
-_POINTS = 72.0
-"""Points of an inch."""
+_POINTS = 72.0  # points of an inch
 
 
 def lines_within(text: str, inches: float, font: FontProperties, most: int) -> list[str]:

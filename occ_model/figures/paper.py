@@ -27,8 +27,7 @@ from occ_model.simulation.render import render
 from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
 from occ_model.transmitter.packet import packet
 
-_PICTURE_STEP = 8
-"""Side in pixels of the cells whose means are printed: print resolves no more."""
+_PICTURE_STEP = 8  # side in pixels of the cells whose means are printed: print resolves no more
 
 _PACKETS_SHOWN = 2.5
 

@@ -35,14 +35,9 @@ _STYLES: tuple[dict[str, Any], ...] = (
 _TITLES = {"rate": "Success rate", "bits": "Bits a second"}
 _LABELS = {"rate": "success rate (%)", "bits": "bits a second"}
 
-_REFUSED_COLOUR = "0.75"
-"""Grey, which is not one of the map's colours."""
-
-_TICKS = 10
-"""Largest number of labels at an axis."""
-
-_CELLS_WITH_NUMBERS = 14
-"""Largest number of cells on a side at which each holds its number."""
+_REFUSED_COLOUR = "0.75"  # grey, which is not one of the map's colours
+_TICKS = 10  # largest number of labels at an axis
+_CELLS_WITH_NUMBERS = 14  # largest number of cells on a side at which each holds its number
 
 
 def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> None:

@@ -21,14 +21,9 @@ from occ_model.boards.wiring import (
 )
 from occ_model.scene.units import SECOND
 
-_SIZE = (7.6, 6.0)
-"""In inches."""
-
-_TEXT = 8
-"""Size of the circuits' texts, in points."""
-
-_LINE_LENGTH = 116
-"""Characters of a line of text below the drawing."""
+_SIZE = (7.6, 6.0)  # in inches
+_TEXT = 8  # size of the circuits' texts, in points
+_LINE_LENGTH = 116  # characters of a line of text below the drawing
 
 
 def wiring_figure(sent: Transmission) -> Figure:

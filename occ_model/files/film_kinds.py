@@ -31,8 +31,7 @@ _PNG = Container("animated PNG", "pillow")
 _BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")
 """Boxes that MP4 and MOV files begin with, after four bytes of length."""
 
-FIRST_BYTES = 16
-"""Number of bytes that identify the kind."""
+FIRST_BYTES = 16  # number of bytes that identify the kind
 
 
 def container_of(path: Path, start: bytes) -> Container:

@@ -7,11 +7,8 @@ from pathlib import Path
 
 from occ_model.errors import SceneFileError, one_line
 
-LARGEST_TEXT = 1_000_000
-"""Bytes allowed in a scene, preset or lesson; ours have a few thousand."""
-
-_CHUNK = 1 << 20
-"""Bytes read at a time: a file may hold more, or less, than its size says."""
+LARGEST_TEXT = 1_000_000  # bytes allowed in a scene, preset or lesson; ours have a few thousand
+_CHUNK = 1 << 20  # bytes read at a time: a file may hold more, or less, than its size says
 
 _NO_FILE = "it is a device, pipe or socket"
 

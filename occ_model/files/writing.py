@@ -25,8 +25,7 @@ _FORMATS = {
 }
 """The image formats that can hold any grey picture, by the file's ending."""
 
-PICTURE_ENDINGS = tuple(_FORMATS)
-"""Endings of the files that pictures can be written to."""
+PICTURE_ENDINGS = tuple(_FORMATS)  # endings of the files that pictures can be written to
 
 LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
 """Largest side in pixels that a format's encoder takes; libjpeg's is below the format's own."""

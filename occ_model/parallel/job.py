@@ -11,8 +11,7 @@ from occ_model.errors import OccError
 Heartbeat: TypeAlias = Callable[[], object]
 """Called repeatedly by work that takes long; whatever it raises ends the work."""
 
-CHANNELS = 8
-"""Most channels that can share workers, and most counters of heartbeats."""
+CHANNELS = 8  # most channels that can share workers, and most counters of heartbeats
 
 NO_PROCESSES = (OSError, ImportError, NotImplementedError)
 """Raised where the system cannot start processes: no semaphores (a /dev/shm that cannot be written
@@ -70,8 +69,7 @@ Stages: TypeAlias = Callable[[], Iterable[Stage]]
 class Workers(Protocol):
     """Processes or threads that do jobs."""
 
-    count: int
-    """How many jobs they do at a time."""
+    count: int  # how many jobs they do at a time
 
     lost_by: tuple[type[Exception], ...]
     """Exceptions of a future, or raised by ``submit``, that mean that workers ended."""

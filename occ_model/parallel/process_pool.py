@@ -21,8 +21,7 @@ from occ_model.parallel.processes import (
     worker_start,
 )
 
-_EXIT_SECONDS = 0.2
-"""Seconds that processes get to end by themselves."""
+_EXIT_SECONDS = 0.2  # seconds that processes get to end by themselves
 
 
 class ProcessPool:

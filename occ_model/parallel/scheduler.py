@@ -20,8 +20,7 @@ from occ_model.parallel.request import Run, StageProgress
 _JOBS_PER_WORKER = 2
 """Jobs in flight for each worker: one that it does, and one that it continues with."""
 
-_MAX_LOST_WORKERS = 3
-"""How often workers may end one after the other without a result."""
+_MAX_LOST_WORKERS = 3  # how often workers may end one after the other without a result
 
 
 class Scheduler:

@@ -17,8 +17,7 @@ from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene
 
-_LARGEST_LEVEL = 1e5
-"""Largest value accepted as a grey level, above those of any bit depth."""
+_LARGEST_LEVEL = 1e5  # largest value accepted as a grey level, above those of any bit depth
 
 
 def decode(image: NDArray[Any], scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:

@@ -34,8 +34,7 @@ SEQUENCE = Decoder(
     searched_chips=8.0,
 )
 
-PAPER_DECODER = THRESHOLD.name
-"""The name of the paper's decoder, which is the default."""
+PAPER_DECODER = THRESHOLD.name  # the name of the paper's decoder, which is the default
 
 DECODERS: dict[str, Decoder] = {
     decoder.name: decoder for decoder in (THRESHOLD, MATCHED, EQUALIZER, SEQUENCE)

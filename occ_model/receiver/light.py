@@ -16,11 +16,8 @@ from occ_model.camera.photometry import WHITE
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_named, scheme_of
 
-_CHIPS = 1500
-"""Chips of random payloads that the distribution of light is computed from."""
-
-PER_CHIP = 16
-"""Exposures in each chip of :func:`expected_light`."""
+_CHIPS = 1500  # chips of random payloads that the distribution of light is computed from
+PER_CHIP = 16  # exposures in each chip of :func:`expected_light`
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -9,8 +9,7 @@ from occ_model.arrays import ByteArray, IndexArray
 from occ_model.receiver.signal import otsu_split
 from occ_model.results.decoding import Location, Region
 
-_MAX_GRID_CELLS = 512
-"""Maximum cells on a side of the grid on which contours grow."""
+_MAX_GRID_CELLS = 512  # maximum cells on a side of the grid on which contours grow
 
 _MIN_BRIGHT_FRACTION = 0.04
 """Least fraction of bright pixels in a cell of a contour; below it they are noise."""

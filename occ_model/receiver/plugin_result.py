@@ -15,8 +15,7 @@ from occ_model.transmitter.plugin_values import (
     is_reason,
 )
 
-_LONGEST_PAYLOAD = 4 * MAX_PAYLOAD_BITS
-"""Letters: bits, as text, are the longest form."""
+_LONGEST_PAYLOAD = 4 * MAX_PAYLOAD_BITS  # letters: bits, as text, are the longest form
 
 
 def problem_of(result: object, columns: int) -> str | None:

@@ -3,11 +3,8 @@
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
-_MIN_CHIP_COLUMNS = 1.0
-"""Columns of a chip below which not every chip has a column of its own."""
-
-_DIGITS = 3
-"""Significant digits of a time in a sentence."""
+_MIN_CHIP_COLUMNS = 1.0  # columns of a chip below which not every chip has a column of its own
+_DIGITS = 3  # significant digits of a time in a sentence
 
 
 def columns_of_chip(scene: Scene) -> float:

@@ -9,8 +9,7 @@ from occ_model.results.decoding import Region
 
 _BINS = 256
 
-_WHOLE_ROWS = 2**23
-"""Most rows whose sum of bytes fits an integer of 32 bits."""
+_WHOLE_ROWS = 2**23  # most rows whose sum of bytes fits an integer of 32 bits
 
 
 def column_means(image: ByteArray, region: Region) -> FloatArray:

@@ -14,8 +14,7 @@ ACCURACY_PARTS = {
 CHAINED_PARTS = ("integration", "effects")
 """Parts whose points, apart from that of the present settings, form a curve."""
 
-CLOSED_FORM = "closed form"
-"""Name of the exposure that is integrated exactly."""
+CLOSED_FORM = "closed form"  # name of the exposure that is integrated exactly
 
 LEAST_ERROR = 1e-3
 """Smallest error drawn, in levels of the stretched profile; smaller ones are drawn there."""

@@ -11,12 +11,10 @@ from occ_model.scene.payload import typed_form
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 
-_DIGITS = 4
-"""Significant digits: the ends of a range are found to a few thousandths."""
+_DIGITS = 4  # significant digits: the ends of a range are found to a few thousandths
 
 
-_LONGEST_PAYLOAD = 24
-"""Characters of a payload that are named."""
+_LONGEST_PAYLOAD = 24  # characters of a payload that are named
 
 
 def sent_text(scene: Scene) -> str:

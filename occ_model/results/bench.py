@@ -9,8 +9,7 @@ from occ_model.scene.scene import Scene
 
 _CAMERA = Scene().camera
 
-EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)
-"""Default exposures, in symbols."""
+EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)  # default exposures, in symbols
 
 DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)
 """Default signal-to-noise ratios in dB: variance of the chips over that of a row's noise."""

@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 from occ_model.scene.recording import FRAME_RATE
 
-FRAMES_A_SECOND = FRAME_RATE.default
-"""Default frame rate of a camera, in frames a second."""
+FRAMES_A_SECOND = FRAME_RATE.default  # default frame rate of a camera, in frames a second
 
 
 _WHY_ABOVE_HALF = "Above 0.5: a payload that is not read counts with all its bits wrong."

@@ -114,8 +114,7 @@ _EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")
 _DISPLAY_TOLERANCE = 5e-7
 """Relative difference of two values that agree in the six digits displayed."""
 
-_ERROR_TOLERANCE = 1e-3
-"""Difference of two equal values, as a fraction of the standard deviation."""
+_ERROR_TOLERANCE = 1e-3  # difference of two equal values, as a fraction of the standard deviation
 
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
 

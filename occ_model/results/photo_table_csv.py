@@ -9,8 +9,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.version import __version__
 
-_MAX_TEXT_LENGTH = 10_000
-"""Maximum characters of a text; a path has fewer."""
+_MAX_TEXT_LENGTH = 10_000  # maximum characters of a text; a path has fewer
 
 _COLUMNS = (
     "file", "verdict", "in the mean", "readout time (s)", "its error (s)",

@@ -6,11 +6,8 @@ from occ_model.arrays import FloatArray
 
 _WHITE = 255
 
-LEVELS = _WHITE + 1
-"""Grey levels of a picture."""
-
-SATURATED_FROM = 0.01
-"""Fraction of white pixels from which light is said to be lost."""
+LEVELS = _WHITE + 1  # grey levels of a picture
+SATURATED_FROM = 0.01  # fraction of white pixels from which light is said to be lost
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -28,11 +28,8 @@ MOST_POINTS = 1_000_000
 MOST_AXES = 31
 """Parameters that a sweep varies: numpy's arrays have 32 axes, and one is that of the decoders."""
 
-MOST_IMAGES = 1_000_000
-"""Images at a point."""
-
-MOST_JOBS = 1024
-"""Processes of a sweep."""
+MOST_IMAGES = 1_000_000  # images at a point
+MOST_JOBS = 1024  # processes of a sweep
 
 JOBS_A_CORE = 4
 """Processes that are started at most for each core: more take memory and save no time."""

@@ -10,8 +10,7 @@ from occ_model.arrays import ByteArray
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
 
-LATEST = 1e8
-"""Latest time of a frame from the film's first one, in seconds: three years."""
+LATEST = 1e8  # latest time of a frame from the film's first one, in seconds: three years
 
 
 @dataclass(frozen=True, eq=False, slots=True)

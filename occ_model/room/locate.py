@@ -33,8 +33,7 @@ _MAX_EXCLUDED_EDGES = 3
 
 _ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
 
-_PLACE_TOLERANCE = 1e-3
-"""Metres and radians within which two places are the same."""
+_PLACE_TOLERANCE = 1e-3  # metres and radians within which two places are the same
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -14,17 +14,10 @@ from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.room.view import angles_of, room_outline
 from occ_model.scene.scene import Camera
 
-_ROUNDS = 12
-"""Rounds of the refinement; it ends sooner where a step is negligible."""
-
-_MIN_DEPTH = 1e-6
-"""Metres before the camera from which a corner is seen."""
-
-_STEP = 1e-6
-"""Of each number, for its slope."""
-
-_MAX_CONDITION_NUMBER = 1e14
-"""Condition number from which some parameters are undetermined."""
+_ROUNDS = 12  # rounds of the refinement; it ends sooner where a step is negligible
+_MIN_DEPTH = 1e-6  # metres before the camera from which a corner is seen
+_STEP = 1e-6  # of each number, for its slope
+_MAX_CONDITION_NUMBER = 1e14  # condition number from which some parameters are undetermined
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -17,8 +17,7 @@ from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import packet
 
-_ROWS = 4
-"""Rows that are averaged where lamps are looked for."""
+_ROWS = 4  # rows that are averaged where lamps are looked for
 
 _MIN_SIGMA_ABOVE_NOISE = 6.0
 """Standard deviations of the noise above the surroundings from which a pixel is a lamp's."""
@@ -26,11 +25,8 @@ _MIN_SIGMA_ABOVE_NOISE = 6.0
 _MIN_LAMP_FRACTION = 0.1
 """Fraction of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
 
-_SAMPLING_STEP = 4
-"""Step between the rows that sample the light of surroundings and lamps."""
-
-_MIN_SIDE = 12
-"""Rows and columns of the smallest lamp that is looked at."""
+_SAMPLING_STEP = 4  # step between the rows that sample the light of surroundings and lamps
+_MIN_SIDE = 12  # rows and columns of the smallest lamp that is looked at
 
 _MIN_LIT_FRACTION = 0.5
 """Fraction of a lamp's brightest light from which a column of it is found lit, however faint the

@@ -18,11 +18,8 @@ from occ_model.scene.scene import Pose, Scene
 _DISC_CORNERS = 96
 """Corners of the polygon of a disc: it lies within 0.06 % of the radius of the circle."""
 
-_MIN_DEPTH = 1e-3
-"""Depth in metres before which nothing is seen."""
-
-_MAX_LENS_SHIFT = 0.15
-"""Fraction of the picture's size by which a lens may move what it shows."""
+_MIN_DEPTH = 1e-3  # depth in metres before which nothing is seen
+_MAX_LENS_SHIFT = 0.15  # fraction of the picture's size by which a lens may move what it shows
 
 
 @dataclass(frozen=True, eq=False, slots=True)

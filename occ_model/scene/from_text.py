@@ -11,8 +11,7 @@ from occ_model.scene.parameters import parameter_named
 from occ_model.scene.provenance import ENDINGS, scene_inside
 from occ_model.scene.scene import Scene
 
-SCENE_ENDING = ".toml"
-"""Ending of the files that scenes are saved to."""
+SCENE_ENDING = ".toml"  # ending of the files that scenes are saved to
 
 DEFAULT_PRESET = "phone-68us"
 """The preset used where none is named: all models and decoders give a result for it."""

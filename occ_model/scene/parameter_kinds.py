@@ -40,8 +40,7 @@ def _read_whole(text: str) -> int:
         return int(text, 10)
 
 
-_LIMIT_DIGITS = 12
-"""Digits up to which a limit is written without a power of ten."""
+_LIMIT_DIGITS = 12  # digits up to which a limit is written without a power of ten
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,8 +234,7 @@ class Payload(Declaration):
     """What is sent: a text, bytes or bits; or nothing."""
 
     default: str
-    empty: str = "the code"
-    """What is sent where there is no payload."""
+    empty: str = "the code"  # what is sent where there is no payload
 
     @property
     def allowed(self) -> str:
@@ -263,8 +261,7 @@ class ChipPattern(Declaration):
 
     default: str
     most: int = MAX_PATTERN_CHIPS
-    empty: str = "packets"
-    """What is sent where there is no pattern."""
+    empty: str = "packets"  # what is sent where there is no pattern
 
     @property
     def allowed(self) -> str:

@@ -25,8 +25,7 @@ _SHORT_FORM = re.compile(r"\s*(?:0x([0-9a-f ]+)|0b([01 ]+))", re.IGNORECASE)
 
 _DIGITS_ALONE = re.compile("[0-9 ]*")
 
-_REPLACEMENT_LETTER = "?"
-"""In place of bytes that are not text."""
+_REPLACEMENT_LETTER = "?"  # in place of bytes that are not text
 
 
 def canonical(value: object) -> str:

@@ -15,8 +15,7 @@ from occ_model.scene.scene import Scene
 
 FOLDER, ENDING = "presets", ".toml"
 
-_MAX_BASES = 8
-"""Presets that one may be based on; all of them are read whenever it is loaded."""
+_MAX_BASES = 8  # presets that one may be based on; all of them are read whenever it is loaded
 
 
 @dataclass(frozen=True, slots=True)

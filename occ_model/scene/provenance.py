@@ -16,8 +16,7 @@ from occ_model.files.reading import read_bytes, read_start
 from occ_model.scene.scene import Scene
 from occ_model.version import __version__
 
-ENDINGS = (".png", ".svg", ".pdf", ".csv")
-"""The endings of files that may carry a scene."""
+ENDINGS = (".png", ".svg", ".pdf", ".csv")  # the endings of files that may carry a scene
 
 _SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
 

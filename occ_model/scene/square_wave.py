@@ -4,8 +4,7 @@ from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
 
-SQUARE_WAVE = "10"
-"""The chips of one cycle: one lit, one dark."""
+SQUARE_WAVE = "10"  # the chips of one cycle: one lit, one dark
 
 CHIPS_OF_A_CYCLE = len(SQUARE_WAVE)
 

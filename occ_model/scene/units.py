@@ -26,8 +26,7 @@ _QUANTITY = re.compile(rf"({_NUMBER})\s*(?:/\s*({_NUMBER}))?\s*(.*)", re.DOTALL)
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 """Numbers whose comma may also separate thousands: one to three digits before it, three after."""
 
-_MAX_DECIMALS = 6
-"""Decimals of an estimate above which its error is written in a unit of its own."""
+_MAX_DECIMALS = 6  # decimals of an estimate above which its error is written in a unit of its own
 
 _ROUNDING_ERROR = 1e-12
 """Fraction of a value below which its error is that of the arithmetic, and is not stated."""

@@ -21,11 +21,8 @@ from occ_model.camera.photometry import WHITE
 _BLOCK = 8
 """Rows of a part: those of a block of a JPEG file, in which its errors are not independent."""
 
-_BLUR_REACH = 4.0
-"""Standard deviations of the lens's blur that a rim reaches into the panel."""
-
-_DEVIATIONS_ADDED = 5.0
-"""Standard deviations of an estimate by which the stated error is larger."""
+_BLUR_REACH = 4.0  # standard deviations of the lens's blur that a rim reaches into the panel
+_DEVIATIONS_ADDED = 5.0  # standard deviations of an estimate by which the stated error is larger
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -16,8 +16,7 @@ Drawn: TypeAlias = Callable[[], Sequence[tuple[Sequence[NoiseEffect], Pixels]]]
 """Gives numbers of the standard normal distribution, shape (rows, columns), which are the caller's
 own, and the effects whose noise they are together."""
 
-_PLANE_SIZE = 2**21
-"""Numbers in the plane: eight megabytes, which fit the processor's cache."""
+_PLANE_SIZE = 2**21  # numbers in the plane: eight megabytes, which fit the processor's cache
 
 
 class Noise(Protocol):

@@ -27,8 +27,7 @@ from occ_model.simulation.noise_source import NOISE_MAKERS, Drawn, NoiseMaker
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.simulation.threads import each_in_threads
 
-_BLOCK = 8
-"""Columns and rows of a block of a JPEG file."""
+_BLOCK = 8  # columns and rows of a block of a JPEG file
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -23,24 +23,19 @@ from occ_model.simulation.noise_source import Drawn
 from occ_model.simulation.pixels import PixelExposure
 from occ_model.simulation.stage_timer import StageTimer
 
-BAND = 8
-"""Rows of a band."""
-
-BANDS = 24
-"""Bands across the panel."""
+BAND = 8  # rows of a band
+BANDS = 24  # bands across the panel
 
 _SURROUNDING_BANDS = 6
 """Bands of rows above the panel, and below it: they show the surroundings and stray light."""
 
-_PAIRS = BANDS // 2
-"""Pairs of neighbouring bands, whose noise is opposite: its mean is nothing."""
+_PAIRS = BANDS // 2  # pairs of neighbouring bands, whose noise is opposite: its mean is nothing
 
 _QUANTILE_STRIDE = 7
 """Quantiles from a pair to the next one: light varies from band to band, the noise not with it.
 Without a common divisor with the number of pairs, so that each quantile is used once."""
 
-_TABLE_ENTRIES = 4096
-"""Entries of the table of normal deviates."""
+_TABLE_ENTRIES = 4096  # entries of the table of normal deviates
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -13,8 +13,7 @@ from typing import TypeVar
 _Item = TypeVar("_Item")
 _Result = TypeVar("_Result")
 
-_ITEMS_AHEAD = 2
-"""Items for each thread that are prepared before their turn."""
+_ITEMS_AHEAD = 2  # items for each thread that are prepared before their turn
 
 
 def threads() -> int:

@@ -10,14 +10,9 @@ from occ_model.scene.scene import Scene
 from occ_model.teaching.quantities import QUANTITIES
 from occ_model.teaching.result_text import result_text
 
-_NEAR_TOLERANCES = 3.0
-"""An answer within this many tolerances is near."""
-
-_MIN_NEAR_DIFFERENCE = 0.02
-"""Relative difference that is near however small the tolerance is."""
-
-_ROUNDING = 1e-9
-"""Relative difference of two values that are the same."""
+_NEAR_TOLERANCES = 3.0  # an answer within this many tolerances is near
+_MIN_NEAR_DIFFERENCE = 0.02  # relative difference that is near however small the tolerance is
+_ROUNDING = 1e-9  # relative difference of two values that are the same
 
 
 def check_answer(

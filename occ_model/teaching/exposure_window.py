@@ -12,8 +12,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
-_MAX_CHIPS = 400
-"""Largest number of chips that a drawing resolves."""
+_MAX_CHIPS = 400  # largest number of chips that a drawing resolves
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:

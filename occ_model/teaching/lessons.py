@@ -35,8 +35,7 @@ ACTIONS = ("transmitter", "photo", "match")
 """What a step can have a button for: write a transmitter, open a photo, match it."""
 
 _FOLDER, _ENDING = "lessons", ".toml"
-_TEMPLATE = f"my-first-lesson{_ENDING}"
-"""The lesson that a teacher begins with."""
+_TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson that a teacher begins with
 
 _LESSON_KEYS = ("title", "summary", "sheet", "step")
 _STEP_KEYS = (
@@ -44,8 +43,7 @@ _STEP_KEYS = (
     "equation", "animation", "action", "own_photo",
 )  # fmt: skip
 _CHECK_KEYS = ("quantity", "tolerance", "set")
-_MAX_TOLERANCE = 50.0
-"""Percent."""
+_MAX_TOLERANCE = 50.0  # percent
 
 
 class _MistakeError(SceneFileError):

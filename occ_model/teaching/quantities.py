@@ -16,8 +16,7 @@ from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
 from occ_model.transmitter.packet import packet, packet_length
 
-FRAME_RATE = 30.0
-"""Frames a second of the film that a question about films means."""
+FRAME_RATE = 30.0  # frames a second of the film that a question about films means
 
 _BITS_A_SECOND = Unit("bit/s", ("", "k", "M"), spellings=(("bits/s", 1.0), ("bps", 1.0)))
 _PERCENT = Unit("%", shown=("%", 0.01))

@@ -7,8 +7,7 @@ from occ_model.results.teaching import RollingShutter
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
-_CHIPS = 4
-"""Chips that the shown columns begin in."""
+_CHIPS = 4  # chips that the shown columns begin in
 
 _MAX_CHIPS = 400
 """Largest number of chips that a drawing resolves; of a longer exposure only these are given."""

@@ -11,11 +11,8 @@ from occ_model.errors import ParameterError
 if TYPE_CHECKING:  # an optional package
     from reedsolo import RSCodec
 
-PARITY_BYTES = 4
-"""Bytes added to each block; half as many wrong bytes are corrected."""
-
-_BLOCK_BYTES = 255 - PARITY_BYTES
-"""Most bytes of the payload in a block."""
+PARITY_BYTES = 4  # bytes added to each block; half as many wrong bytes are corrected
+_BLOCK_BYTES = 255 - PARITY_BYTES  # most bytes of the payload in a block
 
 
 def protected_bits(bits: int) -> int:

@@ -15,14 +15,9 @@ from occ_model.arrays import BoolArray, ByteArray, FloatArray, IndexArray
 from occ_model.photo.stripes.envelope import smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
 
-_ROUNDS = 6
-"""Maximum iterations of the timing's fit."""
-
-_CONVERGED_CHANGE = 1e-5
-"""Change of the timing in chips below which the fit has converged."""
-
-_MAX_STEP = 0.2
-"""Largest change of the phase in one improvement, in chips."""
+_ROUNDS = 6  # maximum iterations of the timing's fit
+_CONVERGED_CHANGE = 1e-5  # change of the timing in chips below which the fit has converged
+_MAX_STEP = 0.2  # largest change of the phase in one improvement, in chips
 
 _SHIFTS = np.linspace(-0.75, 0.75, 13)
 """Shifts in chips that are tried first: decoders count from different ends of an exposure."""
@@ -33,21 +28,15 @@ lens's or a round lamp's is not a parabola, which shifts the edges of all frames
 simulated films of 25 frames the median error of the readout time is 5.1 ppm with 3 and 1.6 ppm with
 up to 7."""
 
-_MIN_EXPOSURE_CHIPS = 1e-3
-"""Shortest exposure in chips: a shorter one makes the same light."""
+_MIN_EXPOSURE_CHIPS = 1e-3  # shortest exposure in chips: a shorter one makes the same light
 
 _MIN_NOISE = 1e-6
 """Least variance of a column about its model that is believed, as a fraction of the swing
 squared."""
 
-_MAX_LOG_LIKELIHOOD_RATIO = 50.0
-"""Largest log-likelihood ratio of a chip: no model is surer."""
-
-_MAX_RIM = 8
-"""Fraction of the columns, as a divisor, that are left out at either end at most."""
-
-_SINGULAR = 1e-9
-"""Fraction of the largest singular value below which one is rounding error."""
+_MAX_LOG_LIKELIHOOD_RATIO = 50.0  # largest log-likelihood ratio of a chip: no model is surer
+_MAX_RIM = 8  # fraction of the columns, as a divisor, that are left out at either end at most
+_SINGULAR = 1e-9  # fraction of the largest singular value below which one is rounding error
 
 
 @dataclass(frozen=True, eq=False, slots=True)

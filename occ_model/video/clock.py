@@ -14,14 +14,9 @@ READOUT_TOLERANCE = 0.01
 _MAX_READOUT_EXCESS = 1e-3
 """Fraction by which measurement errors may extend the readout beyond the frame period."""
 
-_MIN_FRAMES = 3
-"""Minimum number of frames to fit the clock to."""
-
-_MAX_OUTLIER_FRACTION = 0.1
-"""Outlier fraction of the phases that triggers a warning."""
-
-_MAX_NAMED_FREQUENCIES = 5
-"""Maximum number of other frequencies that a sentence names."""
+_MIN_FRAMES = 3  # minimum number of frames to fit the clock to
+_MAX_OUTLIER_FRACTION = 0.1  # outlier fraction of the phases that triggers a warning
+_MAX_NAMED_FREQUENCIES = 5  # maximum number of other frequencies that a sentence names
 
 _MIN_WANDER_RATIO = 3.0
 """Ratio of the phases' scatter to that from frame to frame from which they wander."""

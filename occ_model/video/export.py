@@ -9,8 +9,7 @@ from occ_model.results.video import Video
 from occ_model.scene.provenance import Provenance
 from occ_model.video.file.write import check_film_path, write_frames
 
-_USUAL_RATE = 30.0
-"""Frames a second of a film that does not say how many."""
+_USUAL_RATE = 30.0  # frames a second of a film that does not say how many
 
 
 def write_video(

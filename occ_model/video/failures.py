@@ -10,8 +10,7 @@ from occ_model.video.joining import Joined
 from occ_model.video.period import SentPeriod
 from occ_model.video.read_frame import TimedFrame
 
-_MIN_CERTAINTY = 0.9
-"""Least probability that all bits are right, of a payload that is read."""
+_MIN_CERTAINTY = 0.9  # least probability that all bits are right, of a payload that is read
 
 NO_CLOCK = (
     "The frame times do not determine a clock: no frequency that the readout time allows explains "

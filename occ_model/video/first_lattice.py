@@ -9,11 +9,8 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.video.chip_timing import ChipLattice
 
-_MIN_EDGES = 4
-"""Fewest edges between chips that show a lattice."""
-
-_MAX_EDGE_ERROR = 0.3
-"""Chips off the lattice from which an edge shows that chips were miscounted."""
+_MIN_EDGES = 4  # fewest edges between chips that show a lattice
+_MAX_EDGE_ERROR = 0.3  # chips off the lattice from which an edge shows that chips were miscounted
 
 _SEARCHED_FRACTION = 0.05
 """Fraction of the expected length of a chip within which another length is searched."""

@@ -14,18 +14,14 @@ _MAX_INTERVAL_DEVIATION = 0.25
 _MAX_TIME_DEVIATION = 0.02
 """Standard deviation of the frame times, as a fraction of the period, that triggers a warning."""
 
-_MAX_NAMED_FRAMES = 3
-"""Maximum number of frames that a sentence names."""
+_MAX_NAMED_FRAMES = 3  # maximum number of frames that a sentence names
 
 BREAK = 16.0
 """Periods between two frames from which the film goes on as another part: what a camera that is
 stopped, or a file that is damaged, states for them tells nothing of the frames before."""
 
-_MIN_FRAMES_PER_PART = 4.0
-"""Mean number of frames per part from which the times are meaningful."""
-
-_MIN_INTERVAL = 1e-9
-"""Seconds below which two frames have the same time."""
+_MIN_FRAMES_PER_PART = 4.0  # mean number of frames per part from which the times are meaningful
+_MIN_INTERVAL = 1e-9  # seconds below which two frames have the same time
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,20 +17,17 @@ from occ_model.video.period import SentPeriod
 _MAX_FRAME_RATIO = 8.0
 """Largest log-likelihood ratio that one frame gives to a chip: a frame may be misplaced."""
 
-_FIXED_CHIP_RATIO = 30.0
-"""Log-likelihood ratio of a chip that is the same in every packet."""
+_FIXED_CHIP_RATIO = 30.0  # log-likelihood ratio of a chip that is the same in every packet
 
 _KNOWN_CHIP_RATIO = 2.0
 """Log-likelihood ratio from which a chip counts as known when places are compared."""
 
-_MIN_LOG_ODDS = 7.0
-"""Minimum log-odds of the best place against all others together."""
+_MIN_LOG_ODDS = 7.0  # minimum log-odds of the best place against all others together
 
 _CONTRADICTING_LOG_LIKELIHOOD = -12.0
 """Logarithm of the likelihood below which a place contradicts the chips that are known."""
 
-_MIN_DEVIATION = 0.15
-"""Minimum standard deviation of a place predicted by the clock, in chips."""
+_MIN_DEVIATION = 0.15  # minimum standard deviation of a place predicted by the clock, in chips
 
 
 @dataclass(frozen=True, slots=True)

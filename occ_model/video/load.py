@@ -35,11 +35,8 @@ _SAME_TIME = 1e-6
 _MAX_DECODED_AHEAD = 10
 """Frames ahead up to which a frame is decoded to; one further away is found by its time."""
 
-_STEPS_LEFT = 2.0
-"""Maximum distance of a complete film's last frame from its end, in longest steps."""
-
-_SCAN_AXIS_FRAMES = 5
-"""Frames at a film's start on which the scan axis is found."""
+_STEPS_LEFT = 2.0  # maximum distance of a complete film's last frame from its end, in longest steps
+_SCAN_AXIS_FRAMES = 5  # frames at a film's start on which the scan axis is found
 
 
 def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "luma") -> "VideoFile":

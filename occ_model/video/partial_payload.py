@@ -10,8 +10,7 @@ from occ_model.transmitter.framings.raw import length_bits
 from occ_model.video.joining import Joined
 from occ_model.video.period import SentPeriod
 
-UNKNOWN = "·"
-"""In place of a letter, a byte or a bit that has not been in view."""
+UNKNOWN = "·"  # in place of a letter, a byte or a bit that has not been in view
 
 
 def known_bits(joined: Joined, period: SentPeriod) -> IndexArray:

@@ -21,11 +21,8 @@ from occ_model.transmitter.framings.raw import FRAMING as RAW
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import Scheme, scheme_of
 
-_MIN_PREAMBLE_CHIPS = 10
-"""Minimum length of a preamble that a payload rarely contains by chance."""
-
-_SAMPLES = 8
-"""Payloads that show which chips are the same in all."""
+_MIN_PREAMBLE_CHIPS = 10  # minimum length of a preamble that a payload rarely contains by chance
+_SAMPLES = 8  # payloads that show which chips are the same in all
 
 
 @dataclass(frozen=True)

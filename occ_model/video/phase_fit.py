@@ -9,28 +9,16 @@ from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.video.phases import ClockFit, PhaseJump, Phases, mean_step
 
-_MIN_FOR_DRIFT = 6
-"""Frames from which a drift is fitted too."""
-
-_OUTLIER_DEVIATIONS = 6.0
-"""Standard deviations from which a phase is an outlier: a misread packet."""
-
-_JUMP_DEVIATIONS = 10.0
-"""Deviations from which the phase jumps between two frames."""
-
-_MIN_JUMP = 0.1
-"""Smallest jump in chips: the picture itself may shift the phase by less."""
+_MIN_FOR_DRIFT = 6  # frames from which a drift is fitted too
+_OUTLIER_DEVIATIONS = 6.0  # standard deviations from which a phase is an outlier: a misread packet
+_JUMP_DEVIATIONS = 10.0  # deviations from which the phase jumps between two frames
+_MIN_JUMP = 0.1  # smallest jump in chips: the picture itself may shift the phase by less
 
 _MAX_JUMPS = 8
 
-_MIN_TO_COMPARE = 16
-"""Minimum frames for a correlation of neighbouring residuals."""
-
-_CORRELATED_DEVIATIONS = 2.5
-"""Standard deviations from which that correlation is significant."""
-
-_MIN_PHASE = 1e-5
-"""Least standard deviation of a phase in chips that is believed."""
+_MIN_TO_COMPARE = 16  # minimum frames for a correlation of neighbouring residuals
+_CORRELATED_DEVIATIONS = 2.5  # standard deviations from which that correlation is significant
+_MIN_PHASE = 1e-5  # least standard deviation of a phase in chips that is believed
 
 
 def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:

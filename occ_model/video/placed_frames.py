@@ -19,17 +19,10 @@ from occ_model.video.period import SentPeriod
 from occ_model.video.phases import ClockFit, Phases
 from occ_model.video.read_frame import TimedFrame
 
-_REFIT_GROWTH = 1.25
-"""Factor of the number of frames after which the clock is fitted anew."""
-
-FIRST_FIT = 3
-"""Placed frames from which the clock is fitted."""
-
-_MIN_PREDICTING_FRAMES = 6
-"""Minimum frames of a fit that predicts the places of others."""
-
-_ROUNDS = 4
-"""Maximum rounds over unplaced frames at the end."""
+_REFIT_GROWTH = 1.25  # factor of the number of frames after which the clock is fitted anew
+FIRST_FIT = 3  # placed frames from which the clock is fitted
+_MIN_PREDICTING_FRAMES = 6  # minimum frames of a fit that predicts the places of others
+_ROUNDS = 4  # maximum rounds over unplaced frames at the end
 
 
 class PlacedFrames:

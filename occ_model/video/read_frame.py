@@ -25,14 +25,12 @@ read."""
 _REMEMBERED_REGIONS = 5
 """Previous frames whose regions show where the panel ends: it moves little from one to the next."""
 
-_MAX_DARK = 6.0
-"""Most dark chips in a row at an end of the panel: more than any line code has."""
+_MAX_DARK = 6.0  # most dark chips in a row at an end of the panel: more than any line code has
 
 _MOTION_MARGIN = 0.5
 """Chips by which the panel may have moved since the frames that show where it ends."""
 
-_ROUNDING_CHIPS = 1e-6
-"""Chips of rounding that do not cut a chip off."""
+_ROUNDING_CHIPS = 1e-6  # chips of rounding that do not cut a chip off
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -41,7 +39,7 @@ class TimedFrame:
     # Where the exposure of ``column`` has its middle, in chips from the first chip's start
     middle: float = 0.0
     middle_error: float = 0.0
-    column: float = 0.0  # A column of the picture, the middle one of the region
+    column: float = 0.0  # a column of the picture, the middle one of the region
     # Chips from one column to the next
     step: float = 0.0
     step_error: float = 0.0

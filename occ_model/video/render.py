@@ -18,11 +18,8 @@ from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import render_with
 from occ_model.transmitter.packet import sent_chips
 
-MOST_FRAMES = 100_000_000
-"""Most frames of a film: days even at hundreds a second."""
-
-_JITTER, _PICTURE = 0, 1
-"""Which of a frame's own streams of random numbers is for what."""
+MOST_FRAMES = 100_000_000  # most frames of a film: days even at hundreds a second
+_JITTER, _PICTURE = 0, 1  # which of a frame's own streams of random numbers is for what
 
 
 def render_video(

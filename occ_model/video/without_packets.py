@@ -29,8 +29,7 @@ _MIN_CHANGE = 0.2
 """Fraction of the brightest frames' light by which dark ones are darker where whole frames
 blink."""
 
-_MIN_SAME_FRACTION = 0.9
-"""Minimum fraction of equal frames from which all count as equal."""
+_MIN_SAME_FRACTION = 0.9  # minimum fraction of equal frames from which all count as equal
 
 
 @dataclass(frozen=True, slots=True)

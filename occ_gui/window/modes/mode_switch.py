@@ -33,10 +33,8 @@ class ModeSwitch(QObject):
         self.mode = next(iter(MODES))
         self.layouts: dict[str, QByteArray] = {}
         """What the other modes' layouts were when they were left, by name."""
-        self.is_shown = False
-        """Whether the window has been laid out."""
-        self.version = 0
-        """The version of stored layouts: one of other panes is ignored."""
+        self.is_shown = False  # whether the window has been laid out
+        self.version = 0  # the version of stored layouts: one of other panes is ignored
 
     def begin(self) -> None:
         """Lay out the present mode, when the window is first shown."""

@@ -28,11 +28,8 @@ _CURVE_UNKNOWN = (
     "exposure cannot be undone exactly; without the enhancement it can."
 )
 
-_MAX_VOTES = 15
-"""Packets that are compared; more take time and change nothing."""
-
-_MAX_COLUMNS = 0.25
-"""Longest exposure that is undone, as a fraction of the picture."""
+_MAX_VOTES = 15  # packets that are compared; more take time and change nothing
+_MAX_COLUMNS = 0.25  # longest exposure that is undone, as a fraction of the picture
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:

@@ -13,8 +13,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-MMSE, ZERO_FORCING = "mmse", "zero-forcing"
-"""The ways to undo an exposure."""
+MMSE, ZERO_FORCING = "mmse", "zero-forcing"  # the ways to undo an exposure
 
 _ZERO_FORCING_NOISE = 1e-6
 """Noise-to-light ratio of zero-forcing, which avoids a division by zero at a null."""

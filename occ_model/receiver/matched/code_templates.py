@@ -11,8 +11,7 @@ from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import packet_length, packets
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
-BINS_PER_CHIP = 8
-"""Bins of a chip: an edge is known to a sixteenth of a chip."""
+BINS_PER_CHIP = 8  # bins of a chip: an edge is known to a sixteenth of a chip
 
 _TONE_CODES = 256
 """Codes that the distribution of lit fractions is computed from; more do not change it."""

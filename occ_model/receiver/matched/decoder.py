@@ -49,8 +49,7 @@ _FULLY_EXPLAINED = 1e-3
 Where two codes do, either can be the one that is sent.
 """
 
-_SAME_LEVEL = 1e-5
-"""Difference of lit fractions that is rounding error."""
+_SAME_LEVEL = 1e-5  # difference of lit fractions that is rounding error
 
 _WIDEST_GAP = 1.25
 """Chips between two starts of exposures above which the signal has too few values for a code.
@@ -58,11 +57,8 @@ _WIDEST_GAP = 1.25
 Where each chip has a column of its own there is no gap above one chip, but for rounding to bins.
 """
 
-_CANDIDATE_CODES = 16
-"""Codes that are compared in the second, more exact step."""
-
-_AT_ONCE = 2**15
-"""Correlations, of codes at phases, held at once: they fit the processor's cache."""
+_CANDIDATE_CODES = 16  # codes that are compared in the second, more exact step
+_AT_ONCE = 2**15  # correlations, of codes at phases, held at once: they fit the processor's cache
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:

@@ -15,11 +15,8 @@ from occ_model.receiver.matched.code_templates import BINS_PER_CHIP, chip_respon
 from occ_model.transmitter.packet import bits_of
 from occ_model.transmitter.scheme import Scheme
 
-MOST_BITS = 12
-"""Bits up to which all payloads are compared: 4,096 of them."""
-
-_AT_ONCE = 512
-"""Payloads whose correlations are held at once."""
+MOST_BITS = 12  # bits up to which all payloads are compared: 4,096 of them
+_AT_ONCE = 512  # payloads whose correlations are held at once
 
 _ROUNDING = 1e-6
 """Variance of a profile, in lit fractions squared, below which it is rounding error."""

@@ -12,8 +12,7 @@ from occ_model.receiver.sequence.exposures import ChipStatistics
 from occ_model.receiver.sequence.max_log import SURVIVAL, Chips
 from occ_model.receiver.sequence.trellis import NO_STATE, Word, places_of
 
-_BEAM_WIDTH = 256
-"""Paths kept at each chip."""
+_BEAM_WIDTH = 256  # paths kept at each chip
 
 
 def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics) -> Chips:

@@ -17,20 +17,14 @@ from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.scheme import Scheme, scheme_named, scheme_of
 
-MOST_STATES = 2048
-"""States of a trellis that is searched whole."""
-
-_MAX_ENCODER_STATES = 16
-"""States of an encoder above which its words are not listed."""
-
-_MAX_BLOCK = 8
-"""Bits of a block above which its words are not listed."""
+MOST_STATES = 2048  # states of a trellis that is searched whole
+_MAX_ENCODER_STATES = 16  # states of an encoder above which its words are not listed
+_MAX_BLOCK = 8  # bits of a block above which its words are not listed
 
 _MAX_SAMPLED_BITS = 64
 """Bits of payloads up to which all samples are tried whether they are sequences of words."""
 
-_SAMPLES = 8
-"""Random payloads beside those of zeros and of ones."""
+_SAMPLES = 8  # random payloads beside those of zeros and of ones
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,14 +32,12 @@ from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_of
 
-_IMPROVEMENTS = 4
-"""Maximum iterations of fit and detection."""
+_IMPROVEMENTS = 4  # maximum iterations of fit and detection
 
 _MAX_NOISE_RATIO = 0.9
 """Fraction of the noise's variance before an improvement above which no other one is tried."""
 
-_MIN_CERTAINTY = 0.9
-"""Least probability that all bits are right, of a code that is read."""
+_MIN_CERTAINTY = 0.9  # least probability that all bits are right, of a code that is read
 
 _MAX_MEMORY = 32
 """Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""

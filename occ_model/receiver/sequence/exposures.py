@@ -12,8 +12,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 
-_KINDS = 4
-"""Kinds of chips in an exposure: the latest, those it covers whole, and the two earliest."""
+_KINDS = 4  # kinds of chips in an exposure: the latest, those it covers whole, and the two earliest
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,14 +16,9 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.sequence.exposures import ChipStatistics, features_of
 from occ_model.receiver.sequence.trellis import NO_STATE, Trellis
 
-_UNREACHABLE_COST = 1e30
-"""Distance of a state that cannot be reached."""
-
-SURVIVAL = 5
-"""Memories of a trellis after which the paths that survive have one beginning."""
-
-_LONGEST_PART = 128
-"""Chips of a part of a sequence, without what overlaps."""
+_UNREACHABLE_COST = 1e30  # distance of a state that cannot be reached
+SURVIVAL = 5  # memories of a trellis after which the paths that survive have one beginning
+_LONGEST_PART = 128  # chips of a part of a sequence, without what overlaps
 
 
 @dataclass(frozen=True, eq=False, slots=True)

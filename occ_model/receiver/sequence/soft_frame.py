@@ -15,11 +15,8 @@ from occ_model.transmitter.framings.paper import HEADER
 from occ_model.transmitter.packet import packet_length
 from occ_model.transmitter.scheme import Scheme
 
-_MAX_LOG_RATIO = 700.0
-"""Log-likelihood ratio above which its exponential overflows."""
-
-_REPETITIONS = 3
-"""Periods that a framing is shown, so that one lies whole between two headers."""
+_MAX_LOG_RATIO = 700.0  # log-likelihood ratio above which its exponential overflows
+_REPETITIONS = 3  # periods that a framing is shown, so that one lies whole between two headers
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -12,8 +12,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 
-NO_STATE = -1
-"""Marks a place of a table that no state fills."""
+NO_STATE = -1  # marks a place of a table that no state fills
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,8 +24,7 @@ class Word:
     after: int
 
 
-FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))
-"""Any chip may follow any other."""
+FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any other
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -15,8 +15,7 @@ from occ_model.scene.scene import Scene
 from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of
 
-_MIN_RUNS = 3
-"""Fewest whole runs from which a chip's length is estimated."""
+_MIN_RUNS = 3  # fewest whole runs from which a chip's length is estimated
 
 
 _LONGEST_EXPOSURE = 2.0

@@ -14,14 +14,9 @@ _MAX_RUN_CHIPS = np.array([2, 4])
 _HEADER_RUNS = (3, 4)
 """Chips of the run of ones that holds a header: its own three, or four after a one."""
 
-_NO_HEADER_PENALTY = 0.1
-"""Penalty in chips of a fit without a header, as the picture may show none."""
-
-_WIDENING_PENALTY = 0.05
-"""Penalty of a pattern's fit, in chips, for each chip of widening."""
-
-_WIDENINGS = 19
-"""Widenings that are tried for a raw pattern, which has no framing."""
+_NO_HEADER_PENALTY = 0.1  # penalty in chips of a fit without a header, as the picture may show none
+_WIDENING_PENALTY = 0.05  # penalty of a pattern's fit, in chips, for each chip of widening
+_WIDENINGS = 19  # widenings that are tried for a raw pattern, which has no framing
 
 _IMPROVEMENTS = 3
 """Most rounds of least squares; they end when the whole numbers of chips no longer change."""
@@ -57,8 +52,7 @@ class ChipFit:
 
     chip_length: float
     widening: float
-    misfit: float
-    """Root mean square distance from whole chips, plus penalties."""
+    misfit: float  # root mean square distance from whole chips, plus penalties
 
     def chips_in(self, runs: Runs) -> IndexArray:
         """Count the chips of every run, at least one each."""

@@ -21,8 +21,7 @@ from occ_model.transmitter.framings.framing import (
     own_preamble,
 )
 
-_PART_BITS = 16
-"""Most bits of the payload in a sub-packet: two characters."""
+_PART_BITS = 16  # most bits of the payload in a sub-packet: two characters
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +30,7 @@ class _Division:
 
     parts: int
     part_bits: int
-    asynchronous: int
-    """Asynchronous bits before and after each part."""
+    asynchronous: int  # asynchronous bits before and after each part
 
     @classmethod
     def of(cls, bits: int) -> "_Division":

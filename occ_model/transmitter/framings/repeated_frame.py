@@ -12,8 +12,7 @@ from occ_model.transmitter.framings.framing import (
     is_unique,
 )
 
-_MAX_WHOLE_FRAMES = 32
-"""Places of a preamble behind all of which the whole frame is read."""
+_MAX_WHOLE_FRAMES = 32  # places of a preamble behind all of which the whole frame is read
 
 _CHECKED_CHIPS = 120
 """Chips behind other preambles that must obey the line code: whole blocks of 2, 6, 10 and 12."""

@@ -11,11 +11,8 @@ import numpy as np
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.line_codes.word_table import WordTable
 
-SYMBOL_CHIPS = 12
-"""Chips of a symbol: the fewest that hold whole periods of all four frequencies."""
-
-HALF_PERIODS = (1, 2, 3, 6)
-"""Chips of half a period, of the symbols 0 to 3."""
+SYMBOL_CHIPS = 12  # chips of a symbol: the fewest that hold whole periods of all four frequencies
+HALF_PERIODS = (1, 2, 3, 6)  # chips of half a period, of the symbols 0 to 3
 
 # The symbols differ in at least four chips, so one wrong chip is corrected.
 _TABLE = WordTable(

@@ -25,11 +25,8 @@ MOST_MEMORY = 400_000_000
 _FRAMES_LEFT = 12
 """Bytes for each pixel that a decoder which goes on has left: four frames in colours."""
 
-LONGEST = 4.0
-"""Seconds of processor time that one request may take."""
-
-TOOK_TOO_LONG = 21
-"""Exit code of a process that took too long."""
+LONGEST = 4.0  # seconds of processor time that one request may take
+TOOK_TOO_LONG = 21  # exit code of a process that took too long
 
 HEADER = struct.Struct("<II")
 """Before each answer: the bytes of its JSON part and those of its pixels."""
@@ -37,15 +34,11 @@ HEADER = struct.Struct("<II")
 NO_MEMORY = "decoding it takes more memory than is allowed."
 """End of the sentence about a film whose decoder needs more."""
 
-_NO_MEMORY_LEFT = -4
-"""OpenCV's code of an error where memory lacks: ``cv2.Error.StsNoMem``."""
-
-_CHECK = 0.2
-"""Seconds between looks at the processor time."""
+_NO_MEMORY_LEFT = -4  # OpenCV's code of an error where memory lacks: ``cv2.Error.StsNoMem``
+_CHECK = 0.2  # seconds between looks at the processor time
 
 
-_IDLE_SECONDS = 60.0
-"""Seconds that a process without a film waits for the next one."""
+_IDLE_SECONDS = 60.0  # seconds that a process without a film waits for the next one
 
 
 class _Watch:

@@ -17,8 +17,7 @@ from occ_model.errors import VideoError
 from occ_model.video.file.decoder_main import DECODER_OPTION, HEADER, TOOK_TOO_LONG
 from occ_model.video.file.source import StoredFrame
 
-_PACKAGES = Path(__file__).resolve().parents[3]
-"""The folder that holds this package."""
+_PACKAGES = Path(__file__).resolve().parents[3]  # the folder that holds this package
 
 _START = "import sys; sys.path.insert(0, sys.argv[1]); " \
     "from occ_model.video.file.decoder_main import main; main()"  # fmt: skip

@@ -11,8 +11,7 @@ _PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")
 
 _PNG = b"\x89PNG\r\n\x1a\n"
 
-_ANIMATED = b"acTL"
-"""The chunk that an animated PNG has before its first picture."""
+_ANIMATED = b"acTL"  # the chunk that an animated PNG has before its first picture
 
 _START = 4096
 

@@ -15,8 +15,7 @@ import cv2
 from occ_model.arrays import ByteArray
 
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
-_MAX_DELAY_PART = 65_535
-"""Largest numerator or denominator of a frame's delay."""
+_MAX_DELAY_PART = 65_535  # largest numerator or denominator of a frame's delay
 
 
 def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:

@@ -7,11 +7,8 @@ from typing import Any
 
 import cv2
 
-_FFMPEG = "OPENCV_FFMPEG_LOGLEVEL"
-"""Looked at once, when FFmpeg is used first."""
-
-_SILENT = 0
-"""OpenCV's level at which it prints nothing."""
+_FFMPEG = "OPENCV_FFMPEG_LOGLEVEL"  # looked at once, when FFmpeg is used first
+_SILENT = 0  # OpenCV's level at which it prints nothing
 
 
 @contextmanager

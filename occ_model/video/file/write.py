@@ -20,14 +20,9 @@ from occ_model.video.file.note import mkv_note, mp4_note
 from occ_model.video.file.png import write_png
 from occ_model.video.file.quiet import quiet_opencv
 
-_CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}
-"""MPEG-4, which is lossy, and FFV1, which is not."""
-
-LOSSLESS = (".mkv", ".gif", ".png")
-"""Endings of files that keep grey frames exactly."""
-
-FILM_ENDINGS = (".mp4", *LOSSLESS)
-"""Endings of the files that films are written to."""
+_CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}  # MPEG-4, which is lossy, and FFV1, which is not
+LOSSLESS = (".mkv", ".gif", ".png")  # endings of files that keep grey frames exactly
+FILM_ENDINGS = (".mp4", *LOSSLESS)  # endings of the files that films are written to
 
 _RATES = {
     ".mp4": (0.01, 65_535.0),

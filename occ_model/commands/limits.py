@@ -34,6 +34,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND
 from occ_model.study.advice import advice_of
 from occ_model.study.limits import limits_of
+from occ_model.study.working_range import READ_RATE
 
 _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
 
@@ -51,7 +52,7 @@ def add_to(commands: Commands) -> None:
         help=f"one of {', '.join(DECODERS)} or a plug-in's; give it again for more; default: these",
     )
     parser.add_argument(
-        "--rate", type=number, default=99.0, metavar="PERCENT",
+        "--rate", type=number, default=READ_RATE, metavar="PERCENT",
         help="of the bits from which a scene counts as read; default: %(default)s",
     )  # fmt: skip
     parser.add_argument(

@@ -21,7 +21,7 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.success_rate import check_rate
 from occ_model.study.sure_ends import images_about_an_end, with_sure_ends
-from occ_model.study.working_range import expected_images, working_range
+from occ_model.study.working_range import READ_RATE, expected_images, working_range
 
 if TYPE_CHECKING:
     from occ_model.parallel.process_pool import ProcessPool
@@ -31,7 +31,7 @@ def limits(  # noqa: PLR0913 - a study's settings, most of them optional
     scene: Scene,
     decoder: str = PAPER_DECODER,
     *,
-    rate: float = 99.0,
+    rate: float = READ_RATE,
     images: int = 20,
     seed: int = 1,
     tolerance: float = TOLERANCE.default,
@@ -87,7 +87,7 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
     scene: Scene,
     decoders: Sequence[str] = tuple(DECODERS),
     *,
-    rate: float = 99.0,
+    rate: float = READ_RATE,
     images: int = 20,
     seed: int = 1,
     tolerance: float = TOLERANCE.default,

@@ -39,6 +39,9 @@ STEP = 1.15
 NEAR = 1.003
 """Ratio of the values on both sides of an end of the interval at which its bisection stops."""
 
+READ_RATE = 99.0
+"""Success rate in percent from which a decoder is taken to read."""
+
 FEW_IMAGES = 5
 """Images after which a value is believed to be read, until it is reported."""
 

@@ -9,6 +9,7 @@ from occ_model.camera.projection import panel_corners
 from occ_model.errors import OccError
 from occ_model.files.resources import resource_path
 from occ_model.results.match import Match
+from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, METRE, NONE, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
@@ -43,12 +44,16 @@ class LessonQuantity:
 def _limit(decoder: str) -> Callable[[Scene, str | Match], float]:
     def compute(scene: Scene, _photo: str | Match) -> float:
         # Some tenths of a second to import, and needed by few steps.
-        from occ_model.study.limits import limits
+        from occ_model.study.success_rate import check_rate
+        from occ_model.study.working_range import READ_RATE, working_range
 
-        highest = limits(scene, decoder, images=5).highest_frequency
+        # Not `limits`: exposure times and the confidence of each end take ten times as long.
+        settings = RateSettings(5, (decoder,))
+        check_rate(scene, settings)
+        highest = working_range(scene, "switching_frequency", READ_RATE, settings).highest
         if highest is None:
             raise OccError(f"The {decoder} decoder reads this scene at no frequency.")
-        return highest
+        return highest.value
 
     return compute
 

@@ -200,7 +200,7 @@ def test_the_photos_give_what_the_answers_say(number: int, readout: float) -> No
         (step(7, 2), "14.2"),
         (step(7, 3), "42 %"),
     ],
-    ids=str,
+    ids=lambda case: case if isinstance(case, str) else case.question[:40],
 )
 def test_what_the_explanation_states_is_a_right_answer(asked: Step, text: str) -> None:
     assert check_answer(asked, text).outcome == "right"

@@ -21,6 +21,9 @@ DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
 REGION = (0xE6, 0x9F, 0x00)
 """The colour of the rectangle round what the decoder read."""
 
+SMALL = "--set=rows=200"
+"""What makes a picture quickly simulated."""
+
 NOISE = (0xCC, 0x79, 0xA7)
 """The colour of the points that an accuracy study gives last."""
 
@@ -28,7 +31,7 @@ COLD_START = """
 import sys
 from occ_gui.app.command_line import OVERLAYS, main
 from occ_gui.values.placement import MODES
-code = main(["--screenshot", sys.argv[1]])
+code = main(["--screenshot", sys.argv[1], "--set=rows=200"])
 heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
          "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",
          "occ_gui.spectrum.pane", "occ_model.photo.chips",
@@ -64,8 +67,9 @@ def is_one_sentence(text: str) -> bool:
 def test_a_screenshot_of_the_size_asked_for_is_written(tmp_path: Path, photo_file: Path) -> None:
     picture = tmp_path / "window.png"
     ended = run(
-        "-m", "occ_gui", "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file
-    )
+        "-m", "occ_gui", "--screenshot", picture, "--size", "1920x1080", "--photo", photo_file,
+        SMALL,
+    )  # fmt: skip
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
     with Image.open(picture) as image:
         assert image.format == "PNG"
@@ -93,7 +97,7 @@ def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
     blinking = ["--set=pattern=10", "--set=switching_frequency=4kHz"]
     ended = starts.run(
         "--screenshot", tmp_path / "w.png", "--photo", photo_file, "--match",
-        "--overlay", "split", "--dock", "photo", *blinking,
+        "--overlay", "split", "--dock", "photo", *blinking, SMALL,
     )  # fmt: skip
     assert (ended.returncode, ended.stderr) == (0, "")
     assert (tmp_path / "w.png").is_file()
@@ -102,7 +106,7 @@ def test_a_screenshot_of_a_matched_photo_waits_for_the_match(
 def test_a_photo_that_cannot_be_matched_gives_a_sentence(tmp_path: Path, starts: Starts) -> None:
     flat = tmp_path / "flat.png"
     Image.new("L", (100, 60), 90).save(flat)
-    ended = starts.run("--screenshot", tmp_path / "w.png", "--photo", flat, "--match")
+    ended = starts.run("--screenshot", tmp_path / "w.png", "--photo", flat, "--match", SMALL)
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
     assert not (tmp_path / "w.png").exists()

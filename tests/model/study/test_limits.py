@@ -4,6 +4,7 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ import occ_model as occ
 from occ_model.camera.photometry import level_values
 from occ_model.cli import main
 from occ_model.results.advice_text import end_text
-from occ_model.results.limits import RangeEnd
+from occ_model.results.limits import RangeEnd, WorkingRange
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
@@ -23,7 +24,13 @@ from occ_model.study import working_range as module
 from occ_model.study.advice import advice_of
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.observation import panel_span
-from occ_model.study.sure_ends import OUTSIDE, PICTURES, _until_refuted, images_to_be_sure
+from occ_model.study.sure_ends import (
+    OUTSIDE,
+    PICTURES,
+    _until_refuted,
+    images_to_be_sure,
+    with_sure_ends,
+)
 from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
 
 SCENE = Scene()
@@ -50,6 +57,12 @@ class no_processes:  # noqa: N801 - in place of a class
 
     def __init__(self, count: int, preload: str) -> None:
         raise OSError("no semaphores")
+
+
+def searched(scene: Scene, name: str = "switching_frequency", **how: Any) -> WorkingRange:
+    """Search along one parameter, without the confidence of its ends, which takes far longer."""
+    settings = RateSettings(how.get("images", 3), ("threshold",), how.get("seed", 1))
+    return module.working_range(scene, name, 90.0, settings)
 
 
 def ends(range_end: RangeEnd | None) -> tuple[float, float]:
@@ -153,23 +166,23 @@ def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatc
 @pytest.mark.parametrize("preset", ["phone-136us", "tablet-122us"])
 def test_the_papers_decoder_reads_from_two_packets_to_the_null(preset: str) -> None:
     scene = occ.load_preset(preset)
-    found = occ.limits(scene, images=3, rate=90.0)
-    works, fails = ends(found.frequency.highest)
+    found = searched(scene)
+    works, fails = ends(found.highest)
     null = theory.null_frequency(scene)
     # Before the null the equalization of what is left of the stripes raises the noise.
     assert 0.95 * null < works < fails < 1.01 * null
     least = theory.two_packets_frequency(scene)
     assert least is not None
-    assert found.frequency.lowest is not None
-    assert 0.7 * least < found.frequency.lowest.value < 1.1 * least
-    longest = found.longest_exposure
+    assert found.lowest is not None
+    assert 0.7 * least < found.lowest.value < 1.1 * least
+    longest = searched(scene, "exposure_time").highest
     assert longest is not None
-    assert longest == pytest.approx(2.0 / scene.transmitter.switching_frequency, rel=0.03)
+    assert longest.value == pytest.approx(2.0 / scene.transmitter.switching_frequency, rel=0.03)
 
 
 def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     scene = occ.load_preset("phone-136us")
-    range_end = occ.limits(scene, rate=90.0, images=2, seed=5).frequency.highest
+    range_end = searched(scene, images=2, seed=5).highest
     assert range_end is not None
     assert range_end.fails is not None
     for trial in (range_end.works, range_end.fails):
@@ -283,19 +296,23 @@ def test_few_images_are_believed_where_the_rate_falls_at_once(
     assert list(read.values()).count(sure) == 2
 
 
-@pytest.mark.parametrize("is_lost", [False, True])
-def test_two_processes_find_the_limits_that_one_finds(
-    monkeypatch: pytest.MonkeyPatch, is_lost: bool
+def test_two_processes_find_the_limits_that_one_finds_and_so_does_one_where_there_are_none(
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    scene = occ.load_preset("phone-136us")
-    alone = occ.limits(scene, rate=90.0, images=3, seed=7)
-    if is_lost:
-        monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", no_processes)
+    scene = occ.load_preset("phone-136us").replace(rows=300, columns=1152, readout_time=24e-6)
     said: list[tuple[float, str]] = []
-    both = occ.limits(
-        scene, rate=90.0, images=3, seed=7, jobs=2, progress=lambda *share: said.append(share)
-    )
-    assert both == alone
+
+    def found(jobs: int) -> occ.Limits:
+        return occ.limits(
+            scene, rate=60.0, images=2, seed=7, jobs=jobs, progress=lambda *one: said.append(one)
+        )
+
+    alone = found(1)
+    assert alone.frequency.highest is not None
+    assert alone.frequency.highest.interval is not None
+    assert found(2) == alone
+    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", no_processes)
+    assert found(2) == alone
     assert said[-1] == (1.0, "")
 
 
@@ -318,10 +335,11 @@ def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
     """The tablet at 2 kHz and 2 m: too few packets fit the picture."""
     slow = occ.load_preset("tablet-122us").replace(switching_frequency=2e3, distance=2.0)
     assert occ.success_rate(slow, 3) < 99.0
-    found = occ.limits(slow, images=3, rate=90.0)
-    assert found.frequency.lowest is not None
-    assert found.frequency.lowest.value > 2e3 * STEP
-    assert found.highest_frequency == pytest.approx(theory.null_frequency(slow), rel=0.03)
+    found = searched(slow)
+    assert found.lowest is not None
+    assert found.lowest.value > 2e3 * STEP
+    assert found.highest is not None
+    assert found.highest.value == pytest.approx(theory.null_frequency(slow), rel=0.03)
 
 
 def test_advice_holds_both_ends_found_and_the_limits_of_theory(
@@ -412,7 +430,11 @@ def test_the_stated_interval_of_an_end_holds_it(
     monkeypatch: pytest.MonkeyPatch, curve: str, lost: int, widest: float
 ) -> None:
     monkeypatch.setattr(module, "right_bits_of_images", falls(curve, lost))
-    found = [occ.limits(SCENE, seed=seed).frequency.highest for seed in range(200)]
+    found = []
+    for seed in range(200):
+        settings = RateSettings(20, ("threshold",), seed)
+        along = module.working_range(SCENE, "switching_frequency", 99.0, settings)
+        found.append(with_sure_ends(SCENE, along, 99.0, settings).highest)
     intervals = [end.interval for end in found if end is not None and end.interval is not None]
     assert len(intervals) >= 0.99 * len(found)
     held = sum(low <= 10e3 <= high for low, high in intervals)
@@ -532,7 +554,7 @@ def test_the_command_fails_where_nothing_is_read(capsys: pytest.CaptureFixture[s
 
 def test_the_bits_of_a_payload_are_counted_as_sent() -> None:
     scene = SCENE.replace(payload="text:Hi", line_code="manchester", framing="preamble")
-    end = occ.limits(scene, images=2, rate=90.0).frequency.highest
+    end = searched(scene, images=2).highest
     assert end is not None
     assert (end.works.right, end.works.sent) == (32, 32)
 

@@ -58,13 +58,12 @@ def has_another_reading(one: Scheme, payload: IndexArray) -> bool:
 
 @every_pair
 @pytest.mark.parametrize("correction", CORRECTIONS)
-@pytest.mark.parametrize("bits", [1, 2, 7, 10, 16, 17, 40, 300])
 def test_two_periods_from_any_start_give_the_payload(
-    code: str, framing: str, correction: str, bits: int
+    code: str, framing: str, correction: str
 ) -> None:
-    one = scheme(code, framing, bits, correction)
-    random = np.random.default_rng(bits)
-    for _ in range(4):
+    random = np.random.default_rng(1)
+    for bits in np.repeat([1, 2, 7, 10, 16, 17, 40, 300], 4).tolist():
+        one = scheme(code, framing, bits, correction)
         payload = random.integers(0, 2, bits)
         chips = one.encode(payload)
         assert len(chips) == one.length
@@ -102,18 +101,18 @@ def test_every_payload_of_10_bits_comes_back(code: str, framing: str) -> None:
 
 
 @every_pair
-@pytest.mark.parametrize("bits", [5, 16, 24])
-def test_no_part_of_what_is_sent_gives_another_payload(code: str, framing: str, bits: int) -> None:
-    one = scheme(code, framing, bits)
+def test_no_part_of_what_is_sent_gives_another_payload(code: str, framing: str) -> None:
     random = np.random.default_rng(3)
-    payload = random.integers(0, 2, bits)
-    chips = one.encode(payload)
-    for _ in range(40):
-        count = int(random.integers(1, 3 * one.length))
-        start = int(random.integers(0, one.length))
-        read = one.decode(seen(chips, start, count))
-        if read.failure is None:
-            np.testing.assert_array_equal(read.bits, payload)
+    for bits in (5, 16, 24):
+        one = scheme(code, framing, bits)
+        payload = random.integers(0, 2, bits)
+        chips = one.encode(payload)
+        for _ in range(40):
+            count = int(random.integers(1, 3 * one.length))
+            start = int(random.integers(0, one.length))
+            read = one.decode(seen(chips, start, count))
+            if read.failure is None:
+                np.testing.assert_array_equal(read.bits, payload)
 
 
 @every_pair

@@ -63,12 +63,9 @@ def _frontier_scene(name: str, random: np.random.Generator) -> Scene:
     return scene.replace(**changes)
 
 
-def agreement_holds(scenes: tuple[Scene, ...]) -> None:
-    """Hold a rendered picture to the rate that the study gives.
-
-    Where every bit of 40 images is read, or none of the images, a picture that is not or is read
-    is one in some dozens.
-    """
+def test_the_study_says_what_the_pictures_show() -> None:
+    """Where all or none of 40 images are read, another picture differs once in some dozens."""
+    scenes = frontier_scenes(12)
     surprises = sure = 0
     for number, scene in enumerate(scenes):
         rate = occ.success_rate(scene, images=40, seed=number)
@@ -80,15 +77,6 @@ def agreement_holds(scenes: tuple[Scene, ...]) -> None:
     assert sure > len(scenes) / 2
     # Rule of three: a rate of which 40 images show nothing is at most 3 in 40.
     assert surprises <= math.ceil(0.05 * sure)
-
-
-def test_the_study_says_what_the_pictures_show() -> None:
-    agreement_holds(frontier_scenes(12))
-
-
-@pytest.mark.whole
-def test_the_study_says_what_the_pictures_show_at_many_scenes() -> None:
-    agreement_holds(frontier_scenes(36))
 
 
 @pytest.mark.whole
@@ -241,7 +229,7 @@ def test_where_the_advice_leads_the_code_is_read(preset: str) -> None:
         readout_time=scene.camera.readout_time * 2,
         panel_width=scene.transmitter.panel_width * 1.3,
     )
-    found = occ.limits(scene, images=10)
+    found = occ.limits(scene, images=10, rate=97.0)
     for parameter, working in (
         ("switching_frequency", found.frequency),
         ("exposure_time", found.exposure),

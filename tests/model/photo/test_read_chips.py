@@ -117,7 +117,7 @@ def test_edges_of_either_kind_may_be_shifted(shift: float, frequency: float, sta
 
 
 @pytest.mark.parametrize(
-    "seeds", [range(60), pytest.param(range(60, 180), marks=pytest.mark.whole)],
+    "seeds", [range(60), pytest.param(range(60, 120), marks=pytest.mark.whole)],
     ids=["sample", "whole"],
 )  # fmt: skip
 def test_nine_of_ten_readings_that_are_nine_tenths_sure_are_right(seeds: range) -> None:

@@ -296,24 +296,23 @@ def test_few_images_are_believed_where_the_rate_falls_at_once(
     assert list(read.values()).count(sure) == 2
 
 
-def test_two_processes_find_the_limits_that_one_finds_and_so_does_one_where_there_are_none(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_two_processes_find_the_limits_that_one_finds() -> None:
     scene = occ.load_preset("phone-136us").replace(rows=300, columns=1152, readout_time=24e-6)
     said: list[tuple[float, str]] = []
-
-    def found(jobs: int) -> occ.Limits:
-        return occ.limits(
-            scene, rate=60.0, images=2, seed=7, jobs=jobs, progress=lambda *one: said.append(one)
-        )
-
-    alone = found(1)
+    alone = occ.limits(scene, rate=60.0, images=2, seed=7)
+    both = occ.limits(
+        scene, rate=60.0, images=2, seed=7, jobs=2, progress=lambda *one: said.append(one)
+    )
     assert alone.frequency.highest is not None
     assert alone.frequency.highest.interval is not None
-    assert found(2) == alone
-    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", no_processes)
-    assert found(2) == alone
+    assert both == alone
     assert said[-1] == (1.0, "")
+
+
+def test_where_no_processes_can_be_had_this_one_searches(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", no_processes)
+    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    assert occ.limits(SCENE, images=2, jobs=2) == occ.limits(SCENE, images=2)
 
 
 def test_progress_rises_from_0_to_1_and_says_what_is_searched(

@@ -18,7 +18,7 @@ from occ_model.video.read_frame import read_by_itself
 
 _VALUES = ("switching_frequency", "readout_time", "gap")
 _EVERYDAY = (3,)
-_WHOLE = range(0, 24, 3)
+_WHOLE = range(0, 24, 6)
 """Some of each frame rate, framing and line code; tests/benchmarks/film_reading.py reads all."""
 
 _FRAMES = 100

@@ -71,7 +71,7 @@ def test_other_code_lengths_are_read_beyond_the_period(covered: Scene, bits: int
     # A third of these two codes' equalized pictures is white, and Otsu's threshold lies right
     # below: their only single one vanishes, and with it what tells them apart.
     vanished = {1, 2} if bits == 2 else set()
-    codes = {*range(0, 2**bits, max(1, 2**bits // 128)), 2**bits - 1}
+    codes = {*range(0, 2**bits, max(1, 2**bits // amount(32, 128))), 2**bits - 1}
     wrong = []
     for code in sorted(codes - vanished):
         scene = covered.replace(bits=bits, code=code, exposure_time=136e-6)

@@ -84,10 +84,9 @@ def test_the_profile_of_the_papers_scenes_needs_nothing(preset: str) -> None:
 
 
 @pytest.mark.parametrize("light", [{}, {"edge_time": 2e-6, "flicker_depth": 0.3}])
-@pytest.mark.parametrize("decoder", QUICK_DECODERS)
 @pytest.mark.parametrize("exposure", ["phone-68us", "phone-136us"])
 def test_profile_and_image_paths_decode_alike_on_the_whole_grid(
-    exposure: str, decoder: str, light: dict[str, float]
+    exposure: str, light: dict[str, float]
 ) -> None:
     random = np.random.default_rng(1)
     for frequency in FREQUENCIES:
@@ -98,13 +97,14 @@ def test_profile_and_image_paths_decode_alike_on_the_whole_grid(
             scene = scene.replace(start_time=start, **few_rows(scene), **light)
             plan = occ.plan(scene, 0.0, "profile", COLUMNS_ONLY)
             assert plan.kinds == ({"column"} if light else set())
-            by_profile = decode_profile(scene, decoder, plan, random)
             image = occ.render(scene, tolerance=0.0, force=COLUMNS_ONLY).image
-            by_image = occ.decode(image, scene, decoder)
-            assert by_profile is not None
-            assert by_profile.region == by_image.region
-            assert (by_profile.code, by_profile.failure) == (by_image.code, by_image.failure)
-            np.testing.assert_array_equal(by_profile.bits, by_image.bits)
+            for decoder in QUICK_DECODERS:
+                by_profile = decode_profile(scene, decoder, plan, random)
+                by_image = occ.decode(image, scene, decoder)
+                assert by_profile is not None
+                assert by_profile.region == by_image.region
+                assert (by_profile.code, by_profile.failure) == (by_image.code, by_image.failure)
+                np.testing.assert_array_equal(by_profile.bits, by_image.bits)
 
 
 def few_rows(scene: Scene) -> dict[str, float | int]:

@@ -121,7 +121,7 @@ def test_the_model_of_the_best_detector_is_that_of_the_rows() -> None:
 
 @pytest.mark.whole
 def test_at_4_chips_and_15_db_no_detector_reaches_5_in_10000() -> None:
-    found = np.array([rates(20, 2_500, seed) for seed in range(100, 112)])
+    found = np.array([rates(20, 5_000, seed) for seed in range(100, 112)])
     best, counted, sequence = found.mean(axis=0)
     errors = found.std(axis=0, ddof=1) / math.sqrt(len(found))
     assert counted == pytest.approx(best, abs=4.0 * float(errors[1]))  # it is as likely as it says

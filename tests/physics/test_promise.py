@@ -12,7 +12,7 @@ import occ_model as occ
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import Observable
 
-SCENES = amount(6, 24)
+SCENES = amount(6, 40)
 TOLERANCES = (0.5, 2.0, 8.0)
 OBSERVABLES: tuple[Observable, ...] = ("image", "profile", "signal")
 

@@ -46,7 +46,7 @@ def test_no_value_has_both_a_source_and_an_assumption(name: str) -> None:
 @every_preset
 def test_a_value_that_is_not_nothing_has_a_source_or_a_reason(name: str) -> None:
     preset = preset_named(name)
-    notes = preset.sources | preset.assumed
+    notes = {**preset.sources, **preset.assumed}
     values = {parameter for parameter in PARAMETERS if preset.scene.value(parameter) not in (0, "")}
     assert values <= {parameter for parameter, note in notes.items() if len(note.split()) > 1}
 

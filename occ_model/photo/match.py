@@ -4,6 +4,7 @@ The exact exposure integral, under slowly varying light, is fitted to the column
 squares.
 """
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -30,6 +31,7 @@ from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Alternative, Match, Stripes
 from occ_model.scene.argument_checks import check_choice
+from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
@@ -157,14 +159,13 @@ class _Case:
             self.report.again,
             was_read=found.was_read,
         )
+        other = _exchanged_exposure(photo, match, self.sent)
+        exchanged = () if other is None else (_doubt_of_exchange(match, other),)
         return replace(
             match,
             reasons=(*verdict.reasons, *self._doubts_by_kind(found), *match.reasons),
-            exposure_reasons=(
-                *verdict.exposure_reasons,
-                *_doubts_by_exchange(photo, found),
-                *match.exposure_reasons,
-            ),
+            exposure_reasons=(*verdict.exposure_reasons, *exchanged, *match.exposure_reasons),
+            other_exposures=tuple(sorted({*match.other_exposures, *([other] if other else [])})),
             alternatives=tuple(
                 _alternative(one, evidence, scene, self.estimate)
                 for one, evidence in verdict.others
@@ -284,14 +285,32 @@ def _at_rate(scene: Scene, rate: float) -> Scene:
         raise MatchError(f"A setting that explains the stripes is not allowed: {error}") from None
 
 
-def _doubts_by_exchange(photo: Photo, found: Hypothesis) -> list[str]:
-    """Doubt a duty that was searched together with the exposure, whose parts they may exchange."""
-    if found.rate == 1.0 or photo.exposure_time is not None:
-        return []
-    return [
-        "A pulse as long as this exposure, exposed for as long as this pulse, makes the same "
-        "stripes, and the photo notes no exposure time: the duty may be that of the exposure."
-    ]
+def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
+    """Return the other exposure time that explains a pulse as well: that of its light.
+
+    The stripes of a pulse are symmetric in its length and its exposure. Only a noted exposure, or a
+    pulse that is stated to be sent, decides which of them is which.
+    """
+    chips = np.array([int(chip) for chip in match.pattern], dtype=np.uint8)
+    if photo.exposure_time is not None or sent == "scene" or not is_single_pulse(chips):
+        return None
+    lit, period = (count / match.switching_frequency for count in (chips.sum(), len(chips)))
+    error = math.hypot(
+        match.uncertainties["exposure_time"], match.uncertainties.get("duty", 0.0) * period
+    )
+    apart = abs(match.exposure_time - lit) > _SAME_DUTY * error
+    return float(lit) if apart and match.exposure_time < period else None
+
+
+def _doubt_of_exchange(match: Match, other: float) -> str:
+    """Doubt an exposure that a pulse as long may have, and the duty with it."""
+    share = 100.0 * match.exposure_in_chips / len(match.pattern)
+    time_ = quantity("exposure_time").format(other)
+    return (
+        f"A pulse that is lit for {share:.3g} % of a period, exposed for {time_}, makes the same "
+        "stripes, and the photo notes no exposure time: the duty may be that of the exposure. If "
+        "the duty is known, state that the scene's chips are sent."
+    )
 
 
 def _alternative(other: Hypothesis, evidence: float, scene: Scene, estimate: str) -> Alternative:

@@ -127,8 +127,10 @@ def _duty(match: Match) -> tuple[str, str]:
     """Return the duty, with its error where it was measured, and its note."""
     deviation = match.uncertainties.get("duty")
     if deviation is None:
-        pulses = (match.pattern + match.pattern[0]).count("01")
-        return f"lit for {100.0 * match.duty:.3g} % of a period", "given" if pulses == 1 else ""
+        text = f"lit for {100.0 * match.duty:.3g} % of a period"
+        if (match.pattern + match.pattern[0]).count("01") != 1:
+            return text, ""
+        return text, "given" if match.exposure_verdict == "sure" else "assumed"
     percent = Unit("%").format_estimate(100.0 * match.duty, 100.0 * deviation)
     note = "doubtful" if match.only_exposure_is_doubtful else ""
     return f"lit for {percent} of a period", note

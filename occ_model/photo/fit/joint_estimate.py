@@ -123,9 +123,8 @@ def refined(
     ]
     # The mean of all pixels is fitted without blur, which is then a part of the exposure.
     if fits[0].correlation < explanation.correlation - _MOST_LOSS:
-        return Refined(
-            explanation.fits, _doubts(unusual), (_CONTRADICTION, *_exposure_doubts(seen, alike))
-        )
+        first = tuple(replace(fit, longer=fits[0].longer) for fit in explanation.fits)
+        return Refined(first, _doubts(unusual), (_CONTRADICTION, *_exposure_doubts(seen, alike)))
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
     return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen, alike))

@@ -18,6 +18,7 @@ from occ_model.photo.fit.chip_runs import pulse, runs_of
 from occ_model.photo.fit.initial_search import Search
 from occ_model.photo.fit.joint_fit import JointModel
 from occ_model.photo.fit.timing import Timing
+from occ_model.photo.match_facts import match_facts
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.results.match import PLAIN_STRIPES
 from occ_model.transmitter.waveform import Waveform
@@ -137,6 +138,19 @@ def test_a_short_pulse_exposed_for_half_a_period_is_no_square_wave_if_that_is_no
     assert given_one.exposure_verdict == "doubtful"
 
 
+@pytest.mark.parametrize("percent", [13, pytest.param(28, marks=pytest.mark.whole)])
+def test_a_pulse_and_its_exposure_are_exchangeable_where_none_is_noted(percent: int) -> None:
+    """A square wave exposed for 0.13 of its period has the stripes of this pulse to the last."""
+    photo, told = dimmed(percent, 0.5, noted=None)
+    match = occ.match_photo(photo, told)
+    assert (match.verdict, match.exposure_verdict) == ("sure", "doubtful")
+    times = np.array([match.exposure_time, *match.other_exposures]) * CYCLES
+    assert np.abs(times - 0.5).min() < 0.03
+    assert np.abs(times - percent / 100.0).min() < 0.03
+    assert "doubtful" in next(str(one) for one in match_facts(match) if one.key == "exposure_time")
+    assert "given" not in next(str(one) for one in match_facts(match) if one.key == "duty")
+
+
 def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:
     """Of a hot lamp two pulses were read, and a readout time twice too long."""
     assert not hot_trial_of(9104).is_sure
@@ -147,9 +161,9 @@ def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:
 
 
 @pytest.mark.whole
-def test_a_square_wave_stays_one_whatever_is_noted() -> None:
-    for noted in (0.13, None):
-        match = occ.match_photo(*dimmed(50, 0.13, noted))
+def test_a_square_wave_stays_one_where_its_exposure_is_noted_or_its_duty_is_stated() -> None:
+    for noted, sent in ((0.13, "auto"), (None, "scene")):
+        match = occ.match_photo(*dimmed(50, 0.13, noted), sent=sent)
         assert (match.duty, match.exposure_verdict) == (0.5, "sure")
         assert match.exposure_time == pytest.approx(0.13 / CYCLES, rel=0.03)
 

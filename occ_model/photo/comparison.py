@@ -99,13 +99,8 @@ def _edges(profile: FloatArray) -> int:
 def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str) -> Comparison:
     """Compare photo and simulation after the receiver's enhancement of both.
 
-    Parameters
-    ----------
-    enhanced : ndarray of float64, shape (columns,)
-        The simulated profile after it.
-    method
-        The enhancement, by the photo's own histogram: see
-        :class:`occ_model.camera.enhancement.Enhancement`.
+    ``enhanced``: shape (columns,), the simulated profile after it. ``method``: the enhancement, by
+    the photo's own histogram: see :class:`occ_model.camera.enhancement.Enhancement`.
     """
     first = comparison.first_column
     photo = enhance(comparison.photo, method).astype(np.float64)

@@ -15,10 +15,7 @@ def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> 
     An exposure time that is hardly known is stated as an upper limit, since the value less its
     error would be negative.
 
-    Parameters
-    ----------
-    value, deviation
-        In SI units; without a deviation the value alone is written.
+    ``value``, ``deviation``: in SI units; without a deviation the value alone is written.
     """
     text = quantity.unit.format_estimate(value, deviation)
     if quantity.name != "exposure_time" or deviation is None or deviation <= _LARGEST_ERROR * value:

@@ -239,10 +239,7 @@ def _rounded(scene: Scene, uncertainties: Mapping[str, float]) -> Scene:
 def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
     """Set a scene's chips: as the code or payload that they are, else as a raw pattern.
 
-    Returns
-    -------
-    turned
-        Number of chips by which its period starts later than the given chips.
+    ``turned``: number of chips by which its period starts later than the given chips.
     """
     sent = _sending(scene, chips)
     if sent is not None:

@@ -35,22 +35,14 @@ _LEAST_DEVIATION = 0.02
 
 @dataclass(frozen=True, slots=True)
 class Lattice:
-    """Two lattices of the same spacing, that of the rising and that of the falling edges.
+    """Two lattices of the same spacing, that of the rising and that of the falling edges."""
 
-    Parameters
-    ----------
-    frequency
-        Chips per column.
-    rising, falling
-        Position of each lattice in chips, at column 0; they differ by half a chip at most.
-    coherence
-        Length of the edges' mean phase factor, from 0 to 1.
-    """
-
-    frequency: float
+    frequency: float  # chips per column
+    # rising, falling: position of each lattice in chips, at column 0; they differ by half a chip at
+    # most.
     rising: float
     falling: float
-    coherence: float
+    coherence: float  # length of the edges' mean phase factor, from 0 to 1
 
 
 def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:

@@ -54,26 +54,19 @@ to 2 %, fitted exposures by up to 9 % (real photographs)."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidates:
-    """Fits hypotheses to stripes.
-
-    Parameters
-    ----------
-    exposed
-        Function that gives the exposure time of a fit, in seconds, by its chips in the time of one
-        of the scene's.
-    noted
-        The exposure time that the camera noted, in seconds, None if it did not: of fits that are as
-        good the one that is nearest to it is reported.
-    check
-        Called every few hundredths of a second; what it raises ends the fitting.
-    """
+    """Fits hypotheses to stripes."""
 
     stripes: Stripes
     scene: Scene
     cameras: list[CameraTone]
     fit_gamma: bool
+    # Function that gives the exposure time of a fit, in seconds, by its chips in the time of one of
+    # the scene's.
     exposed: Callable[[StripeFit, float], float]
+    # The exposure time that the camera noted, in seconds, None if it did not: of fits that are as
+    # good the one that is nearest to it is reported.
     noted: float | None
+    # Called every few hundredths of a second; what it raises ends the fitting.
     check: Callable[[], object]
 
     def as_sent(self) -> Hypothesis | None:

@@ -18,24 +18,15 @@ stripes."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Hypothesis:
-    """What is supposed to be sent, and how that explains a photo's stripes.
-
-    Parameters
-    ----------
-    bits
-        Bits that had to be chosen to state it: 0 where it was given beforehand.
-    rate
-        Its chips in the time of one of the scene's chips.
-    read_again
-        Whether they were read by trying many sequences, as what was read first explained little.
-    """
+    """What is supposed to be sent, and how that explains a photo's stripes."""
 
     sent: str
     explanation: Explanation
     fit: StripeFit
-    bits: float
+    bits: float  # bits that had to be chosen to state it: 0 where it was given beforehand
     was_read: bool
-    rate: float = 1.0
+    rate: float = 1.0  # its chips in the time of one of the scene's chips
+    # Whether they were read by trying many sequences, as what was read first explained little.
     read_again: bool = False
 
     @property

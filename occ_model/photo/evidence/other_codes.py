@@ -21,14 +21,9 @@ def nearest_other(
 ) -> ByteArray | None:
     """Find the other chips that explain stripes best at the timing of a hypothesis, if any.
 
-    Parameters
-    ----------
-    transmitter
-        Its packets are compared where the chips found are as many; else sequences that differ in
-        one chip, or in two neighbours that are exchanged.
+    ``transmitter``: its packets are compared where the chips found are as many; else sequences that
+    differ in one chip, or in two neighbours that are exchanged.
 
-    Notes
-    -----
     A column's lit fraction is linear in the chips: with the responses A of the columns to each chip
     and the profile y, both about their means, chips c have the correlation c'A'y / |Ac| |y|.
     """

@@ -30,12 +30,8 @@ def refusals(
 ) -> list[str]:
     """Say why a hypothesis is refused, in sentences.
 
-    Parameters
-    ----------
-    curve, wave, likelihood
-        Log-likelihoods of a smooth curve, of any periodic wave, and of the hypothesis.
-    rows_alike
-        Correlation between the stripes of different rows.
+    ``curve``, ``wave``, ``likelihood``: log-likelihoods of a smooth curve, of any periodic wave,
+    and of the hypothesis. ``rows_alike``: correlation between the stripes of different rows.
     """
     least = _LEAST_GIVEN
     if found.was_read:

@@ -30,22 +30,13 @@ _LEAST_CYCLES = 6
 
 @dataclass(frozen=True, slots=True)
 class Repetition:
-    """The strongest line in the spectrum of a residual.
-
-    Parameters
-    ----------
-    amplitude
-        Half the difference of its crests and troughs, as a fraction of the stripes' swing.
-    above_noise
-        Its power over that of the noise around it.
-    share
-        Its share of the residual's power.
-    """
+    """The strongest line in the spectrum of a residual."""
 
     period: float
+    # Half the difference of its crests and troughs, as a fraction of the stripes' swing.
     amplitude: float
-    above_noise: float
-    share: float
+    above_noise: float  # its power over that of the noise around it
+    share: float  # its share of the residual's power
 
 
 def strongest_line(
@@ -56,8 +47,6 @@ def strongest_line(
     The swing is the height of the stripes, the pattern's period is in columns. There is no line
     where there are too few columns.
 
-    Notes
-    -----
     The periodogram of white noise has an exponential distribution (Schuster, Terrestrial Magnetism
     3:13, 1898), whose median is ln 2 times its mean: from it the noise around a line is known. A
     sine of the amplitude A has the peak (A sum(w) / 2)^2 under the window w.

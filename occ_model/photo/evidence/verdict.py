@@ -25,19 +25,11 @@ _COSINES_PER_CHIP = 2.0
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
-    """The hypothesis that was chosen.
-
-    Parameters
-    ----------
-    reasons
-        Why it is doubtful, in sentences; none where it is sure.
-    exposure_reasons
-        Why its exposure alone is doubtful.
-    """
+    """The hypothesis that was chosen."""
 
     found: Hypothesis
-    reasons: tuple[str, ...]
-    exposure_reasons: tuple[str, ...]
+    reasons: tuple[str, ...]  # why it is doubtful, in sentences; none where it is sure
+    exposure_reasons: tuple[str, ...]  # why its exposure alone is doubtful
     others: tuple[tuple[Hypothesis, float], ...]
 
 
@@ -69,10 +61,7 @@ class Judge:
     ) -> Verdict:
         """Say how sure a hypothesis is beside others.
 
-        Parameters
-        ----------
-        is_given
-            Whether it is given what was sent: as many other chips then change no timing.
+        ``is_given``: whether it is given what was sent: as many other chips then change no timing.
         """
         everyone = [found, *others]
         likelihoods = self._likelihoods(everyone)

@@ -55,20 +55,13 @@ SAME_EXPOSURE = 0.04
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Explanation:
-    """Chips, and the fits with which they explain a photo's stripes.
-
-    Parameters
-    ----------
-    fits
-        The best fit, and those that are as good with another exposure, in order of the exposure.
-    starts
-        The timings of all possible fits, the best first.
-    """
+    """Chips, and the fits with which they explain a photo's stripes."""
 
     chips: ByteArray
+    # The best fit, and those that are as good with another exposure, in order of the exposure.
     fits: tuple[StripeFit, ...]
     camera: CameraTone
-    starts: tuple[Timing, ...] = ()
+    starts: tuple[Timing, ...] = ()  # the timings of all possible fits, the best first
 
     @property
     def correlation(self) -> float:
@@ -78,12 +71,8 @@ class Explanation:
     def nearest(self, exposure: Callable[[StripeFit], float], wanted: float | None) -> StripeFit:
         """Choose the fit of the exposure time nearest to a wanted one, or else of the shortest.
 
-        Parameters
-        ----------
-        exposure
-            Function that gives a fit's exposure time in seconds.
-        wanted
-            Seconds, or None.
+        ``exposure``: function that gives a fit's exposure time in seconds. ``wanted``: seconds, or
+        None.
         """
         if wanted is None:
             return self.fits[0]
@@ -104,13 +93,9 @@ def explain(
 
     There are none where the chips never change, or where no fit has the levels of a picture.
 
-    Parameters
-    ----------
-    steps
-        Chips per column to try, in groups; None stands for all that are possible. A group is tried
-        where none before it surely fits.
-    check
-        Called every few hundredths of a second of the search; what it raises ends it.
+    ``steps``: chips per column to try, in groups; None stands for all that are possible. A group is
+    tried where none before it surely fits. ``check``: called every few hundredths of a second of
+    the search; what it raises ends it.
     """
     if chips.min() == chips.max():
         return None

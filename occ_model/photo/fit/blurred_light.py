@@ -37,10 +37,7 @@ BlurShape = Literal["normal", "box", "exponential"]
 class BlurredLight:
     """The light of chips that are sent repeatedly, as blurred columns see it.
 
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period, neither all on nor all off.
+    ``chips``: shape (chips,), one period, neither all on nor all off.
     """
 
     def __init__(self, chips: ByteArray, columns: int) -> None:
@@ -66,16 +63,9 @@ class BlurredLight:
     ) -> FloatArray:
         """Return the fraction of each column's exposure in which the LED is on, shape (columns,).
 
-        Parameters
-        ----------
-        blur
-            Standard deviation of the blur in columns.
-        longer
-            Chips by which each time on is longer than the chips say.
-        tails
-            Excess kurtosis of a blur that is about normal.
-        shape
-            The blur's distribution.
+        ``blur``: standard deviation of the blur in columns. ``longer``: chips by which each time on
+        is longer than the chips say. ``tails``: excess kurtosis of a blur that is about normal.
+        ``shape``: the blur's distribution.
         """
         lit = self._sharp(timing, self._edges_of(longer))
         return np.asarray(_blurred(lit[None], blur_kernel(blur, tails, shape))[0])
@@ -88,9 +78,7 @@ class BlurredLight:
         The running integral's slope is the level, and the edges that were passed before are each
         early by half of what the time on is longer.
 
-        Returns
-        -------
-        ndarray of float64, shape (5, columns)
+        Shape (5, columns).
         """
         edges = self._edges_of(longer)
         place, exposure = self._places(timing), timing.exposure

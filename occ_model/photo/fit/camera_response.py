@@ -28,17 +28,12 @@ AVERAGINGS = ("pixel-value", "light")
 
 @dataclass(frozen=True, slots=True)
 class CameraTone:
-    """A camera's response to light, with the enhancement of its picture.
-
-    Parameters
-    ----------
-    rank_resolution
-        Smallest change of the timing, in columns, that changes the response: ranks are discrete.
-    """
+    """A camera's response to light, with the enhancement of its picture."""
 
     averaging: str
     enhancement: str
     tone: Tone
+    # Smallest change of the timing, in columns, that changes the response: ranks are discrete.
     rank_resolution: float = 0.0
 
 
@@ -47,12 +42,9 @@ def camera_tones(
 ) -> list[CameraTone]:
     """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
-    Parameters
-    ----------
-    scene
-        The scene. Where it equalizes histograms, the response of an equalized picture is given too.
-    low, high
-        The levels: with gamma they give the luminance of the dark panel relative to the lit one.
+    ``scene``: the scene. Where it equalizes histograms, the response of an equalized picture is
+    given too. ``low``, ``high``: the levels: with gamma they give the luminance of the dark panel
+    relative to the lit one.
     """
     tones = []
     for averaging in averagings:

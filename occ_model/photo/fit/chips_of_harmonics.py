@@ -34,25 +34,15 @@ _MOST_LONGER = 0.5
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadPattern:
-    """Chips read from stripes.
+    """Chips read from stripes."""
 
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (chips,)
-        One period.
-    explained
-        Correlation of their harmonics with those in the photo.
-    exposure, phase
-        The exposure, and the place of the first chip, in chips, that explain the harmonics so.
-    times
-        How many times the chips are sent in a period of the stripes.
-    """
-
-    chips: ByteArray
-    explained: float
+    chips: ByteArray  # shape (chips,); one period
+    explained: float  # correlation of their harmonics with those in the photo
+    # exposure, phase: the exposure, and the place of the first chip, in chips, that explain the
+    # harmonics so.
     exposure: float
     phase: float
-    times: int = 1
+    times: int = 1  # how many times the chips are sent in a period of the stripes
 
 
 Harmonics = NDArray[np.complex128]
@@ -97,9 +87,7 @@ def boxes_of(
 ) -> NDArray[np.complex128]:
     """Return what multiplies the harmonics of chips: the boxes of a chip and of an exposure.
 
-    Returns
-    -------
-    ndarray of complex128, shape (trials, harmonics)
+    Shape (trials, harmonics).
     """
     order = np.arange(1, harmonics + 1)
     boxes = np.sinc(order / count) * np.sinc(np.outer(exposures, order / count)) / count
@@ -114,13 +102,10 @@ def rounded_chips(lines: Harmonics, boxes: NDArray[np.complex128], count: int) -
 def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -> ReadPattern:
     """Refine exposure and phase, and let bright runs be longer or shorter than their chips.
 
-    Parameters
-    ----------
-    column
-        Chips a column, where no pixel is white. The light then passes half its height within each
-        edge's ramp, whatever the tone curve: bright runs are longer by less than a ramp, which
-        lasts the exposure and, by blur, a column. White hides the upper part of a ramp, so that
-        this does not hold for saturated stripes.
+    ``column``: chips a column, where no pixel is white. The light then passes half its height
+    within each edge's ramp, whatever the tone curve: bright runs are longer by less than a ramp,
+    which lasts the exposure and, by blur, a column. White hides the upper part of a ramp, so that
+    this does not hold for saturated stripes.
     """
     # Imported only when a photo is matched: it is slow.
     from scipy.optimize import minimize
@@ -161,14 +146,10 @@ def refined(lines: Harmonics, found: ReadPattern, column: float | None = None) -
 def _levels(lines: Harmonics, weights: NDArray[np.complex128], count: int) -> FloatArray:
     """Solve for the chips' levels: harmonics that are equal modulo their number give one.
 
-    Parameters
-    ----------
-    weights : ndarray of complex128, shape (trials, harmonics)
-        What multiplies the chips' own harmonics, for each exposure and phase.
+    ``weights``: shape (trials, harmonics), what multiplies the chips' own harmonics, for each
+    exposure and phase.
 
-    Returns
-    -------
-    ndarray of float64, shape (trials, chips)
+    Shape (trials, chips).
     """
 
     def folded(values: Harmonics) -> Harmonics:

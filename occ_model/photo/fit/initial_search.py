@@ -126,9 +126,7 @@ class Search:
     def _sampled(self, steps: FloatArray, harmonics: IndexArray) -> NDArray[np.complex64]:
         """Sample the profile's spectrum at some of the chips' harmonics, phases about its middle.
 
-        Returns
-        -------
-        ndarray of complex64, shape (steps, harmonics)
+        Shape (steps, harmonics).
         """
         rounds = len(self._turned)
         nearest = np.rint(np.outer(steps, harmonics * (rounds / 2 / self._period)))

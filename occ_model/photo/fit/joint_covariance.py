@@ -24,17 +24,11 @@ def covariance_of(
     blur's tails changes (a parameter that is considered, and not estimated: Jazwinski, Stochastic
     Processes and Filtering Theory, 8.4).
 
-    Parameters
-    ----------
-    slopes : ndarray of float64, shape (residuals, parameters)
-        The residuals' slopes; the first parameter is the step.
-    residual : ndarray of float64, shape (residuals,)
-        In standard deviations; after the data's come those of what is usual.
-    tails : ndarray of float64, shape (residuals,)
-        Their change by one standard deviation of the blur's tails.
-    block : ndarray of int64, shape (data,)
-        The block of each of the data. All profiles show the same stripes with the same errors of
-        compression: a block holds the columns of all of them.
+    ``slopes``: shape (residuals, parameters), the residuals' slopes; the first parameter is the
+    step. ``residual``: shape (residuals,), in standard deviations; after the data's come those of
+    what is usual. ``tails``: shape (residuals,), their change by one standard deviation of the
+    blur's tails. ``block``: shape (data,), the block of each of the data. All profiles show the
+    same stripes with the same errors of compression: a block holds the columns of all of them.
     """
     information = slopes.T @ slopes
     information[np.diag_indices_from(information)] += 1e-9

@@ -86,12 +86,8 @@ def refined(
 ) -> Refined:
     """Refine the fits of an explanation.
 
-    Parameters
-    ----------
-    gamma
-        The gamma that is usual; where the fits hold an estimate of it, it is estimated here too.
-    check
-        Called every few hundredths of a second; what it raises ends the fits.
+    ``gamma``: the gamma that is usual; where the fits hold an estimate of it, it is estimated here
+    too. ``check``: called every few hundredths of a second; what it raises ends the fits.
     """
     step = explanation.fits[0].timing.step
     chips = explanation.chips

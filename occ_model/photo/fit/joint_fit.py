@@ -74,24 +74,14 @@ _GAMMA_BOUNDS = (-0.9, 0.9)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class JointFit:
-    """A timing with its covariance.
+    """A timing with its covariance."""
 
-    Parameters
-    ----------
-    values : ndarray of float64, shape (9,)
-        Step, exposure and middle as of a timing, and the six unknowns in the order of ``USUAL``.
-    covariance : ndarray of float64, shape (9, 9)
-        Theirs; 0 for what is not fitted.
-    misfit
-        Twice the negative logarithm of the posterior density, less a constant.
-    prior
-        The part of the misfit by which the unknowns are off what is usual.
-    """
-
+    # Shape (9,); step, exposure and middle as of a timing, and the six unknowns in the order of
+    # ``USUAL``.
     values: FloatArray
-    covariance: FloatArray
-    misfit: float
-    prior: float = 0.0
+    covariance: FloatArray  # shape (9, 9); 0 for what is not fitted
+    misfit: float  # twice the negative logarithm of the posterior density, less a constant
+    prior: float = 0.0  # the part of the misfit by which the unknowns are off what is usual
 
     @property
     def exposure(self) -> float:
@@ -107,22 +97,11 @@ class JointFit:
 class JointModel:
     """The model of profiles of one lamp, by one sequence of chips.
 
-    Parameters
-    ----------
-    profiles
-        The profiles of pixels that are lit equally.
-    chips : ndarray of uint8, shape (chips,)
-        One period.
-    step
-        Chips per column, roughly.
-    gamma
-        The usual gamma; 1 where pixel values are averaged.
-    values_blurred
-        Whether pixel values are blurred (noise reduction, resizing), or light (demosaicing).
-    wide
-        Whether gamma may be any that a scene's may be.
-    check
-        Called whenever the model is evaluated; what it raises ends the fit.
+    ``profiles``: the profiles of pixels that are lit equally. ``chips``: shape (chips,), one
+    period. ``step``: chips per column, roughly. ``gamma``: the usual gamma; 1 where pixel values
+    are averaged. ``values_blurred``: whether pixel values are blurred (noise reduction, resizing),
+    or light (demosaicing). ``wide``: whether gamma may be any that a scene's may be. ``check``:
+    called whenever the model is evaluated; what it raises ends the fit.
     """
 
     def __init__(
@@ -204,14 +183,9 @@ class JointModel:
     ) -> JointFit:
         """Fit from a first guess.
 
-        Parameters
-        ----------
-        first : ndarray of float64, shape (9,)
-            The guess, as the values of a fit.
-        fixed
-            Indices of parameters that are held fixed.
-        shape
-            The blur's distribution; None: a normal one with tails that are not known.
+        ``first``: shape (9,), the guess, as the values of a fit. ``fixed``: indices of parameters
+        that are held fixed. ``shape``: the blur's distribution; None: a normal one with tails that
+        are not known.
         """
         free = self._free.copy()
         free[list(fixed)] = False

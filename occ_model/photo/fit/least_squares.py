@@ -64,50 +64,32 @@ _DARKEST = -0.1
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StripeFit:
-    """A fitted timing with its uncertainty, and the profile that it gives.
-
-    Parameters
-    ----------
-    covariance : ndarray of float64, shape (4, 4)
-        The covariance of the timing's fields in their order; 0 for gamma where it was given.
-    low, swing : ndarray of float64, shape (columns,)
-        The levels in grey levels.
-    profile : ndarray of float64, shape (columns,)
-        The model in grey levels.
-    correlation
-        Correlation of data and model, both without the uneven light.
-    residual
-        Sum of the squared differences of data and model.
-    likely
-        Largest residual of a timing that is about as likely: within two standard deviations.
-    is_possible
-        Whether the levels can be a picture's: lit above dark, and dark not negative.
-    longer
-        By how many chips the LED is on longer than the chips say, with its standard deviation;
-        (0, 0) where that was not fitted.
-    """
+    """A fitted timing with its uncertainty, and the profile that it gives."""
 
     timing: Timing
+    # Shape (4, 4); the covariance of the timing's fields in their order; 0 for gamma where it was
+    # given.
     covariance: FloatArray
-    low: FloatArray
+    low: FloatArray  # shape (columns,); low, swing: the levels in grey levels
     swing: FloatArray
-    profile: FloatArray
-    correlation: float
-    residual: float
+    profile: FloatArray  # shape (columns,); the model in grey levels
+    correlation: float  # correlation of data and model, both without the uneven light
+    residual: float  # sum of the squared differences of data and model
+    # Largest residual of a timing that is about as likely: within two standard deviations.
     likely: float
+    # Whether the levels can be a picture's: lit above dark, and dark not negative.
     is_possible: bool
+    # By how many chips the LED is on longer than the chips say, with its standard deviation; (0, 0)
+    # where that was not fitted.
     longer: tuple[float, float] = (0.0, 0.0)
 
 
 class StripeModel:
     """The model of one profile, for one sequence of chips and one tone.
 
-    Parameters
-    ----------
-    step
-        Chips per column, roughly: the number of chips limits the degrees of freedom of the levels.
-    rank_resolution
-        Smallest change of the timing, in columns, that changes the response.
+    ``step``: chips per column, roughly: the number of chips limits the degrees of freedom of the
+    levels. ``rank_resolution``: smallest change of the timing, in columns, that changes the
+    response.
     """
 
     def __init__(
@@ -136,10 +118,8 @@ class StripeModel:
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Fit the levels for a given timing.
 
-        Returns
-        -------
-        low, swing, profile : ndarray of float64, shape (columns,)
-            The profile is the model's, limited to white.
+        ``low``, ``swing``, ``profile``: shape (columns,), the profile is the model's, limited to
+        white.
         """
         tone = self._tone(timing.lit_fraction(self._waveform, len(self._profile)), timing.gamma)
         kept = LitColumns(self._kept_shapes, tone[self._kept])
@@ -159,10 +139,8 @@ class StripeModel:
     ) -> StripeFit:
         """Fit the timing from a first guess.
 
-        Parameters
-        ----------
-        spread
-            Above 0: the exposure is held fixed, uniformly likely within as many chips either way.
+        ``spread``: above 0: the exposure is held fixed, uniformly likely within as many chips
+        either way.
         """
         columns = len(self._profile)
         gamma = PARAMETERS["gamma"]

@@ -15,15 +15,9 @@ from occ_model.arrays import FloatArray
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LitColumns:
-    """Some columns.
+    """Some columns."""
 
-    Parameters
-    ----------
-    shapes : ndarray of float64, shape (shapes, columns)
-        The shapes of which either level is a combination.
-    """
-
-    shapes: FloatArray
+    shapes: FloatArray  # shape (shapes, columns); the shapes of which either level is a combination
     lit: FloatArray
 
     def light(self, levels: FloatArray) -> FloatArray:
@@ -43,10 +37,8 @@ class LitColumns:
     def slopes(self, levels: FloatArray, of_levels: FloatArray, by_lit: FloatArray) -> FloatArray:
         """Return the light's slopes, shape (parameters, columns).
 
-        Parameters
-        ----------
-        by_lit : ndarray of float64, shape (first parameters, columns)
-            The lit fractions' slopes over the first of the parameters, on which they depend.
+        ``by_lit``: shape (first parameters, columns), the lit fractions' slopes over the first of
+        the parameters, on which they depend.
         """
         slopes = self.light(of_levels)
         slopes[: len(by_lit)] += self.swing(levels) * by_lit
@@ -62,16 +54,11 @@ class LitColumns:
     ) -> FloatArray:
         """Return the slopes of the sums that are 0, the levels being fixed.
 
-        Parameters
-        ----------
-        weight, error : ndarray of float64, shape (columns,)
-            The weight of each column's light, and what is seen of it less its model.
-        by_tone : ndarray of float64, shape (other parameters, columns)
-            The slopes of weight times error over what changes the light that is seen.
+        ``weight``, ``error``: shape (columns,), the weight of each column's light, and what is seen
+        of it less its model. ``by_tone``: shape (other parameters, columns), the slopes of weight
+        times error over what changes the light that is seen.
 
-        Returns
-        -------
-        ndarray of float64, shape (parameters, 2 shapes)
+        Shape (parameters, 2 shapes).
         """
         pull = -weight * self.swing(levels)
         of_dark = (pull * by_lit) @ self.shapes.T

@@ -39,24 +39,14 @@ class Seen:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SeenSlopes:
-    """The slopes of what the columns see.
+    """The slopes of what the columns see."""
 
-    Parameters
-    ----------
-    lit : ndarray of float64, shape (light's parameters, columns)
-        Of the lit fractions, blurred.
-    tone
-        Of the tone curve, over its own parameters.
-    sharp : ndarray of float64, shape (light's parameters, columns), or None
-        Of the sharp lit fractions, where pixel values are blurred.
-    kernel : ndarray of float64, shape (weights,)
-        Of the blur's weights, over the blur.
-    """
-
-    lit: FloatArray
-    tone: ToneSlopes
+    lit: FloatArray  # shape (light's parameters, columns); of the lit fractions, blurred
+    tone: ToneSlopes  # of the tone curve, over its own parameters
+    # Shape (light's parameters, columns); of the sharp lit fractions, where pixel values are
+    # blurred.
     sharp: FloatArray | None
-    kernel: FloatArray
+    kernel: FloatArray  # shape (weights,); of the blur's weights, over the blur
 
     @property
     def parameters(self) -> int:
@@ -66,41 +56,26 @@ class SeenSlopes:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Fitted:
-    """The levels that fit a profile, and what they follow from.
-
-    Parameters
-    ----------
-    error, slope : ndarray of float64, shape (kept,)
-        The light of their data less that of the levels, and the data's slope over light, whose
-        square is its weight.
-    products : ndarray of float64, shape (levels, levels)
-        The matrix of the normal equations.
-    levels : ndarray of float64, shape (levels,)
-        Their solution: the levels as if light were blurred.
-    dark : ndarray of bool, shape (clipped,)
-        The clipped columns that count in them, as if they were seen at white.
-    shown : ndarray of float64, shape (levels,)
-        The levels of the model: corrected where pixel values are blurred.
-    """
+    """The levels that fit a profile, and what they follow from."""
 
     kept: LitColumns
+    # Shape (kept,); error, slope: the light of their data less that of the levels, and the data's
+    # slope over light, whose square is its weight.
     error: FloatArray
     slope: FloatArray
-    products: FloatArray
-    levels: FloatArray
+    products: FloatArray  # shape (levels, levels); the matrix of the normal equations
+    levels: FloatArray  # shape (levels,); their solution: the levels as if light were blurred
+    # Shape (clipped,); the clipped columns that count in them, as if they were seen at white.
     dark: NDArray[np.bool_]
+    # Shape (levels,); the levels of the model: corrected where pixel values are blurred.
     shown: FloatArray
 
 
 class LitProfile:
     """A profile's columns that are not clipped, and those that are, with the levels' shapes.
 
-    Parameters
-    ----------
-    freedom
-        Number of Chebyshev polynomials of which either level is a combination.
-    slow
-        Number of those that say nothing: what lamps are shaped like is no matter of the stripes.
+    ``freedom``: number of Chebyshev polynomials of which either level is a combination. ``slow``:
+    number of those that say nothing: what lamps are shaped like is no matter of the stripes.
     """
 
     def __init__(self, profile: EvenProfile, freedom: int, slow: int = 0) -> None:
@@ -138,9 +113,7 @@ class LitProfile:
         Where pixel values are blurred, what has the residual as a factor is left out (Kaufman, BIT
         15:49, 1975).
 
-        Returns
-        -------
-        ndarray of float64, shape (parameters, residuals)
+        Shape (parameters, residuals).
         """
         kept = self._slopes_of_kept(seen, rates)
         if not self.clipped.size:

@@ -11,12 +11,8 @@ class NormalEquations:
     Of Chebyshev polynomials the product is half the sum of two others,
     T_i T_j = (T_(i+j) + T_|i-j|) / 2: all products follow from one sum for each polynomial.
 
-    Parameters
-    ----------
-    shapes : ndarray of float64, shape (columns, 2 freedom - 1)
-        The polynomials at some columns.
-    freedom
-        The number of them of which either level is a combination.
+    ``shapes``: shape (columns, 2 freedom - 1), the polynomials at some columns. ``freedom``: the
+    number of them of which either level is a combination.
     """
 
     def __init__(self, shapes: FloatArray, freedom: int) -> None:

@@ -48,10 +48,7 @@ def scanned_starts(
     The first search compares exposures by a profile without blur and by one tone curve: it may keep
     only a wrong one, whose errors look small.
 
-    Parameters
-    ----------
-    model
-        The model, its noise being that of the exposure found.
+    ``model``: the model, its noise being that of the exposure found.
     """
     usual = model.with_usual(found)
 

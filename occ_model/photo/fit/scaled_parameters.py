@@ -22,19 +22,11 @@ _MOST_LOG_CHANGE = 5.0
 class ScaledParameters:
     """Those parameters that are fitted, as scaled differences from a first guess.
 
-    Parameters
-    ----------
-    first : ndarray of float64, shape (9,)
-        The guess: step, exposure and middle as of a timing, the logarithm of gamma over a usual
-        one, offset, shoulder, contrast, blur, and the chips by which the LED is on longer.
-    index : ndarray of int64
-        Which of them are fitted.
-    scale : ndarray of float64, shape (9,)
-        A difference of each that matters about as much; the exposure has its own.
-    step
-        Chips per column, roughly.
-    gamma
-        Bounds of gamma's logarithm.
+    ``first``: shape (9,), the guess: step, exposure and middle as of a timing, the logarithm of
+    gamma over a usual one, offset, shoulder, contrast, blur, and the chips by which the LED is on
+    longer. ``index``: which of them are fitted. ``scale``: shape (9,), a difference of each that
+    matters about as much; the exposure has its own. ``step``: chips per column, roughly. ``gamma``:
+    bounds of gamma's logarithm.
     """
 
     def __init__(

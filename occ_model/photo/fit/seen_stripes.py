@@ -23,10 +23,7 @@ IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
 class SeenStripes:
     """Lit fractions and a tone curve.
 
-    Parameters
-    ----------
-    values_blurred
-        Whether pixel values are blurred, or light.
+    ``values_blurred``: whether pixel values are blurred, or light.
     """
 
     def __init__(

@@ -11,25 +11,14 @@ from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 @dataclass(frozen=True, slots=True)
 class Timing:
-    """The timing of the columns' exposures, in chips.
+    """The timing of the columns' exposures, in chips."""
 
-    Parameters
-    ----------
-    step
-        Chips from one column's start to the next one's: t_r / t_LED.
-    exposure
-        Chips that an exposure lasts: t / t_LED.
-    middle
-        Position in the period of the chips of the middle of the middle column's exposure. Unlike
-        the first column's start it hardly correlates with the other two.
-    gamma
-        The exponent of the camera's response.
-    """
-
-    step: float
-    exposure: float
+    step: float  # chips from one column's start to the next one's: t_r / t_LED
+    exposure: float  # chips that an exposure lasts: t / t_LED
+    # Position in the period of the chips of the middle of the middle column's exposure. Unlike the
+    # first column's start it hardly correlates with the other two.
     middle: float
-    gamma: float
+    gamma: float  # the exponent of the camera's response
 
     def start(self, columns: int) -> float:
         """Return the position in the chips at which the first column's exposure starts."""

@@ -25,15 +25,10 @@ class ToneCurve:
     A pixel value u relative to white is bent into v = u + s u(1-u) + k u(1-u)(1-2u). Its light is
     (v + o) / (1 + o) to the power of gamma. The offset o makes shadows straight, as in
     IEC 61966-2-1 (o = 0.055 with a gamma of 2.4) and ITU-R BT.709 (0.099 with 1 / 0.45).
-
-    Parameters
-    ----------
-    offset, shoulder, contrast
-        The coefficients o, s and k.
     """
 
     gamma: float
-    offset: float = 0.0
+    offset: float = 0.0  # offset, shoulder, contrast: the coefficients o, s and k
     shoulder: float = 0.0
     contrast: float = 0.0
 
@@ -81,12 +76,8 @@ def _risen(values: FloatArray) -> FloatArray:
 class EvenTable:
     """A function tabulated at equal distances: looked up far faster than at unequal ones.
 
-    Parameters
-    ----------
-    first, last
-        The ends; beyond them the function is constant.
-    values : ndarray of float64
-        From one end to the other along the last axis.
+    ``first``, ``last``: the ends; beyond them the function is constant. ``values``: from one end to
+    the other along the last axis.
     """
 
     def __init__(self, first: float, last: float, values: FloatArray) -> None:
@@ -108,15 +99,10 @@ class EvenTable:
 class ToneTable:
     """A tabulated tone curve.
 
-    Parameters
-    ----------
-    light, slope : ndarray of float64
-        The light of each tabulated pixel value, and the pixel value's slope over light.
+    ``light``, ``slope``: the light of each tabulated pixel value, and the pixel value's slope over
+    light.
 
-    Attributes
-    ----------
-    steepness
-        The slope of grey levels over light at white.
+    ``steepness``: the slope of grey levels over light at white.
     """
 
     def __init__(self, light: FloatArray, slope: FloatArray) -> None:
@@ -147,15 +133,10 @@ class ToneTable:
 class ToneSlopes:
     """The slopes of a tabulated tone curve over its parameters.
 
-    Parameters
-    ----------
-    light : ndarray of float64, shape (parameters, grey levels)
-        The slopes of the light of each tabulated pixel value.
+    ``light``: shape (parameters, grey levels), the slopes of the light of each tabulated pixel
+    value.
 
-    Attributes
-    ----------
-    of_steepness : ndarray of float64, shape (parameters,)
-        The slopes of the grey levels' slope at white.
+    ``of_steepness``: shape (parameters,), the slopes of the grey levels' slope at white.
     """
 
     def __init__(self, table: ToneTable, light: FloatArray) -> None:
@@ -173,12 +154,8 @@ class ToneSlopes:
     def of_values(self, values: FloatArray, light: FloatArray) -> FloatArray:
         """Return the slopes of grey levels, shape (parameters, values).
 
-        Parameters
-        ----------
-        values : ndarray of float64, shape (values,)
-            The grey levels.
-        light : ndarray of float64, shape (parameters, values)
-            The slopes of their light over any parameters, at last those of the curve.
+        ``values``: shape (values,), the grey levels. ``light``: shape (parameters, values), the
+        slopes of their light over any parameters, at last those of the curve.
         """
         place = (values / WHITE - _GRID[0]) / _STEP
         steep = self._steep[np.clip(place.astype(np.intp), 0, len(self._steep) - 1)]

@@ -35,12 +35,8 @@ def with_codes_joined(
     Where a code alternates, its stripes look like those of a pulse that repeats. Such parts lie in
     line and blink in time, as lamps of one driver do, but those are dark between each other.
 
-    Parameters
-    ----------
-    means : ndarray of float64, shape (strips, columns)
-        The strips' profiles.
-    bounds
-        The rows at which the strips begin.
+    ``means``: shape (strips, columns), the strips' profiles. ``bounds``: the rows at which the
+    strips begin.
     """
     kept: list[Blinking] = []
     for one in sorted(blinking, key=lambda one: one.lamp.region.first_column):

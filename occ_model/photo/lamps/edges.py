@@ -28,14 +28,9 @@ it."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Edges:
-    """Edges between bright and dark, from left to right, falling and rising in turn.
+    """Edges between bright and dark, from left to right, falling and rising in turn."""
 
-    Parameters
-    ----------
-    place : ndarray of float64, shape (edges,)
-        The column at which each passes the middle between its two levels.
-    """
-
+    # Shape (edges,); the column at which each passes the middle between its two levels.
     place: FloatArray
     rises: np.ndarray
     low: FloatArray

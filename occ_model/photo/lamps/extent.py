@@ -30,14 +30,9 @@ def without_halo(
 ) -> IndexArray:
     """Leave out of a lamp's shape what lies beyond the steepest fall of its level.
 
-    Parameters
-    ----------
-    spans : ndarray of int64, shape (strips of the lamp, 4)
-        The shape, as of :func:`spans_of`.
-    means : ndarray of float64, shape (strips, columns)
-        Grey levels of the photo.
-    bounds : ndarray of int64, shape (strips + 1,)
-        The first row of each strip, and the number of rows.
+    ``spans``: shape (strips of the lamp, 4), the shape, as of :func:`spans_of`. ``means``: shape
+    (strips, columns), grey levels of the photo. ``bounds``: shape (strips + 1,), the first row of
+    each strip, and the number of rows.
     """
     strips = np.searchsorted(bounds, spans[:, 0])
     first, last = max(0, int(strips[0]) - _PADDING), int(strips[-1]) + 1 + _PADDING

@@ -62,22 +62,12 @@ _LEAST_STEP_RATIO = 0.4
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Segment:
-    """Edges of one lamp in one strip.
-
-    Parameters
-    ----------
-    edges
-        The edges, without those of the lamp's rim.
-    period
-        Columns of a cycle of a pulse that repeats; None for a code.
-    chip
-        Columns of a chip; half a period where a pulse repeats.
-    """
+    """Edges of one lamp in one strip."""
 
     strip: int
-    edges: Edges
-    period: float | None
-    chip: float
+    edges: Edges  # the edges, without those of the lamp's rim
+    period: float | None  # columns of a cycle of a pulse that repeats; None for a code
+    chip: float  # columns of a chip; half a period where a pulse repeats
 
 
 def segments_of(

@@ -37,10 +37,8 @@ def spans_of(
 ) -> IndexArray:  # fmt: skip
     """Find the columns of a lamp in each strip that shows its edges.
 
-    Returns
-    -------
-    ndarray of int64, shape (strips of the lamp, 4)
-        First row, row after the last, first column and column after the last.
+    Shape (strips of the lamp, 4), first row, row after the last, first column and column after the
+    last.
     """
     spans: dict[int, tuple[float, float]] = {}
     first, last = min(inner), max(inner)

@@ -21,12 +21,8 @@ leaves a pattern that repeats after 4 columns on the steep edges of a lamp."""
 def strips_of(photo: Photo, report: Callable[[float], object]) -> tuple[FloatArray, IndexArray]:
     """Average the rows of a photo in strips.
 
-    Returns
-    -------
-    means : ndarray of float64, shape (strips, columns)
-        Grey levels.
-    bounds : ndarray of int64, shape (strips + 1,)
-        The first row of each strip, and the number of rows.
+    ``means``: shape (strips, columns), grey levels. ``bounds``: shape (strips + 1,), the first row
+    of each strip, and the number of rows.
     """
     rows, columns = photo.samples.shape
     count = int(np.clip(rows // _LEAST_ROWS, 1, _MOST_STRIPS))

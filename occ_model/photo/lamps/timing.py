@@ -37,25 +37,14 @@ farther inside."""
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LampTiming:
-    """How a lamp blinks.
+    """How a lamp blinks."""
 
-    Parameters
-    ----------
-    spacing
-        Columns of a period of a pulse that repeats, or of a chip of a code.
-    uncertainty
-        Its standard deviation in columns.
-    rise, fall
-        Column of a rising and of a falling edge, less whole spacings.
-    off
-        Root mean square of the edges' distances from their places, as a fraction of a chip.
-    """
-
-    spacing: float
-    uncertainty: float
-    rise: float
+    spacing: float  # columns of a period of a pulse that repeats, or of a chip of a code
+    uncertainty: float  # its standard deviation in columns
+    rise: float  # rise, fall: column of a rising and of a falling edge, less whole spacings
     fall: float
     is_code: bool
+    # Root mean square of the edges' distances from their places, as a fraction of a chip.
     off: float
     edges: Edges
 
@@ -99,12 +88,8 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
 
     There are several where lamps beside each other are as high as each other.
 
-    Parameters
-    ----------
-    weights : ndarray of float64, shape (edges,)
-        How many rows show each.
-    codes
-        Whether some may be those of a code: strips of it show no pulse that repeats.
+    ``weights``: shape (edges,), how many rows show each. ``codes``: whether some may be those of a
+    code: strips of it show no pulse that repeats.
     """
     found: list[LampTiming] = []
     waiting = [(edges, weights)]

@@ -35,17 +35,11 @@ _MOST_SCATTER = 0.01
 def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
     """Return the readout time of the whole frame and its standard deviation in seconds.
 
-    Parameters
-    ----------
-    table
-        The photos. They must be as the camera stored them: of a photo that was cut or made
-        smaller the lines are others.
+    ``table``: the photos. They must be as the camera stored them: of a photo that was cut or made
+    smaller the lines are others.
 
-    Returns
-    -------
-    tuple or None
-        None where the readout time was not measured, or the photos in the mean have different
-        numbers of lines.
+    None where the readout time was not measured, or the photos in the mean have different numbers
+    of lines.
     """
     counted = _counted(table)
     lines = {row.lines for row in counted}
@@ -58,11 +52,8 @@ def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:
 def lines_to_paste(table: PhotoTable) -> dict[str, str]:
     """Write the readout time as other programs take it.
 
-    Returns
-    -------
-    dict
-        A line for each program, by its name; empty where :func:`frame_readout_time` gives none, or
-        where the photos contradict each other.
+    A line for each program, by its name; empty where :func:`frame_readout_time` gives none, or
+    where the photos contradict each other.
     """
     frame = frame_readout_time(table)
     if frame is None or table.estimated is None:
@@ -76,17 +67,10 @@ def lines_to_paste(table: PhotoTable) -> dict[str, str]:
 def lines_of_match(match: Match, *, turned: bool) -> dict[str, str]:
     """Write the readout time of one photo as other programs take it.
 
-    Parameters
-    ----------
-    match
-        Its match, with the size of the photo in its scene.
-    turned
-        Whether the photo's columns are the file's lines.
+    ``match``: its match, with the size of the photo in its scene. ``turned``: whether the photo's
+    columns are the file's lines.
 
-    Returns
-    -------
-    dict
-        As of :func:`lines_to_paste`; empty where the match is doubtful.
+    As of :func:`lines_to_paste`; empty where the match is doubtful.
     """
     frame = frame_of_match(match)
     if frame is None or match.verdict != SURE:
@@ -106,12 +90,9 @@ def frame_of_match(match: Match) -> tuple[float, float] | None:
 def lines_of_frame(seconds: float, deviation: float, scanned_along: str) -> dict[str, str]:
     """Write the readout time of a frame as other programs take it.
 
-    Parameters
-    ----------
-    seconds, deviation
-        The readout time of the whole frame, and its standard deviation.
-    scanned_along
-        ``"lines"`` or ``"columns"`` of the upright picture; empty where it is not one of them.
+    ``seconds``, ``deviation``: the readout time of the whole frame, and its standard deviation.
+    ``scanned_along``: ``"lines"`` or ``"columns"`` of the upright picture; empty where it is not
+    one of them.
     """
     written = _milliseconds(seconds, deviation)
     lines = {"OpenDroneMap": f"--rolling-shutter --rolling-shutter-readout {written}"}

@@ -16,26 +16,18 @@ from occ_model.scene.scene import Scene, check_scene
 
 @dataclass(frozen=True, slots=True)
 class MatchSettings:
-    """How each photo is read and matched.
-
-    Parameters
-    ----------
-    estimate, sent, averaging, fit_gamma
-        As for :func:`occ_model.match_photo`.
-    scan_axis, channel
-        As for :func:`occ_model.load_photo`.
-    known
-        Values of the known parameter for single photos, as of another lamp: pairs of the photo's
-        place and the value in SI units. The scene's holds for all others.
-    """
+    """How each photo is read and matched."""
 
     scene: Scene
+    # estimate, sent, averaging, fit_gamma: as for :func:`occ_model.match_photo`.
     estimate: str = ESTIMATES[0]
     sent: str = PATTERN_SOURCES[0]
     averaging: str = "auto"
     fit_gamma: bool = False
-    scan_axis: str = SCAN_AXES[0]
+    scan_axis: str = SCAN_AXES[0]  # scan_axis, channel: as for :func:`occ_model.load_photo`
     channel: str = CHANNELS[0]
+    # Values of the known parameter for single photos, as of another lamp: pairs of the photo's
+    # place and the value in SI units. The scene's holds for all others.
     known: tuple[tuple[int, float], ...] = ()
 
     def of(self, place: int) -> "MatchSettings":

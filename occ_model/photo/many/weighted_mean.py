@@ -34,10 +34,7 @@ def combine(
 ) -> CombinedEstimate | None:
     """Combine estimates of one quantity.
 
-    Parameters
-    ----------
-    deviations
-        Their standard deviations, above 0.
+    ``deviations``: their standard deviations, above 0.
     """
     if not len(values):
         return None

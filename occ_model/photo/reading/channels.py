@@ -28,18 +28,12 @@ def white_of(samples: Samples) -> int:
 def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:
     """Take one channel of a picture.
 
-    Parameters
-    ----------
-    channel
-        One of :data:`CHANNELS`. Where the brightest nearly ties with green, green is taken: a
-        sensor has the most pixels of it.
+    ``channel``: one of :data:`CHANNELS`. Where the brightest nearly ties with green, green is
+    taken: a sensor has the most pixels of it.
 
-    Returns
-    -------
-    samples : ndarray of uint8 or uint16, shape (rows, columns)
-    name
-        The channel: ``"red"``, ``"green"``, ``"blue"``, ``"luma"``; ``"grey"`` if the picture has
-        no colours, also where its file has three equal channels.
+    ``samples``: shape (rows, columns). ``name``: the channel: ``"red"``, ``"green"``, ``"blue"``,
+    ``"luma"``; ``"grey"`` if the picture has no colours, also where its file has three equal
+    channels.
     """
     first = picture.part((0, 0, 1, 1))
     take: _Take = _all_of

@@ -42,22 +42,16 @@ _FIRST_LYING = 5
 
 @dataclass(frozen=True, slots=True)
 class CameraNotes:
-    """A photo's EXIF data, None where a value is missing or out of range.
+    """A photo's EXIF data, None where a value is missing or out of range."""
 
-    Parameters
-    ----------
-    exposure_time, f_number, iso, equivalent_focal_length
-        In SI units, within the range that a scene's parameter of that name has.
-    focal_length_step
-        What the equivalent focal length is rounded to, in metres.
-    """
-
+    # exposure_time, f_number, iso, equivalent_focal_length: in SI units, within the range that a
+    # scene's parameter of that name has.
     exposure_time: float | None = None
     f_number: float | None = None
     iso: float | None = None
     camera: str | None = None
     equivalent_focal_length: float | None = None
-    focal_length_step: float = 0.0
+    focal_length_step: float = 0.0  # what the equivalent focal length is rounded to, in metres
 
 
 def camera_notes(picture: "PillowImage") -> CameraNotes:
@@ -100,10 +94,7 @@ def orientation_of(picture: "PillowImage") -> int:
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
     """Return the steps that undo an EXIF orientation.
 
-    Returns
-    -------
-    transpose, mirror_rows, mirror_columns
-        Whether each is needed, in this order.
+    ``transpose``, ``mirror_rows``, ``mirror_columns``: whether each is needed, in this order.
     """
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)

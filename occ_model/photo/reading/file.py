@@ -51,11 +51,8 @@ _pillow_lock = threading.Lock()
 def open_file(path: Path, max_pixels: int, report: Reporter) -> Iterator[WatchedFile]:
     """Open a file that should be a photo.
 
-    Raises
-    ------
-    PhotoError
-        There is no such file, it may not be read, or it has too many bytes. Errors of a decoder
-        inside the ``with`` block become this error too.
+    Raises PhotoError where there is no such file, it may not be read, or it has too many bytes.
+    Errors of a decoder inside the ``with`` block become this error too.
     """
     try:
         _check_file(path, max_pixels)

@@ -46,11 +46,8 @@ _OTHER_BYTE = {
 class DecodedPicture:
     """A decoded picture, whose colours are converted part by part to bound the memory.
 
-    Parameters
-    ----------
-    opened
-        Function that opens the file's picture, not yet decoded; its arguments are the fractions of
-        the work between which it will be decoded.
+    ``opened``: function that opens the file's picture, not yet decoded; its arguments are the
+    fractions of the work between which it will be decoded.
     """
 
     def __init__(self, opened: "Callable[[float, float], ImageFile]") -> None:
@@ -88,11 +85,8 @@ class DecodedPicture:
     def part(self, box: Box) -> Samples:
         """Convert a rectangle of the picture to samples, transparent parts being black.
 
-        Returns
-        -------
-        ndarray of uint8 or uint16, shape (rows, columns) or (rows, columns, 3)
-            Grey, or red, green and blue. 16 bits where the file has more than 8; floating-point
-            numbers are grey levels, NaN and minus infinity being 0.
+        Shape (rows, columns), grey, or red, green and blue. 16 bits where the file has more than 8;
+        floating-point numbers are grey levels, NaN and minus infinity being 0.
         """
         part = self.picture.crop(box)
         if self._palette is not None:

@@ -90,12 +90,8 @@ def check_transparency(path: Path, picture: "ImageFile") -> None:
 def check_memory(path: Path, picture: "ImageFile", bytes_read: int, scan_header: int) -> None:
     """Refuse a picture that would take too much memory, before any of it is decoded.
 
-    Parameters
-    ----------
-    bytes_read
-        Bytes read on opening the file, all of which may be kept in memory.
-    scan_header
-        Bytes of the last read: in a JPEG the header of its first scan.
+    ``bytes_read``: bytes read on opening the file, all of which may be kept in memory.
+    ``scan_header``: bytes of the last read: in a JPEG the header of its first scan.
     """
     pixels = picture.width * picture.height
     decoding = pixels * _bytes_a_pixel(picture, scan_header) + _bytes_of_a_strip(picture)
@@ -107,10 +103,7 @@ def check_scans(
 ) -> None:
     """Refuse a JPEG of too many scans, before any of them is decoded.
 
-    Parameters
-    ----------
-    content
-        Gives the bytes of the file; called only for a JPEG in several scans.
+    ``content``: gives the bytes of the file; called only for a JPEG in several scans.
     """
     if picture.format != "JPEG" or _is_in_one_scan(picture, scan_header):
         return

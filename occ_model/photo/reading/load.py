@@ -159,17 +159,10 @@ def _loaded(path: Path, read: _Read) -> Photo:
 def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     """Average the columns of a photo over some of its rows.
 
-    Parameters
-    ----------
-    photo
-        The photo; its samples are averaged in the full depth of the file.
-    first_row, last_row
-        The first row, and the one after the last.
+    ``photo``: the photo; its samples are averaged in the full depth of the file. ``first_row``,
+    ``last_row``: the first row, and the one after the last.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns,)
-        Grey levels.
+    Shape (columns,), grey levels.
     """
     rows = len(photo.samples)
     if not 0 <= first_row < last_row <= rows:

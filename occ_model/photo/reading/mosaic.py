@@ -21,23 +21,16 @@ WHITE_SAMPLE = 65535
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Mosaic:
-    """The photosites of a sensor, as they are stored.
+    """The photosites of a sensor, as they are stored."""
 
-    Parameters
-    ----------
-    photosites : ndarray of uint16, shape (lines, columns)
-        Their values as the camera wrote them.
-    is_green : ndarray of bool, shape (2, 2)
-        Which photosites of a square of four are taken; all of them where there are no colours.
-    levels
-        The black and the white level of each photosite of a square, shape (2, 2, 2).
-    notes, orientation
-        The camera's notes, and the EXIF orientation that the photosites still have.
-    """
-
-    photosites: NDArray[np.uint16]
+    photosites: NDArray[np.uint16]  # shape (lines, columns); their values as the camera wrote them
+    # Shape (2, 2); which photosites of a square of four are taken; all of them where there are no
+    # colours.
     is_green: NDArray[np.bool_]
+    # The black and the white level of each photosite of a square, shape (2, 2, 2).
     levels: NDArray[np.float64]
+    # notes, orientation: the camera's notes, and the EXIF orientation that the photosites still
+    # have.
     notes: CameraNotes
     orientation: int
 
@@ -54,15 +47,10 @@ class Mosaic:
     def samples(self, along_lines: bool) -> Samples:
         """Return the light as a picture of the sensor's size, in proportion, 65535 being white.
 
-        Parameters
-        ----------
-        along_lines
-            Whether photosites of a line are of one time, else those of a column. A photosite
-            of another colour has the value of its green neighbour of the same time.
+        ``along_lines``: whether photosites of a line are of one time, else those of a column. A
+        photosite of another colour has the value of its green neighbour of the same time.
 
-        Returns
-        -------
-        ndarray of uint16, shape (lines, columns)
+        Shape (lines, columns).
         """
         picture = np.empty(self.photosites.shape, np.uint16)
         if along_lines:

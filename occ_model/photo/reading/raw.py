@@ -90,10 +90,8 @@ def read_mosaic(
 ) -> Mosaic:
     """Read the photosites of a RAW file.
 
-    Parameters
-    ----------
-    channel
-        ``"green"`` or ``"brightest"``: the others have photosites in every second line only.
+    ``channel``: ``"green"`` or ``"brightest"``: the others have photosites in every second line
+    only.
     """
     shown = one_line(str(path))
     try:

@@ -52,12 +52,8 @@ def check_sides(path: Path, width: int, height: int) -> None:
 def check_bytes(path: Path, width: int, height: int, decoding: float, kept: int) -> None:
     """Refuse a picture that would take too much memory, by the bytes that it takes.
 
-    Parameters
-    ----------
-    decoding
-        Bytes that decoding takes, in proportion to the pixels.
-    kept
-        Bytes of the file that are kept in memory meanwhile.
+    ``decoding``: bytes that decoding takes, in proportion to the pixels. ``kept``: bytes of the
+    file that are kept in memory meanwhile.
     """
     if decoding + kept > _MOST_MEMORY:
         most = width * height * max(_MOST_MEMORY - kept, 0) / decoding

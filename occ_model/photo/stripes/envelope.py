@@ -17,10 +17,7 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 
     A grey-scale opening removes bright stripes, a closing dark ones; both are smoothed.
 
-    Parameters
-    ----------
-    width
-        Number of columns within which the stripes reach both levels.
+    ``width``: number of columns within which the stripes reach both levels.
     """
     width = max(3, min(width, 2 * len(profile) - 1)) | 1
     # As one row: OpenCV 4 and 5 give a one-dimensional array different shapes.
@@ -37,9 +34,7 @@ def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
 def smooth_shapes(count: int, freedom: int) -> FloatArray:
     """Return Chebyshev polynomials, of which slowly varying levels are linear combinations.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns, freedom)
+    Shape (columns, freedom).
     """
     place = np.linspace(-1.0, 1.0, count)
     return np.asarray(np.polynomial.chebyshev.chebvander(place, freedom - 1))

@@ -56,20 +56,13 @@ _LEAST_CELLS = 0.15
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EvenProfile:
-    """A profile of pixels that the lamp lights about equally.
+    """A profile of pixels that the lamp lights about equally."""
 
-    Parameters
-    ----------
-    values : ndarray of float64, shape (columns of the region,)
-        Mean of the group's pixels in each column, in grey levels.
-    kept : ndarray of bool, shape as ``values``
-        The columns in which none of them is clipped.
-    clipped : ndarray of bool, shape as ``values``
-        The columns in which all of them are: the light is at least what makes white.
-    """
-
+    # Shape (columns of the region,); mean of the group's pixels in each column, in grey levels.
     values: FloatArray
-    kept: NDArray[np.bool_]
+    kept: NDArray[np.bool_]  # shape as ``values``; the columns in which none of them is clipped
+    # Shape as ``values``; the columns in which all of them are: the light is at least what makes
+    # white.
     clipped: NDArray[np.bool_]
     rows: float
 
@@ -81,18 +74,10 @@ class EvenProfile:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Cells:
-    """A region's pixels, averaged over bands of rows.
+    """A region's pixels, averaged over bands of rows."""
 
-    Parameters
-    ----------
-    means : ndarray of float32, shape (bands, columns)
-        In grey levels.
-    clipped : ndarray of float32, shape (bands, columns)
-        Fraction of clipped pixels.
-    """
-
-    means: NDArray[np.float32]
-    clipped: NDArray[np.float32]
+    means: NDArray[np.float32]  # shape (bands, columns); in grey levels
+    clipped: NDArray[np.float32]  # shape (bands, columns); fraction of clipped pixels
     rows_a_band: float
 
     @classmethod
@@ -116,10 +101,7 @@ class Cells:
     def profiles(self, width: int) -> list[EvenProfile]:
         """Return the profiles of pixels that are lit equally.
 
-        Parameters
-        ----------
-        width
-            Number of columns within which the lamp is surely lit for once.
+        ``width``: number of columns within which the lamp is surely lit for once.
         """
         width = max(3, min(width, 2 * self.means.shape[1] - 1)) | 1
         lit = cv2.dilate(self.means, np.ones((1, width), dtype=np.uint8))

@@ -18,10 +18,7 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
 
     A round lamp is thus as bright in its outer columns, which cover few rows, as in its middle.
 
-    Returns
-    -------
-    ndarray of float64, shape (columns of the lamp's region,)
-        Grey levels.
+    Shape (columns of the lamp's region,), grey levels.
     """
     region = lamp.region
     rows, columns = photo.samples.shape

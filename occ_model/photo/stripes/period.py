@@ -27,10 +27,8 @@ _MOST_ITERATIONS = 8
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:
     """Find the shortest period of stripes.
 
-    Returns
-    -------
-    period, uncertainty : float
-        The period in columns, and its standard deviation; None where nothing repeats.
+    ``period``, ``uncertainty``: the period in columns, and its standard deviation; None where
+    nothing repeats.
     """
     rough = _rough_period(flattened)
     return None if rough is None else _refined(flattened, rough)

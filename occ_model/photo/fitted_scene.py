@@ -277,7 +277,7 @@ def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
     try:
         scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)
     except ParameterError as error:
-        raise MatchError(f"The photo is no picture of a scene's camera: {error}") from None
+        raise MatchError(f"The photo cannot be a picture of the scene's camera: {error}") from None
     # A pixel's centre has a whole number, its edge lies half a pixel beside it.
     across = 0.5 * (region.first_column + region.last_column) - 0.5
     down = 0.5 * (region.first_row + region.last_row) - 0.5

@@ -94,7 +94,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         The photo shows no stripes, or no pattern and settings in range explain them better than
         chance and than no code at all.
     ParameterError
-        ``estimate``, ``sent`` or ``averaging`` is not one of these words, or ``region`` is no
+        ``estimate``, ``sent`` or ``averaging`` is not one of these words, or ``region`` is not a
         rectangle of the photo.
     """
     if photo.is_linear:
@@ -197,12 +197,12 @@ class _Progress:
         self._report, self._share, self._last = report, 0.0, 0.0
 
     def __call__(self, share: float) -> None:
-        """Report a share."""
+        """Report the fraction done."""
         self._share, self._last = share, time.monotonic()
         self._report(share)
 
     def again(self) -> None:
-        """Report the same share, if some time has passed: the receiver may end the work so."""
+        """Report the same fraction, if some time has passed: the receiver may end the work so."""
         if time.monotonic() - self._last > _SECONDS:
             self(self._share)
 

@@ -2,7 +2,7 @@
 
 100 JPEG photos of 12 million pixels (or as many as named) are read and matched by two processes (or
 as many as named). Only a few of them are simulated; the others are copies. Some are matched by one
-process first: its processor time tells what each costs also where the machine has other work.
+process first: its processor time shows what each costs also where the machine has other work.
 """
 
 import shutil
@@ -41,7 +41,7 @@ def _photos(folder: Path, count: int) -> list[Path]:
 
 
 def main() -> None:
-    """Match the photos, and tell what it cost."""
+    """Match the photos, and print the cost."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     jobs = int(sys.argv[2]) if len(sys.argv) > 2 else 2
     told = _scene().replace(readout_time=1e-6, exposure_time=1e-3)

@@ -30,7 +30,7 @@ from verdicts import Said, said_of, said_of_negative, said_of_other_code, said_o
 
 
 def line(what: str, errors: list[float], allowed: float) -> str:
-    """Say how large errors are in the median, and how many are within what is allowed."""
+    """Say how large errors are in the median, and how many are within the limit."""
     within = 100.0 * np.mean(np.array(errors) < allowed)
     return (
         f"{what}: median {100.0 * float(np.median(errors)):.2g} %, within {100.0 * allowed:g} %: "
@@ -85,11 +85,11 @@ WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterator[Any]], Callable[..
     "unknown": (300, partial(said_of, said_of_unknown_chips), tally),
     "known": (500, round_trips, report),
 }
-"""The full number of photographs, how they are matched, and how that is told."""
+"""The full number of photographs, how they are matched, and how the result is written."""
 
 
 def main() -> None:
-    """Match photographs, and tell how that went."""
+    """Match photographs, and print the figures."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", nargs="?", choices=list(WHAT), default="known")
     parser.add_argument("count", nargs="?", type=int, help="number of photographs")

@@ -1,4 +1,4 @@
-"""How well stated errors hold: the share of true values within one and two standard deviations."""
+"""How well stated errors hold: the true values within one and two standard deviations."""
 
 from itertools import pairwise
 from pathlib import Path
@@ -42,7 +42,7 @@ def as_share(value: float) -> str:
 
 
 def within(off: np.ndarray, most: float) -> str:
-    """Give the share of errors below some deviations, and by how much chance changes it."""
+    """Return the fraction of errors below some deviations, and by how much chance changes it."""
     share = float(np.mean(off < most))
     # By Agresti and Coull's estimate, which is not 0 where all are (Am. Stat. 52:119, 1998).
     likely = (share * len(off) + 2.0) / (len(off) + 4.0)
@@ -64,7 +64,7 @@ def told(found: list[Trial]) -> list[str]:
 
 
 def duties(found: list[Trial]) -> list[str]:
-    """Say how well the duties of pulses are told, and how many that were given are not so."""
+    """Report the errors of the duties of pulses, and how many that were given are wrong."""
     sure = [one for one in found if one.is_sure and np.isfinite(one.duty)]
     measured = [one for one in sure if np.isfinite(one.duty_deviation)]
     off = np.abs([one.duty / one.duty_deviation for one in measured])
@@ -81,7 +81,7 @@ def duties(found: list[Trial]) -> list[str]:
 
 
 def table(found: list[Trial]) -> list[str]:
-    """Write the table: each third of the saturated share, and all."""
+    """Write the table: each third of the saturated fraction, and all."""
     lines = [HEAD]
     for low, high in pairwise(SATURATION_THIRDS):
         part = [one for one in found if low <= one.saturated < high]

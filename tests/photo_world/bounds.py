@@ -1,4 +1,4 @@
-"""Cramer-Rao bounds of the times that a photograph of a known world tells."""
+"""Cramer-Rao bounds of the times measured in a photograph of a known world."""
 
 from dataclasses import dataclass, replace
 
@@ -25,7 +25,7 @@ _CHANGE = 1e-3
 """Columns by which a time is changed for finite differences, over all of them."""
 
 _EVENLY = 0.6
-"""Share of the brightest row's light from which rows count as lit well, as in a match."""
+"""Fraction of the brightest row's light from which rows count as lit well, as in a match."""
 
 _OF_BLUR = 0.02
 _REACH = 25
@@ -33,7 +33,7 @@ _REACH = 25
 
 
 def bound_of_light(world: World) -> tuple[float, float]:
-    """Give the bound of the readout and the exposure time by light alone, as relative deviations.
+    """Return the bound of the readout and the exposure time by light alone, as relative deviations.
 
     A pixel at row r and column i gathers m = W (b(r, i) lit(i) + a(r, i)) electrons on average, W
     being the full well, b the lamp's light and a the surroundings'. Their number is normal with the
@@ -59,7 +59,7 @@ def bound_of_light(world: World) -> tuple[float, float]:
 
 
 def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float, float]:
-    """Give the bound by the stored picture, with the unknowns that a match has.
+    """Return the bound by the stored picture, with the unknowns that a match has.
 
     A pixel's value is the tone curve of the light, blurred before or after it. Its noise is that of
     the light, blurred as well; of rounding, twice, 1/12 each; and of JPEG, which rounds the cosine
@@ -73,12 +73,8 @@ def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float
     prior's information is added to F (van Trees, Detection, Estimation, and Modulation Theory I,
     2.4), as in a match.
 
-    Parameters
-    ----------
-    world
-        The photograph's truth.
-    camera_known
-        Whether the camera is known exactly, so that only the noise differs from light alone.
+    ``world``: the photograph's truth. ``camera_known``: whether the camera is known exactly, so
+    that only the noise differs from light alone.
     """
     lamp, dark = _lights(world)
     slopes = _slopes_of_times(world)
@@ -101,22 +97,17 @@ def bound_of_picture(world: World, *, camera_known: bool = False) -> tuple[float
 def bound_of_profile(
     world: World, *, jpeg_alike: bool = False, beside_clipped: int = 0
 ) -> tuple[float, float]:
-    """Give the bound by the mean of each column over the rows that are lit well, as rows all alike.
+    """Return the bound by the mean of each column over the rows that are lit well.
 
     The unknowns are those of :func:`bound_of_picture`. The covariance of the mean over R rows is
     C/R, for noise that is independent from row to row.
 
-    Parameters
-    ----------
-    world
-        The photograph's truth.
-    jpeg_alike
-        Whether JPEG's rounding is alike in all rows as far as light is: a coefficient with a normal
-        noise of deviation s that is rounded to multiples of q is off, on average over the noise, by
-        (q/pi) exp(-2 (pi s/q)^2) sin(2 pi m/q) for a mean m, and by the sine's higher harmonics,
-        which are smaller. Of that error's variance nothing is averaged out.
-    beside_clipped
-        Columns beside a clipped one that are left out, too.
+    ``world``: the photograph's truth. ``jpeg_alike``: whether JPEG's rounding is alike in all rows
+    as far as light is: a coefficient with a normal noise of deviation s that is rounded to
+    multiples of q is off, on average over the noise, by (q/pi) exp(-2 (pi s/q)^2) sin(2 pi m/q) for
+    a mean m, and by the sine's higher harmonics, which are smaller. Of that error's variance
+    nothing is averaged out. ``beside_clipped``: columns beside a clipped one that are left out,
+    too.
     """
     lamp, dark = _lights(world)
     brightness = lamp.max(axis=1)
@@ -153,13 +144,13 @@ def bound_of_profile(
 
 
 def _lights(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Give the lamp's light and the surroundings' in each pixel; 1 makes white."""
+    """Return the lamp's light and the surroundings' in each pixel; 1 makes white."""
     passed = falloff(world) * scale(world)
     return world.lamp.brightness(world.rows, world.columns) * passed, world.ambient * passed
 
 
 def _slopes_of_times(world: World) -> list[np.ndarray]:
-    """Give the lit fraction's slopes over readout, exposure and start time, by relative changes.
+    """Return the lit fraction's slopes over readout, exposure and start time, by relative changes.
 
     The start is that of the middle column, relative to the exposure.
     """
@@ -176,7 +167,7 @@ def _slopes_of_times(world: World) -> list[np.ndarray]:
 
 
 def _slope_of_longer(world: World) -> np.ndarray:
-    """Give the lit fraction's slope over the chips by which the LED is on longer.
+    """Return the lit fraction's slope over the chips by which the LED is on longer.
 
     Each edge of the chips moves by half of it, so that each edge within an exposure adds half.
     """
@@ -196,27 +187,18 @@ def _slope_of_longer(world: World) -> np.ndarray:
 
 @dataclass(frozen=True)
 class _Row:
-    """A row of pixels: how its values change with the unknowns, and what its noise is made of.
+    """A row of pixels: how its values change with the unknowns, and what its noise is made of."""
 
-    Parameters
-    ----------
-    slopes : ndarray of float64, shape (unknowns, columns)
-    noise : ndarray of float64, shape (columns,)
-        Variance of what is blurred.
-    kernel, after : ndarray of float64
-        The blur, and what multiplies it.
-    """
-
-    slopes: np.ndarray
-    noise: np.ndarray
-    kernel: np.ndarray
+    slopes: np.ndarray  # shape (unknowns, columns)
+    noise: np.ndarray  # shape (columns,); variance of what is blurred
+    kernel: np.ndarray  # kernel, after: the blur, and what multiplies it
     after: np.ndarray
 
 
 def _of_row(
     world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np.ndarray
 ) -> np.ndarray:
-    """Give the Fisher information of a row of pixels."""
+    """Return the Fisher information of a row of pixels."""
     row = _row(world, light, of_light, longer)
     bands = _of_light(world, row)
     bands[0] += 2.0 / 12.0
@@ -254,7 +236,7 @@ def _row(world: World, light: np.ndarray, of_light: list[np.ndarray], longer: np
     timing = np.stack([after * _blurred(world, before * one, world.blur) for one in changes])
     more, less = world.blur + _OF_BLUR, max(world.blur - _OF_BLUR, 0.0)
     of_blur = (picture(more) - picture(less)) / (more - less)
-    # The bends of the curve, by the pixel value u as a share of white.
+    # The bends of the curve, by the pixel value u as a fraction of white.
     u = picture(world.blur) / 255.0
     bends = [
         -u * np.log(np.maximum(u, 1e-3)), 1.0 - u, u * (1.0 - u), u * (1.0 - u) * (1.0 - 2.0 * u)
@@ -269,7 +251,7 @@ def _blurred(world: World, row: np.ndarray, blur: float) -> np.ndarray:
 
 
 def _of_light(world: World, row: _Row) -> np.ndarray:
-    """Give the covariance of a row's light, as its diagonals from the main one downwards."""
+    """Return the covariance of a row's light, as its diagonals from the main one downwards."""
     columns, kernel = world.columns, row.kernel
     bands = np.zeros((_REACH, columns))
     padded = np.pad(row.noise, _REACH, mode="reflect")

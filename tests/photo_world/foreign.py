@@ -67,7 +67,7 @@ def _code(random: np.random.Generator, most: int) -> str:
 def _gathered(
     random: np.random.Generator, chips: str, chip: float, exposure: float, lines: int
 ) -> np.ndarray:
-    """Give the light that each line of the sensor gathers, by adding up fine samples."""
+    """Return the light that each line of the sensor gathers, by adding up fine samples."""
     time = np.arange(int((lines + exposure + 40.0 * chip) * _FINE)) / _FINE
     phase = random.uniform(0.0, len(chips))
     levels = np.array([float(one) for one in chips])
@@ -83,7 +83,7 @@ def _gathered(
 
 
 def _shape(random: np.random.Generator, rows: int) -> np.ndarray:
-    """Give how bright the lamp is in each row."""
+    """Return how bright the lamp is in each row."""
     place = np.linspace(-1.0, 1.0, rows) + random.uniform(-0.3, 0.3)
     return np.asarray(np.exp(-random.uniform(0.0, 2.0) * np.abs(place) ** 3))
 
@@ -96,7 +96,7 @@ def _scattered(random: np.random.Generator, light: np.ndarray) -> np.ndarray:
 
 
 def _falloff(random: np.random.Generator, shape: tuple[int, ...]) -> np.ndarray:
-    """Give a lamp that is brighter at some place along the scan, and a dirty glass before it."""
+    """Return a lamp that is brighter at some place along the scan, and a dirty glass before it."""
     place = np.linspace(-1.0, 1.0, shape[1]) - random.uniform(-0.6, 0.6)
     hot = 1.0 / (1.0 + random.uniform(0.0, 2.0) * place**2)
     return hot * (1.0 + 0.03 * np.sin(random.uniform(2.0, 9.0) * place + random.uniform(0.0, 6.0)))

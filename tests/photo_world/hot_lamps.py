@@ -2,7 +2,7 @@
 
 Round lamps, and tubes on a slope, are bright in their middle and fall off by up to a factor of
 thirty to their rim; light is scattered around them and mirrored below them. They are small or
-large, one or several, exposed for 0.05 to 8 chips. What they send is told by the places of its
+large, one or several, exposed for 0.05 to 8 chips. What they send is given by the places of its
 edges, so that a transmitter may pause between bursts, and its edges jitter by up to half a column.
 """
 
@@ -21,7 +21,7 @@ _PLACES = 60
 
 _STEEPEST = 0.15
 _SEEN = 0.1
-"""Depth of a lamp's stripes, as a share of its light, from which it is to be found."""
+"""Depth of a lamp's stripes, as a fraction of its light, from which it is to be found."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Sent:
     pauses: bool
 
     def lit_fraction(self, columns: int, exposure: float) -> np.ndarray:
-        """Give the share of each column's exposure in which the lamp is on, shape (columns,)."""
+        """Return the lit fraction of each column's exposure, shape (columns,)."""
         edges = np.stack([self.on, self.off], axis=1).ravel()
         gathered = np.repeat(np.cumsum(self.off - self.on), 2)
         gathered[0::2] -= self.off - self.on
@@ -122,7 +122,7 @@ def _sent(random: np.random.Generator, columns: int) -> Sent:
     on, off = chip * (rising + start), chip * (falling + start)
     jitter = max(0.0, random.uniform(-0.5, 0.5))
     pauses = random.random() < 0.1
-    if pauses:  # some periods, and a time that is no whole number of chips
+    if pauses:  # some periods, and a time that is not a whole number of chips
         burst = rising // (len(chips) * int(random.integers(3, 8)))
         late = burst * random.uniform(1.0, 6.0) * chip
         on, off = on + late, off + late
@@ -181,7 +181,7 @@ def _mirrored(random: np.random.Generator, thing: Thing, shape: tuple[int, int])
 
 
 def _surface(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) -> np.ndarray:
-    """Give the light of each pixel of a lamp that is on: 1 in its hot middle."""
+    """Return the light of each pixel of a lamp that is on: 1 in its hot middle."""
     slope = random.uniform(-1.0, 1.0) * _STEEPEST if thing.shape == "rectangular" else 0.0
     across = np.arange(shape[1])[None, :] - thing.column
     down = np.arange(shape[0])[:, None] - thing.row - slope * across

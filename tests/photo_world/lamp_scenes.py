@@ -154,7 +154,7 @@ def _place(
 
 
 def _beside(random: np.random.Generator, thing: Thing, other: Thing) -> tuple[float, float]:
-    """Give a place at which two things touch, above, below, or to a side."""
+    """Return a place at which two things touch, above, below, or to a side."""
     side, aside = random.integers(0, 2), 1.0 if random.random() < 0.5 else -1.0
     off = float(random.uniform(-0.3, 0.3))
     if thing.shape == other.shape == "round":

@@ -9,7 +9,7 @@ import occ_model as occ
 from photo_world.lamp_scenes import LampScene, Thing, lamp_scene
 
 OVERLAP = 0.4
-"""Least share of the rectangle around two places that both fill, for them to be the same."""
+"""Minimum fraction of the rectangle around two places that both fill, for them to be the same."""
 
 FREQUENCY = 0.01
 
@@ -83,7 +83,7 @@ class Score:
 
 
 def counted_chip(thing: Thing) -> float:
-    """Give the columns of a chip; a pulse that repeats counts as two chips a cycle."""
+    """Return the columns of a chip; a pulse that repeats counts as two chips a cycle."""
     pulses = sum(
         on > before for before, on in zip(thing.wave, thing.wave[1:] + thing.wave[:1], strict=True)
     )
@@ -91,7 +91,7 @@ def counted_chip(thing: Thing) -> float:
 
 
 def overlap(thing: Thing, region: occ.Region) -> float:
-    """Give the intersection of two rectangles over their union."""
+    """Return the intersection of two rectangles over their union."""
     top, bottom, left, right = thing.box
     rows = min(bottom, region.last_row) - max(top, region.first_row)
     columns = min(right, region.last_column) - max(left, region.first_column)

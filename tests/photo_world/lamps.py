@@ -8,34 +8,21 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Lamp:
-    """A lamp in the picture.
+    """A lamp in the picture."""
 
-    Parameters
-    ----------
-    shape
-        ``"round"`` or ``"rectangular"``.
-    middle_row, middle_column, half_height, half_width
-        In pixels.
-    rim
-        Width of its rim in pixels, over which it fades.
-    darkening
-        Share of its light that is lost from its middle to its rim.
-    halo, halo_size
-        Share of its light that is scattered around it, and how far in pixels.
-    """
-
-    shape: str
-    middle_row: float
+    shape: str  # ``"round"`` or ``"rectangular"``
+    middle_row: float  # middle_row, middle_column, half_height, half_width: in pixels
     middle_column: float
     half_height: float
     half_width: float
-    rim: float
-    darkening: float
+    rim: float  # width of its rim in pixels, over which it fades
+    darkening: float  # fraction of its light that is lost from its middle to its rim
+    # halo, halo_size: fraction of its light that is scattered around it, and how far in pixels.
     halo: float
     halo_size: float
 
     def brightness(self, rows: int, columns: int) -> np.ndarray:
-        """Give the light of each pixel while it is lit, about 1 at most, shape (rows, columns).
+        """Return the light of each pixel while it is lit, about 1 at most, shape (rows, columns).
 
         Optical scattering moves light between places of the picture and not between times: the halo
         in a column blinks as the column's exposure sees it.

@@ -13,24 +13,12 @@ _ROWS = 24
 
 @dataclass(frozen=True, eq=False)
 class Message:
-    """A photograph of a message.
+    """A photograph of a message."""
 
-    Parameters
-    ----------
-    photo
-        The photograph.
-    chips
-        All chips that are sent, as a text of 0 and 1.
-    first
-        Chips that are sent before the middle of the first column's exposure.
-    columns_per_chip
-        Length of a chip.
-    """
-
-    photo: occ.Photo
-    chips: str
-    first: float
-    columns_per_chip: float
+    photo: occ.Photo  # the photograph
+    chips: str  # all chips that are sent, as a text of 0 and 1
+    first: float  # chips that are sent before the middle of the first column's exposure
+    columns_per_chip: float  # length of a chip
 
     def is_right(self, read: occ.ChipReading) -> bool:
         """Whether the chips read are those sent, at their place."""
@@ -46,7 +34,7 @@ def message(seed: int, *, pauses: bool = False) -> Message:
 
     A third are Manchester-coded. Half of the lamps are brighter than white; the light is uneven,
     the tone curve a gamma of 1 to 2.4; there is blur of up to 1.5 columns, and noise. With pauses
-    the lamp is off for 2 to 6 chips after every 16 to 40, which are no whole number.
+    the lamp is off for 2 to 6 chips after every 16 to 40, which are not a whole number.
     """
     random = np.random.default_rng([77, seed])
     columns_per_chip = float(np.exp(random.uniform(np.log(2.5), np.log(30.0))))

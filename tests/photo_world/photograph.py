@@ -26,32 +26,10 @@ _SEEN_PERIODS = 1.6
 
 @dataclass(frozen=True)
 class World:
-    """The truth of one photograph, in SI units.
-
-    Parameters
-    ----------
-    chips
-        One period of what is sent, as a text of 0 and 1.
-    saturated
-        Share of the lamp's pixels that shall be white; a lamp that is mostly dark has fewer.
-    ambient
-        Light of the surroundings, as a share of the lamp's.
-    peak
-        The brightest light of a lamp that is not saturated, as a share of what makes white.
-    blur
-        Standard deviation in columns of the blur by image processing.
-    blur_shape
-        ``"normal"``; ``"box"``, as resizing blurs; or ``"exponential"``, with long tails.
-    blur_of_values
-        Whether pixel values are blurred (noise reduction, resizing) instead of light (demosaicing).
-    full_well, read_noise
-        In electrons; white is ``full_well``.
-    quality
-        Of the JPEG.
-    """
+    """The truth of one photograph, in SI units."""
 
     seed: int
-    chips: str
+    chips: str  # one period of what is sent, as a text of 0 and 1
     switching_frequency: float
     readout_time: float
     exposure_time: float
@@ -60,16 +38,20 @@ class World:
     columns: int
     lamp: Lamp
     curve: ToneCurve
+    # Fraction of the lamp's pixels that shall be white; a lamp that is mostly dark has fewer.
     saturated: float
-    ambient: float
+    ambient: float  # light of the surroundings, as a fraction of the lamp's
+    # The brightest light of a lamp that is not saturated, as a fraction of what makes white.
     peak: float
     vignetting: float
-    blur: float
+    blur: float  # standard deviation in columns of the blur by image processing
+    # ``"normal"``; ``"box"``, as resizing blurs; or ``"exponential"``, with long tails.
     blur_shape: str
+    # Whether pixel values are blurred (noise reduction, resizing) instead of light (demosaicing).
     blur_of_values: bool
-    full_well: float
+    full_well: float  # full_well, read_noise: in electrons; white is ``full_well``
     read_noise: float
-    quality: int
+    quality: int  # of the JPEG
 
     @property
     def exposure_in_chips(self) -> float:
@@ -145,7 +127,7 @@ def _random_shape(seed: int) -> str:
 
 
 def lit_fraction(world: World) -> np.ndarray:
-    """Give the share of each column's exposure in which the lamp is lit, shape (columns,).
+    """Return the fraction of each column's exposure in which the lamp is lit, shape (columns,).
 
     The running integral of the light at the end of an exposure less that at its start.
     """
@@ -161,7 +143,7 @@ def lit_fraction(world: World) -> np.ndarray:
 
 
 def falloff(world: World) -> np.ndarray:
-    """Give the share of the light that the lens passes on to each pixel."""
+    """Return the fraction of the light that the lens passes on to each pixel."""
     rows, columns = world.rows, world.columns
     down = (np.arange(rows)[:, None] / rows - 0.5) * rows / columns
     across = np.arange(columns)[None, :] / columns - 0.5
@@ -169,12 +151,12 @@ def falloff(world: World) -> np.ndarray:
 
 
 def expected_light(world: World) -> np.ndarray:
-    """Give the light on each pixel without noise; 1 makes white. Shape (rows, columns)."""
+    """Return the light on each pixel without noise; 1 makes white. Shape (rows, columns)."""
     return np.asarray(_light(world) * scale(world))
 
 
 def scale(world: World) -> float:
-    """Give what makes a lamp of light 1 white, or as bright as the world's is."""
+    """Return what makes a lamp of light 1 white, or as bright as the world's is."""
     light = _light(world)
     seen = light[world.lamp.covers(world.rows, world.columns)]
     if world.saturated == 0.0:

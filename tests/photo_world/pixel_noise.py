@@ -10,7 +10,7 @@ _TABLE = np.array([16, 11, 10, 16, 24, 40, 51, 61])
 
 
 def square_of(bands: np.ndarray) -> np.ndarray:
-    """Give a block of eight columns of a covariance from its diagonals."""
+    """Return a block of eight columns of a covariance from its diagonals."""
     block = np.zeros((8, 8))
     for apart in range(8):
         values = bands[apart, : 8 - apart]
@@ -19,14 +19,14 @@ def square_of(bands: np.ndarray) -> np.ndarray:
 
 
 def jpeg_steps(world: World) -> np.ndarray:
-    """Give the steps to which JPEG rounds the coefficients of eight columns."""
+    """Return the steps to which JPEG rounds the coefficients of eight columns."""
     quality = world.quality
     percent = 5000 // quality if quality < 50 else 200 - 2 * quality
     return np.asarray(np.clip((_TABLE * percent + 50) // 100, 1, 255), dtype=np.float64)
 
 
 def cosines_of_eight() -> np.ndarray:
-    """Give the orthonormal cosines of eight columns, one a row."""
+    """Return the orthonormal cosines of eight columns, one a row."""
     place = np.arange(8)
     return np.sqrt(np.where(place == 0, 1.0, 2.0) / 8.0)[:, None] * np.cos(
         np.pi / 8.0 * np.outer(place, place + 0.5)
@@ -34,7 +34,7 @@ def cosines_of_eight() -> np.ndarray:
 
 
 def jpeg_noise(world: World) -> np.ndarray:
-    """Give the covariance by JPEG of a row's pixels, as eight diagonals."""
+    """Return the covariance by JPEG of a row's pixels, as eight diagonals."""
     cosines = cosines_of_eight()
     block = cosines.T @ np.diag(jpeg_steps(world) ** 2 / 12.0) @ cosines
     bands = np.zeros((8, world.columns))

@@ -40,32 +40,32 @@ def _shoulder(light: np.ndarray, knee: float) -> np.ndarray:
 
 
 def power(gamma: float) -> ToneCurve:
-    """Give the curve of a plain gamma."""
+    """Return the curve of a plain gamma."""
     return ToneCurve(f"gamma {gamma:.2f}", gamma, partial(_power, gamma=gamma))
 
 
 def srgb() -> ToneCurve:
-    """Give the curve of IEC 61966-2-1."""
+    """Return the curve of IEC 61966-2-1."""
     return ToneCurve("sRGB", None, _srgb)
 
 
 def rec709() -> ToneCurve:
-    """Give the curve of ITU-R BT.709, which video cameras have."""
+    """Return the curve of ITU-R BT.709, which video cameras have."""
     return ToneCurve("BT.709", None, _rec709)
 
 
 def contrasty(strength: float) -> ToneCurve:
-    """Give a gamma of 2.2 with an S on it: deeper shadows and brighter lights, as phones add."""
+    """Return a gamma of 2.2 with an S on it: deeper shadows and brighter lights, as phones add."""
     return ToneCurve(f"S of {strength:.2f}", None, partial(_contrasty, strength=strength))
 
 
 def shoulder(knee: float) -> ToneCurve:
-    """Give a gamma of 2.2 whose lights are compressed, as in film and in pictures of HDR."""
+    """Return a gamma of 2.2 whose lights are compressed, as in film and in pictures of HDR."""
     return ToneCurve(f"shoulder of {knee:.2f}", None, partial(_shoulder, knee=knee))
 
 
 def unknown_curve(random: np.random.Generator) -> ToneCurve:
-    """Draw a curve that nobody told the program."""
+    """Draw a tone curve that the program does not know."""
     kind = int(random.integers(5))
     if kind == 0:
         return power(float(random.uniform(1.7, 2.7)))

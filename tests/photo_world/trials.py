@@ -14,45 +14,31 @@ from photo_world.hot_lamps import hot_lamps
 from photo_world.photograph import KNOWN_GAMMA, World, photograph, random_world
 
 SATURATION_THIRDS = (0.0, 0.2, 0.4, 0.6)
-"""Shares of saturated pixels that divide the photographs."""
+"""Fractions of saturated pixels that divide the photographs."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One photograph, matched.
+    """One photograph, matched."""
 
-    Parameters
-    ----------
-    world
-        Its truth; or the number by which it is drawn.
-    saturated
-        Share of the lamp's pixels that are white.
-    readout, exposure
-        Relative errors.
-    readout_deviation, exposure_deviation
-        Relative standard deviations, as stated.
-    light_bounds, picture_bounds
-        Relative standard deviations of readout and exposure that no unbiased estimate can fall
-        below: by light alone, and by the stored picture with the unknowns that a match has.
-    doubts, exposure_doubts
-        Why the match is not sure, and why its exposure time alone is not.
-    failure
-        Why there is none.
-    duty, duty_deviation
-        Error of a pulse's duty, and its standard deviation where it was not taken as told.
-    """
-
-    world: World | int
-    saturated: float
-    readout: float = np.nan
+    world: World | int  # its truth; or the number by which it is drawn
+    saturated: float  # fraction of the lamp's pixels that are white
+    readout: float = np.nan  # readout, exposure: relative errors
     exposure: float = np.nan
+    # Readout_deviation, exposure_deviation: relative standard deviations, as stated.
     readout_deviation: float = np.nan
     exposure_deviation: float = np.nan
+    # Light_bounds, picture_bounds: relative standard deviations of readout and exposure that no
+    # unbiased estimate can fall below: by light alone, and by the stored picture with the unknowns
+    # that a match has.
     light_bounds: tuple[float, float] = (np.nan, np.nan)
     picture_bounds: tuple[float, float] = (np.nan, np.nan)
+    # Doubts, exposure_doubts: why the match is not sure, and why its exposure time alone is not.
     doubts: tuple[str, ...] = ()
     exposure_doubts: tuple[str, ...] = ()
-    failure: str = ""
+    failure: str = ""  # why there is none
+    # Duty, duty_deviation: error of a pulse's duty, and its standard deviation where it was not
+    # taken as given.
     duty: float = np.nan
     duty_deviation: float = np.nan
 
@@ -72,7 +58,7 @@ class Trial:
 
 
 def told(world: World) -> occ.Scene:
-    """Give a scene that holds what is told of a photograph: the chips and their frequency."""
+    """Return the scene of what is known of a photograph: the chips and their frequency."""
     return occ.load_preset("phone-68us").replace(
         pattern=world.chips,
         switching_frequency=world.switching_frequency,
@@ -112,7 +98,7 @@ def trial_of(seed: int) -> Trial:
 
 
 def hot_trial_of(seed: int) -> Trial:
-    """Match the photograph of one lamp as it is found in a room, told what it sends."""
+    """Match the photograph of one lamp as it is found in a room; what it sends is known."""
     drawn = hot_lamps(seed)
     ((sent,), (thing,)) = drawn.sent, drawn.lamps
     top, bottom, left, right = (max(0, round(side)) for side in thing.box)
@@ -127,7 +113,7 @@ def hot_trial_of(seed: int) -> Trial:
 
 
 def foreign_trial_of(seed: int) -> Trial:
-    """Match the photograph by another camera, told what was sent."""
+    """Match the photograph by another camera; what was sent is known."""
     drawn = foreign(seed)
     saturated = float(np.mean(drawn.image >= 254))
     return _trial_by_columns(

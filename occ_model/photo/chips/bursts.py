@@ -1,4 +1,4 @@
-"""Bursts of chips that are no whole number of chips apart: each has a phase of its own."""
+"""Bursts of chips that are not a whole number of chips apart: each has a phase of its own."""
 
 from itertools import pairwise
 
@@ -22,7 +22,7 @@ minimum coherence with the former."""
 def in_phase(edges: Edges) -> Edges | None:
     """Move bursts until all lie on one lattice; None where one lattice explains edges as well.
 
-    A pause that is no whole number of chips is lengthened or shortened by up to half a chip.
+    A pause that is not a whole number of chips is lengthened or shortened by up to half a chip.
     """
     bursts = _bursts(edges)
     if len(bursts) < 2:
@@ -66,7 +66,7 @@ def _bursts(edges: Edges) -> list[Edges]:
     for first, last in pairwise(bounds):
         part = edges.within(np.nextafter(first, np.inf), last)
         if found and (part.count < _LEAST_EDGES or found[-1].count < _LEAST_EDGES):
-            before = found.pop()  # too few edges to tell a phase
+            before = found.pop()  # too few edges for a phase
             part = Edges(
                 np.concatenate([before.rising, part.rising]),
                 np.concatenate([before.falling, part.falling]),

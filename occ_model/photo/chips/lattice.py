@@ -124,9 +124,9 @@ def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | Non
 def certainty(edges: Edges, lattice: Lattice) -> float:
     """Return the probability that all edges are those of the chips they are nearest to.
 
-    Two parts: that the coherence is no chance (Rayleigh's test: n edges of random phase have a mean
-    phase factor longer than R with the probability exp(-n R^2), for each lattice tried), and that
-    no edge is displaced by half a chip or more, were their displacements normal.
+    Two parts: that the coherence is not by chance (Rayleigh's test: n edges of random phase have a
+    mean phase factor longer than R with the probability exp(-n R^2), for each lattice tried), and
+    that no edge is displaced by half a chip or more, were their displacements normal.
     """
     off = [kind - np.rint(kind) for kind in chip_numbers(edges, lattice)]
     both = np.concatenate(off)

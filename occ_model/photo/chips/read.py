@@ -25,7 +25,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     """Read the chips in view of a photo, without knowing what is sent or whether it repeats.
 
     The edges of the stripes lie on a lattice of chips, the coarsest that explains them; a pause
-    between bursts that is no whole number of chips is counted as the nearest one. Chips whose
+    between bursts that is not a whole number of chips is counted as the nearest one. Chips whose
     exposure is longer than themselves leave too few edges to be read so.
 
     Parameters
@@ -46,7 +46,7 @@ def read_chips(photo: Photo, region: Corners | Lamp | None = None) -> ChipReadin
     MatchError
         There are no stripes, or their edges lie on no lattice of chips.
     ParameterError
-        ``region`` is no rectangle of the photo.
+        ``region`` is not a rectangle of the photo.
     """
     stripes = find_stripes(photo, region)
     seen = edges_of(stripes.flattened)

@@ -36,7 +36,7 @@ class Repetition:
     # Half the difference of its crests and troughs, as a fraction of the stripes' swing.
     amplitude: float
     above_noise: float  # its power over that of the noise around it
-    share: float  # its share of the residual's power
+    share: float  # its fraction of the residual's power
 
 
 def strongest_line(

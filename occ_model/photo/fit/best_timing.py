@@ -14,7 +14,7 @@ from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results.match import Stripes
 
 _LEAST_SURE_CORRELATION = 0.9
-"""Correlation above which a candidate is no coincidence."""
+"""Correlation above which a candidate is not a coincidence."""
 
 _LEAST_CORRELATION_RATIO = 0.85
 """Minimum correlation of further candidates relative to the best one."""

@@ -1,4 +1,4 @@
-"""The covariance of parameters that are fitted to stripes, whose residual is no mere noise."""
+"""The covariance of parameters that are fitted to stripes, whose residual is not mere noise."""
 
 import numpy as np
 from numpy.typing import NDArray

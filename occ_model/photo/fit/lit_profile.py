@@ -75,7 +75,8 @@ class LitProfile:
     """A profile's columns that are not clipped, and those that are, with the levels' shapes.
 
     ``freedom``: number of Chebyshev polynomials of which either level is a combination. ``slow``:
-    number of those that say nothing: what lamps are shaped like is no matter of the stripes.
+    number of those that carry no information: the shape of a lamp does not
+    depend on the stripes.
     """
 
     def __init__(self, profile: EvenProfile, freedom: int, slow: int = 0) -> None:

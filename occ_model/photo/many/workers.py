@@ -59,7 +59,7 @@ def rows_by_workers(files: Files, settings: MatchSettings, jobs: int, heartbeat:
 
 
 def _has_workers(settings: MatchSettings, heartbeat: Heartbeat) -> bool:
-    """Whether a worker can do anything at all: it is given a path that is no file."""
+    """Whether a worker can do anything at all: it is given a path that is not a file."""
     trial = _Progress(iter([(0, Path())]), settings)
     return any(True for _ in _finished(trial, 1, heartbeat))
 

@@ -71,7 +71,7 @@ def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
     """Return the function that opens a file's first picture, not yet decoded, at each call.
 
     Its arguments are the fractions of the work between which the picture will be decoded. It raises
-    PhotoError where the file is no image, damaged or too large.
+    PhotoError where the file is not an image, damaged or too large.
     """
     return lambda first, last: _first_picture(path, file, max_pixels, (first, last))
 
@@ -115,7 +115,7 @@ def _pillow_ready(max_pixels: int) -> Iterator[None]:
 
 
 def _check_file(path: Path, max_pixels: int) -> None:
-    """Refuse a path that is no regular file or an empty one: opening a pipe could block."""
+    """Refuse a path that is not a regular file or is empty: opening a pipe could block."""
     shown = one_line(str(path))
     try:
         status = path.stat()

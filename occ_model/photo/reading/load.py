@@ -113,9 +113,9 @@ def load_photo(
     Raises
     ------
     PhotoError
-        There is no such file, it may not be read, or it is no complete image of reasonable size.
+        There is no such file, it may not be read, or it is not a complete image of allowed size.
     ParameterError
-        ``scan_axis`` or ``channel`` is not one of these words, or ``max_pixels`` no number from 1.
+        ``scan_axis`` or ``channel`` is not one of these words, or ``max_pixels`` is below 1.
     """
     check_choice("scan_axis", scan_axis, SCAN_AXES)
     check_choice("channel", channel, CHANNELS)

@@ -1,8 +1,8 @@
 """Gather the pixels of a lamp that are about equally bright into profiles of their own.
 
-A mean over pixels of which some are clipped is no response of any light. Within a group of pixels
-that the lamp lights equally, each column is either clipped or a response to one light. A round lamp
-has such groups too, and its profile's swing then does not follow its disc.
+A mean over pixels of which some are clipped is not the response to any light. Within a group of
+pixels that the lamp lights equally, each column is either clipped or a response to one light. A
+round lamp has such groups too, and its profile's swing then does not follow its disc.
 """
 
 from dataclasses import dataclass

@@ -78,7 +78,7 @@ def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
     MatchError
         There are no stripes: the photo is flat or too narrow, or its rows do not vary together.
     ParameterError
-        ``region`` is no rectangle of the photo.
+        ``region`` is not a rectangle of the photo.
     """
     if region is None:
         return _stripes_of(photo)

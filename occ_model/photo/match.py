@@ -23,8 +23,8 @@ from occ_model.photo.fitted_scene import (
     described,
     exposure_time,
     readout_and_frequency,
-    with_notes,
 )
+from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.reading.part import Corners
 from occ_model.photo.stripes.find import find_stripes

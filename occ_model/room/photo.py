@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.projection import check_size
-from occ_model.photo.fitted_scene import with_notes
+from occ_model.photo.photo_scene import with_notes
 from occ_model.photo.reading.load import Photo
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.room import Room, check_room

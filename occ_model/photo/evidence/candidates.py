@@ -14,7 +14,7 @@ from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
 from occ_model.photo.fit.least_squares import StripeFit, Tone
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
-from occ_model.photo.fitted_scene import with_chips
+from occ_model.photo.photo_scene import with_chips
 from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips

@@ -11,17 +11,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.averaged_fits import averaged
-from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
-from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
+from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import runs_of
+from occ_model.photo.fit.exposure_modes import exposure_modes
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
-from occ_model.photo.fit.other_starts import (
-    alike_among,
-    other_starts,
-    scanned_starts,
-)
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results.match import Stripes
@@ -29,18 +23,6 @@ from occ_model.results.match import Stripes
 _CHIPS_LIT = 8
 """Number of chips within which an LED is on at least once; a period where that is shorter, or where
 it is on once only."""
-
-_MOST_EXCESS_MISFIT = 60.0
-"""Excess of the misfit above which an exposure is not refined."""
-
-_MOST_EXCESS, _MOST_RATIO = 9.0, 1.3
-"""Excess of the misfit (three standard deviations), and its ratio, up to which another exposure is
-as likely."""
-
-_MOST_SQUARE_WAVE_RATIO = 3.0
-"""The same ratio for a square wave, whose stripes at such exposures differ by blur and saturation
-only: an exposure of 2.2 chips had 1.5 to 2.4 times the misfit of 0.23, where 2.15 was right (seed
-730036)."""
 
 _UNKNOWN_RAMP = 0.002
 """Relative standard deviation of an exposure due to the shape of its ramps: switching, and
@@ -109,7 +91,7 @@ def refined(
         stripes.profile, chips, explanation.camera.tone, step,
         explanation.camera.rank_resolution,
     )  # fmt: skip
-    found, alike = _modes(models, explanation, model.is_possible)
+    found, alike = exposure_modes(models, explanation, model.is_possible)
     seen, unusual = (of(found[0].values) for of in (models[0].edges_seen, models[0].unusual))
     if seen < _LEAST_EDGES:
         found = [_with_step_of(mode, explanation) for mode in found]
@@ -124,82 +106,6 @@ def refined(
     possible = [fit for fit in fits if fit.is_possible] or fits[:1]
     possible.sort(key=lambda fit: fit.timing.exposure)
     return Refined(_with_steps_of_all(possible), _doubts(unusual), _exposure_doubts(seen, alike))
-
-
-def _modes(
-    models: Sequence[JointModel], explanation: Explanation, is_possible: Callable[[Timing], bool]
-) -> tuple[list[JointFit], list[JointFit]]:
-    """Find the exposures that are about as likely as the most likely one, that one first.
-
-    Besides, for a square wave, those that are less likely, but not surely distinguishable.
-    """
-    first = models[0]
-    best = min(explanation.fits, key=lambda fit: fit.residual).timing
-    first.estimate_noise(first.start(best))
-    usual = first.fit(first.start(best))
-    first.estimate_noise(usual.values)
-    for model in models[1:]:
-        model.take_noise(first)
-    groups = [possible_near(models, usual.values)]
-    is_square, alike = len(explanation.chips) == 2, list[JointFit]()
-    # Of the same model: another one may explain every exposure better.
-    least = min(one.fit.misfit for one in groups[0] if one.model is first)
-    for start in _other_starts(
-        first, min(groups[0], key=lambda one: one.fit.misfit), explanation, is_possible
-    ):
-        other = first.fit(start)
-        exposures = [one.fit.exposure for group in groups for one in group]
-        exposures += [fit.exposure for fit in alike]
-        if any(abs(other.exposure - exposure) <= SAME_EXPOSURE for exposure in exposures):
-            continue
-        if other.misfit < least + _MOST_EXCESS_MISFIT:
-            groups.append([Possible(first, other)])
-        elif is_square and other.misfit < _MOST_SQUARE_WAVE_RATIO * least:
-            alike.append(other)
-    likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
-    likely.model.estimate_noise(likely.fit.values)
-    for model in models:
-        model.take_noise(likely.model)
-    means, tried = [], list[JointFit]()
-    for group in groups:
-        most = min(one.fit.misfit for one in group) + _MOST_EXCESS_MISFIT
-        fits = [fit for one in group if one.fit.misfit <= most for fit in one.again()]
-        means.append(averaged(fits))
-        tried += fits
-    least = min(fit.misfit for fit in means)
-    most = _MOST_RATIO * least + _MOST_EXCESS
-    # A square wave's first one stays: its stripes are those of the others, to the last column.
-    stays = means[0] if is_square else None
-    kept = [fit for fit in means if fit.misfit < most or fit is stays]
-    if is_square:
-        alike += alike_among(
-            tried,
-            [*kept, *alike],
-            _MOST_SQUARE_WAVE_RATIO * least,
-            lambda fit: is_possible(first.timing(fit.values)),
-        )
-    return sorted(kept, key=lambda fit: fit.misfit), alike
-
-
-def _other_starts(
-    model: JointModel,
-    found: Possible,
-    explanation: Explanation,
-    is_possible: Callable[[Timing], bool],
-) -> list[FloatArray]:
-    """Return the parameters to start from, for other exposures than the one found."""
-    best = min(explanation.fits, key=lambda fit: fit.residual).timing
-    starts = [model.start(one) for one in other_starts(explanation, best) if is_possible(one)]
-    if len(explanation.chips) == 2:
-        # What looks the same does so by the exposure without blur, which the first fits include.
-        _, exposure, middle = found.fit.values[:3].tolist()
-        for one in other_starts(explanation, replace(best, exposure=exposure, middle=middle)):
-            if is_possible(one):
-                values = model.adapted(found.fit.values)
-                values[1:3] = one.exposure, one.middle
-                starts.append(values)
-        return starts
-    return [*starts, *scanned_starts(model, found.fit.values, is_possible)]
 
 
 def _with_step_of(mode: JointFit, explanation: Explanation) -> JointFit:

@@ -17,10 +17,8 @@ from occ_model.photo.fitted_scene import (
     _within_pulse,
     exposure_time,
     readout_and_frequency,
-    with_allowed,
-    with_chips,
-    with_levels,
 )
+from occ_model.photo.photo_scene import with_allowed, with_chips, with_levels
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 

@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from occ_model.photo.fit import joint_estimate
+from occ_model.photo.fit import exposure_modes
+from occ_model.photo.fit.exposure_modes import _other_starts
 from occ_model.photo.fit.joint_estimate import (
     _doubts,
     _exposure_doubts,
-    _other_starts,
     _rounding,
     _widened,
     _with_step_of,
@@ -114,7 +114,7 @@ def test_other_exposures_of_a_square_wave_start_from_the_best_fit(
         near.append(best)
         return [replace(best, exposure=2.0 - best.exposure), replace(best, exposure=9.0)]
 
-    monkeypatch.setattr(joint_estimate, "other_starts", others)
+    monkeypatch.setattr(exposure_modes, "other_starts", others)
     model: Any = SimpleNamespace(
         start=lambda timing: np.array([timing.step, timing.exposure, timing.middle, *[0.0] * 6]),
         adapted=np.copy,

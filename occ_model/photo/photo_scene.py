@@ -1,0 +1,129 @@
+"""A scene with what a photo shows: its chips, its size and place, its light, its EXIF data."""
+
+import math
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.photometry import luminance_of
+from occ_model.camera.projection import image_rays
+from occ_model.effects.distortion import distorted
+from occ_model.errors import MatchError, ParameterError
+from occ_model.photo.fit.least_squares import StripeFit
+from occ_model.photo.reading.load import Photo
+from occ_model.results.decoding import Region
+from occ_model.scene.parameter_kinds import ParameterValue
+from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.scene import Lens, Scene
+from occ_model.transmitter.packet import code_of, sent_chips
+from occ_model.transmitter.scheme import scheme_of
+
+_ITERATIONS = 40
+"""Fixed-point iterations of the inverse distortion; each leaves a few percent of the error."""
+
+_NOTED = ("iso", "f_number")
+"""Parameters that are taken from a photo's EXIF data; the exposure time is fitted."""
+
+
+def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:
+    """Set a scene's chips: as the code or payload that they are, else as a raw pattern.
+
+    ``turned``: number of chips by which its period starts later than the given chips.
+    """
+    sent = _sending(scene, chips)
+    if sent is not None:
+        packet = sent_chips(sent.transmitter)
+        for turned in range(len(chips)):
+            if np.array_equal(np.roll(chips, -turned), packet):
+                return sent, turned
+    return scene.replace(pattern="".join(map(str, chips.tolist()))), 0
+
+
+def _sending(scene: Scene, chips: ByteArray) -> Scene | None:
+    """Return the scene with the payload that its scheme reads from a period of chips, if any."""
+    scene = scene.replace(pattern="")
+    scheme = scheme_of(scene.transmitter)
+    if len(chips) != scheme.length:
+        return None
+    # A frame starts anywhere in the first period, and the next header follows it.
+    read = scheme.decode(np.tile(chips, 3))
+    bits = read.bits.tolist()
+    if read.failure is not None:
+        return None
+    if not scene.transmitter.payload:
+        return scene.replace(code=code_of(bits))
+    if bits == list(scene.transmitter.payload_bits):
+        return scene
+    return scene.replace(payload="bits:" + "".join(map(str, bits)))
+
+
+def at_the_photo(scene: Scene, photo: Photo, region: Region) -> Scene:
+    """Set the picture's size to the photo's, and the panel so that it fills a region of it.
+
+    The panel keeps its distance, level and upright.
+    """
+    rows, columns = photo.samples.shape
+    try:
+        scene = scene.replace(rows=rows, columns=columns, yaw=0.0, pitch=0.0, roll=0.0)
+    except ParameterError as error:
+        raise MatchError(f"The photo cannot be a picture of the scene's camera: {error}") from None
+    # A pixel's centre has a whole number, its edge lies half a pixel beside it.
+    across = 0.5 * (region.first_column + region.last_column) - 0.5
+    down = 0.5 * (region.first_row + region.last_row) - 0.5
+    rims = np.array(
+        [
+            [region.first_column - 0.5, down],
+            [region.last_column - 0.5, down],
+            [across, region.first_row - 0.5],
+            [across, region.last_row - 0.5],
+        ]
+    )
+    rays = _straight(image_rays(rims, scene.camera), scene.lens) * scene.pose.distance
+    (left, _), (right, _), (_, top), (_, bottom) = rays.tolist()
+    return with_allowed(
+        scene,
+        panel_width=right - left,
+        panel_height=bottom - top,
+        offset_x=0.5 * (left + right),
+        offset_y=0.5 * (top + bottom),
+    )
+
+
+def _straight(rays: FloatArray, lens: Lens) -> FloatArray:
+    """Invert a lens's distortion of rays; rays without an inverse stay unchanged."""
+    if not lens.distorts:
+        return rays
+    straight = rays
+    for _ in range(_ITERATIONS):
+        straight = straight - (distorted(straight, lens) - rays)
+    off = np.abs(distorted(straight, lens) - rays)
+    return np.where(np.isfinite(off) & (off < 1e-6), straight, rays)
+
+
+def with_levels(scene: Scene, fit: StripeFit) -> Scene:
+    """Set the light that gives the photo's grey levels."""
+    low, high = float(np.median(fit.low)), float(np.median(fit.low + fit.swing))
+    levels = np.array([max(low, 0.0), max(high, low, 0.0)])
+    dark, bright = luminance_of(levels, scene.camera).tolist()
+    scene = with_allowed(scene, luminance=bright - dark)
+    reflectance = scene.surroundings.reflectance
+    if reflectance > 0.0:
+        scene = with_allowed(scene, illuminance=math.pi * dark / reflectance)
+    return scene
+
+
+def with_notes(scene: Scene, photo: Photo) -> Scene:
+    """Set the parameters that the photo's EXIF data hold."""
+    noted = {name: getattr(photo, name) for name in _NOTED}
+    return with_allowed(scene, **{n: value for n, value in noted.items() if value is not None})
+
+
+def with_allowed(scene: Scene, **changes: ParameterValue) -> Scene:
+    """Change the values within their range, and leave the others: they were not fitted."""
+    for name, value in changes.items():
+        try:
+            PARAMETERS[name].check(value)
+        except ParameterError:
+            continue
+        scene = scene.replace(**{name: value})
+    return scene

@@ -62,7 +62,7 @@ def exposure_modes(
     for group in groups:
         most = min(one.fit.misfit for one in group) + _MOST_EXCESS_MISFIT
         fits = [fit for one in group if one.fit.misfit <= most for fit in one.again()]
-        means.append(averaged(fits))
+        means.append(averaged([fit.unbiased for fit in fits]))
         tried += fits
     least = min(fit.misfit for fit in means)
     most = _MOST_RATIO * least + _MOST_EXCESS

@@ -9,7 +9,7 @@ normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -82,6 +82,16 @@ class JointFit:
     covariance: FloatArray  # shape (9, 9); 0 for what is not fitted
     misfit: float  # twice the negative logarithm of the posterior density, less a constant
     prior: float = 0.0  # the part of the misfit by which the unknowns are off what is usual
+    shift: FloatArray | None = None  # shape (9,); by how much blurred levels bias the values
+
+    @property
+    def unbiased(self) -> "JointFit":
+        """The fit without the bias of blurred levels, which is known as well as the blur is."""
+        if self.shift is None or not self.values[7] > 0.0:
+            return self
+        error = min(1.0, 2.0 * math.sqrt(float(self.covariance[7, 7])) / float(self.values[7]))
+        covariance = self.covariance + np.outer(error * self.shift, error * self.shift)
+        return replace(self, values=self.values - self.shift, covariance=covariance, shift=None)
 
     @property
     def exposure(self) -> float:
@@ -211,7 +221,23 @@ class JointModel:
             slopes, residual, moved, self._block
         ) * np.outer(rates, rates)
         prior = residual[-len(USUAL) :]
-        return JointFit(values, covariance, float(residual @ residual), float(prior @ prior))
+        shift = np.zeros(9)
+        if free[2]:
+            by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
+            shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
+        return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
+
+    def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
+        """Return by how many chips the place of each residual is later because levels are blurred.
+
+        The model multiplies blurred stripes by the levels, but a lens blurs their product. Where
+        the swing E changes along the columns, a blur of variance s^2 thus moves an edge towards the
+        darker side by s^2 (ln E)': an exponential times a normal distribution is one that is moved.
+        """
+        seen = self._seen.by(values, 0.0, shape)
+        slopes = [part.relative_slope(seen) for part in self._parts]
+        moved = float(values[0] * values[7] ** 2) * np.concatenate(slopes)
+        return np.concatenate([moved, np.zeros(len(USUAL))])
 
     def unusual(self, values: FloatArray) -> float:
         """Return by how many standard deviations the unknowns of a fit are off what is usual."""
@@ -279,3 +305,10 @@ class JointModel:
             own -= (own @ slow) @ slow.T
             found.append(white)
         return found
+
+
+def _explained(slopes: FloatArray, change: FloatArray) -> FloatArray:
+    """Return the changes of the parameters that best explain a change of the residual."""
+    information = slopes.T @ slopes
+    information[np.diag_indices_from(information)] += 1e-9
+    return np.asarray(np.linalg.solve(information, slopes.T @ change))

@@ -23,6 +23,9 @@ from occ_model.photo.stripes.evenly_lit import EvenProfile
 _LEAST_DEVIATION = 0.02
 """Minimum standard deviation of a column mean in grey levels."""
 
+_LEAST_SWING = 0.05
+"""Minimum swing, relative to the largest, whose slope is taken: at a rim polynomials pass 0."""
+
 _COLUMNS_PER_SLOW_SHAPE = 8
 """Minimum number of columns per polynomial that is projected out."""
 
@@ -120,6 +123,19 @@ class LitProfile:
         if not self.clipped.size:
             return kept
         return np.hstack([kept, self._slopes_of_clipped(seen, rates)])
+
+    def relative_slope(self, seen: Seen) -> FloatArray:
+        """Return the slope of the swing's logarithm over columns, the clipped columns last.
+
+        Of the swing of light, or of grey levels where these are blurred.
+        """
+        fitted = self._fitted(seen)
+        dark, swing = fitted.shown.reshape(2, -1) @ self._shapes
+        if seen.sharp is not None:
+            swing = seen.table.value_of(dark + swing) - seen.table.value_of(dark)
+        swing = np.maximum(swing, _LEAST_SWING * float(swing.max()))
+        slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
+        return np.concatenate([slope[self.kept], slope[self.clipped]])
 
     def _slow_shapes(self, columns: int, count: int) -> FloatArray:
         """Return the slow shapes at the kept columns, shape (kept, count)."""

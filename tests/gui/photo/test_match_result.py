@@ -30,8 +30,8 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
     assert texts["exposure_time"] == "62.50 ± 0.21 µs"
     assert texts["switching_frequency"] == "2 kHz (given)"
     assert texts["chip"] == f"{1 / (2e3 * 14.5777e-6):.3f} columns, 4 chips a period"
-    assert texts["correlation"] == "0.9912"
-    assert texts["residual"] == "2.00 grey levels"
+    assert texts["correlation"] == "0.9912 (rims included)"
+    assert texts["residual"] == "2.00 grey levels (rims included)"
     assert texts["region"].startswith("columns 0 to 2, rows ")
     assert texts["saturated"].startswith("12.5 %")
     assert view.result.values["pattern"].toolTip() == "1001 (read from the photo)"

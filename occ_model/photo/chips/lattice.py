@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.chips.edges import Edges
 
-_LEAST_COHERENCE_RATIO = 0.93
+LEAST_COHERENCE_RATIO = 0.93
 """Minimum coherence of a coarser lattice relative to the most coherent one."""
 
 _SHORTENING = 0.7
 """Minimum ratio of the mean of the shortest bright and the shortest dark run to a chip: noise and
 uneven light shorten both."""
 
-_LEAST_COLUMNS = 2.0
+LEAST_COLUMNS = 2.0
 """Minimum number of columns per chip."""
 
 _STEPS_PER_CHIP = 6.0
@@ -58,11 +58,11 @@ def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.co
 def coarsest(edges: Edges) -> Lattice | None:
     """Find the coarsest pair of lattices on which edges lie; None if none is coherent."""
     longest = edges.shortest_pair / 2.0 / _SHORTENING
-    if edges.count < 4 or not _LEAST_COLUMNS < longest < np.inf:
+    if edges.count < 4 or not LEAST_COLUMNS < longest < np.inf:
         return None
     extent = float(np.ptp(edges.places))
     step = 1.0 / (_STEPS_PER_CHIP * extent)
-    frequencies = np.arange(1.0 / longest, 1.0 / _LEAST_COLUMNS, step)
+    frequencies = np.arange(1.0 / longest, 1.0 / LEAST_COLUMNS, step)
     if frequencies.size < 3:
         return None
     coherent = coherence(edges, frequencies)
@@ -70,7 +70,7 @@ def coarsest(edges: Edges) -> Lattice | None:
     peaks = np.unique(np.append(peaks, 0)) if coherent[0] > coherent[1] else peaks
     if peaks.size == 0:
         return None
-    good = peaks[coherent[peaks] >= _LEAST_COHERENCE_RATIO * coherent[peaks].max()]
+    good = peaks[coherent[peaks] >= LEAST_COHERENCE_RATIO * coherent[peaks].max()]
     fine = frequencies[good[0]] + np.linspace(-step, step, 41)
     return lattice_at(edges, float(fine[coherence(edges, fine).argmax()]))
 

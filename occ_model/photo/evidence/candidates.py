@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray
+from occ_model.photo.evidence.doubts import LEAST_INFORMATION
 from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import Explanation, explain, explain_near, polished
+from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, explain_near, polished
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
@@ -21,15 +22,6 @@ from occ_model.transmitter.packet import sent_chips
 
 _STEP_CHANGES = np.arange(-4, 5) / 8.0
 """Changes, in chips at the last column, of a known step that are tried."""
-
-_EXPLAINED = 0.98
-"""Correlation above which chips need not be fitted again at the period of the stripes."""
-
-_WELL_READ = 0.985
-"""Correlation below which other chips than those read first are searched for."""
-
-_LEAST_INFORMATION = 100.0
-"""Information in bits above which other chips are read from the edges only."""
 
 _MOST_CORRECTIONS = 6
 """Maximum number of times that the chips read are replaced by similar ones."""
@@ -85,8 +77,8 @@ class Candidates:
         if period is None:
             return []
         stripes = self.stripes
-        explained = as_sent is not None and as_sent.fit.correlation >= _EXPLAINED
-        sure = explained and as_sent is not None and as_sent.information >= _LEAST_INFORMATION
+        explained = as_sent is not None and as_sent.fit.correlation >= EXPLAINED
+        sure = explained and as_sent is not None and as_sent.information >= LEAST_INFORMATION[True]
         read = read_patterns(
             stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure,
             is_clipped=stripes.saturated > UNCLIPPED,
@@ -96,7 +88,7 @@ class Candidates:
             read = [one for one in read if not np.array_equal(canonical(one.chips), known)]
         found = self._fitted_read(read)
         best = max((one.fit.correlation for one in found), default=0.0)
-        if not explained and best < _WELL_READ:
+        if not explained and best < EXPLAINED:
             again = read_otherwise(stripes.profile, period, read, self.check)
             found += [replace(one, read_again=True) for one in self._fitted_read(again)]
         return found
@@ -164,7 +156,7 @@ class Candidates:
         if not swapped <= _NOTE_TOLERANCE < off:
             return None
         other = self._swapped(as_sent, period, len(sent))
-        return other if other is not None and other.fit.correlation >= _EXPLAINED else None
+        return other if other is not None and other.fit.correlation >= EXPLAINED else None
 
     def _swapped(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis | None:
         """Suppose a pulse as long as a hypothesis' exposure."""

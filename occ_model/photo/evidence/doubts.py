@@ -10,14 +10,12 @@ _LEAST_PERIODS = 1.5
 """Minimum number of periods in view of a long pattern that is given, so that some chips are seen
 twice."""
 
-_LEAST_READ_PERIODS = 3.0
-"""Minimum number of periods in view of a long pattern that was read: two may agree by chance."""
+_LEAST_PERIODS_OF_OTHERS = 3.0
+"""Minimum number of periods in view of a short pattern, and of one that was read: two may agree by
+chance."""
 
 _LONG_PATTERN = 8
 """Number of chips from which a pattern is long."""
-
-_LEAST_SHORT_PERIODS = 3.0
-"""Minimum number of periods in view of a short pattern."""
 
 _LONGEST_EXPOSURE = 3.2
 """Exposure in chips above which different codes make nearly the same stripes."""
@@ -25,7 +23,7 @@ _LONGEST_EXPOSURE = 3.2
 _LEAST_CORRELATION = 0.9
 """Correlation below which something other than the model shapes the stripes, too."""
 
-_LEAST_INFORMATION = {False: 40.0, True: 100.0}
+LEAST_INFORMATION = {False: 40.0, True: 100.0}
 """Minimum information in bits of given chips, and of chips that were read."""
 
 _MOST_UNEXPLAINED = 0.035
@@ -94,8 +92,8 @@ def _too_white(saturated: float, most: float) -> str:
 def _doubts_by_extent(found: Hypothesis) -> list[str]:
     reasons = []
     chips = len(found.chips)
-    least = _LEAST_READ_PERIODS if found.was_read else _LEAST_PERIODS
-    least = least if chips >= _LONG_PATTERN else _LEAST_SHORT_PERIODS
+    is_long = chips >= _LONG_PATTERN and not found.was_read
+    least = _LEAST_PERIODS if is_long else _LEAST_PERIODS_OF_OTHERS
     if found.periods < least:
         reasons.append(
             f"Only {found.periods:.2g} periods of {chips} chips are in view; at least {least:g} "
@@ -128,7 +126,7 @@ def _doubts_by_quality(found: Hypothesis, saturated: float, rows_alike: float) -
             f"The correlation is {correlation:.2f}; below {_LEAST_CORRELATION} something else "
             "shapes the stripes too, such as the shape of the lamp."
         )
-    least = _LEAST_INFORMATION[found.was_read]
+    least = LEAST_INFORMATION[found.was_read]
     if found.information < least:
         reasons.append(
             f"The fit is better than one by chance by {found.information:.0f} bits only; at least "

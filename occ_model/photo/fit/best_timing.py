@@ -46,8 +46,8 @@ _EQUALIZED_RATIO = 0.5
 """Ratio to the other cameras' residual below which a picture was equalized: cameras do not do
 so."""
 
-_EXPLAINED = 0.98
-"""Correlation of another camera's fit above which equalization is not tried."""
+EXPLAINED = 0.98
+"""Correlation of a fit above which no other chips, and no equalized picture, are tried."""
 
 SAME_EXPOSURE = 0.04
 """Difference in chips below which two exposures are the same."""
@@ -180,7 +180,7 @@ def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> lis
 
 def _most_before(camera: CameraTone) -> float:
     """Return the correlation by other cameras above which a camera need not be tried."""
-    return _EXPLAINED if camera.enhancement == "equalization" else 1.0
+    return EXPLAINED if camera.enhancement == "equalization" else 1.0
 
 
 def _share(camera: CameraTone) -> float:

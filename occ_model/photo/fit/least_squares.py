@@ -20,14 +20,11 @@ from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.lit_columns import LitColumns
 from occ_model.photo.fit.normal_equations import NormalEquations
 from occ_model.photo.fit.timing import Timing
-from occ_model.photo.stripes.envelope import smooth_shapes
+from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.transmitter.waveform import Waveform
-
-_TIMING_CHANGE = 0.02
-"""Finite difference of the timing in columns."""
 
 Tone = Callable[[FloatArray, float], FloatArray]
 """A camera's response: from lit fractions and gamma to pixel values between any two levels."""
@@ -43,9 +40,6 @@ _LEAST_GAIN = 1e-6
 _REGULARIZATION = 1e-4
 """Regularization of the covariance: a parameter on which no column depends gets a standard
 deviation of a hundred of its scales."""
-
-_LEAST_SWING = 0.05
-"""Minimum swing relative to the largest one."""
 
 _CHIPS_PER_SHAPE = 6
 """Number of chips in view for each polynomial of a level."""
@@ -103,7 +97,7 @@ class StripeModel:
         self._profile = profile
         self._waveform = Waveform(chips)
         self._tone = tone
-        self._change = max(_TIMING_CHANGE, rank_resolution) * step
+        self._scale = max(1.0, rank_resolution / DIFFERENCE) * step
         # The same number for both levels, or else the mean would fit better than the swing.
         freedom = level_freedom(step * len(profile) / chips_as_one(chips))
         kept: NDArray[np.bool_] = profile < _FULL
@@ -151,7 +145,7 @@ class StripeModel:
         if not with_gamma:
             low[3] = high[3] = start.gamma
         free = np.flatnonzero([True, spread == 0.0, True, with_gamma])
-        scale = (self._change / DIFFERENCE * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
+        scale = (self._scale * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
 
         def timing_of(scaled: FloatArray) -> Timing:
             values = first.copy()
@@ -181,7 +175,7 @@ class StripeModel:
         low, swing, profile = self.levels(timing)
         possible = _can_be_levels(low, swing)
         # Bounded below, since flattening divides by it.
-        swing = np.maximum(swing, _LEAST_SWING * max(float(swing.max()), FLAT))
+        swing = np.maximum(swing, LEAST_SWING * max(float(swing.max()), FLAT))
         correlation = _flattened_correlation(self._profile, profile, low, swing)
         residual = self._profile - profile
         power = float(residual @ residual)

@@ -17,14 +17,11 @@ from occ_model.photo.fit.blurred_light import BLUR
 from occ_model.photo.fit.lit_columns import LitColumns
 from occ_model.photo.fit.normal_equations import NormalEquations, solved
 from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
-from occ_model.photo.stripes.envelope import smooth_shapes
+from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
 _LEAST_DEVIATION = 0.02
 """Minimum standard deviation of a column mean in grey levels."""
-
-_LEAST_SWING = 0.05
-"""Minimum swing, relative to the largest, whose slope is taken: at a rim polynomials pass 0."""
 
 _COLUMNS_PER_SLOW_SHAPE = 8
 """Minimum number of columns per polynomial that is projected out."""
@@ -133,7 +130,7 @@ class LitProfile:
         dark, swing = fitted.shown.reshape(2, -1) @ self._shapes
         if seen.sharp is not None:
             swing = seen.table.value_of(dark + swing) - seen.table.value_of(dark)
-        swing = np.maximum(swing, _LEAST_SWING * float(swing.max()))
+        swing = np.maximum(swing, LEAST_SWING * float(swing.max()))
         slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
         return np.concatenate([slope[self.kept], slope[self.clipped]])
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.chips.edges import Edges, edges_of
-from occ_model.photo.chips.lattice import coherence
+from occ_model.photo.chips.lattice import LEAST_COHERENCE_RATIO, LEAST_COLUMNS, coherence
 from occ_model.photo.fit.chip_runs import canonical
 from occ_model.photo.fit.chips_by_descent import chips_by_descent
 from occ_model.photo.fit.chips_of_harmonics import (
@@ -26,13 +26,8 @@ from occ_model.photo.stripes.envelope import without_trend
 MOST_CHIPS = 128
 """Maximum number of chips in a period."""
 
-_LEAST_COLUMNS = 2.0
-"""Minimum number of columns per chip."""
-
-_LEAST_COHERENCE_RATIO = 0.93
-"""Minimum coherence of edges with a lattice of chips relative to the most coherent one."""
-
 _LEAST_COHERENCE = 0.6
+"""Minimum coherence of edges with the best lattice of chips."""
 
 _LONGEST_FOR_EDGES = 1.5
 """Exposure in chips above which edges may not show the lattice of the chips."""
@@ -88,7 +83,7 @@ def read_patterns(
     position of an edge within a column is then unknown.
     """
     lines = harmonics_of(without_trend(profile), period)
-    most = min(MOST_CHIPS, int(period / _LEAST_COLUMNS))
+    most = min(MOST_CHIPS, int(period / LEAST_COLUMNS))
     counts = _counts_by_edges(edges_of(flattened), period, most)
     column = None if is_clipped else 1.0 / period
     found = [_fewest(lines, counts, column, check)]
@@ -162,7 +157,7 @@ def _counts_by_edges(edges: Edges, period: float, most: int) -> list[int]:
     coherent = coherence(edges, count / period)
     if coherent.max() < _LEAST_COHERENCE:
         return []
-    good: list[int] = count[coherent >= _LEAST_COHERENCE_RATIO * coherent.max()].tolist()
+    good: list[int] = count[coherent >= LEAST_COHERENCE_RATIO * coherent.max()].tolist()
     divisors = [part for part in range(2, good[0]) if good[0] % part == 0]
     # An exposure of nearly a chip shifts edges off the lattice of the chips, onto a finer one.
     return [*divisors, *good[:_MOST_COUNTS]]

@@ -21,6 +21,9 @@ _CHAIN, _LEAST_CHAIN_RATIO = 5, 0.2
 """Number of consecutive steps, and minimum ratio of neighbouring ones, of a chain that is kept even
 beside a steep rim: exposures longer than a chip leave faint stripes."""
 
+_EDGE_TOLERANCE = 0.06
+"""Maximum distance of equal edges in chips, besides a column."""
+
 _LEAST_SWING_RATIO = 0.5
 """Minimum height of an edge relative to the swing around it for the middle level to be that around
 it."""
@@ -158,8 +161,14 @@ def _crossing(profile: FloatArray, first: int, last: int, begin: float, end: flo
     return first + at + (-float(above[at]) / step if step else 0.5)
 
 
-def matches(edges: Edges, others: Edges, off: float) -> np.ndarray:
-    """Whether each edge has one of the same kind near it among others, shape (edges,)."""
+def equal_within(chip: float) -> float:
+    """Return the distance in columns within which edges of chips of a length are equal."""
+    return 1.0 + _EDGE_TOLERANCE * chip
+
+
+def matches(edges: Edges, others: Edges, chip: float) -> np.ndarray:
+    """Whether each edge has an equal one among others, shape (edges,); ``chip``: in columns."""
+    off = equal_within(chip)
     near = np.zeros(len(edges), dtype=bool)
     for kind in (True, False):
         here, there = edges.rises == kind, others.place[others.rises == kind]

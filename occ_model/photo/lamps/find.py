@@ -126,8 +126,9 @@ def _blinking(
     for timing in timings_of(edges, weights, codes):
         if not _is_lamp(timing):
             continue
-        near = _near(timing)
-        inner = [one.strip for one in group if matches(one.edges, timing.edges, near).sum() > 2]
+        inner = [
+            one.strip for one in group if matches(one.edges, timing.edges, timing.chip).sum() > 2
+        ]
         if not inner:
             continue
         spans = spans_of(strips, inner, timing, bounds, means.shape[1])
@@ -169,12 +170,8 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
         return False
     if abs(segment.chip - timing.chip) > _CHIP_TOLERANCE * timing.chip:
         return False
-    near = np.count_nonzero(matches(segment.edges, timing.edges, _near(timing)))
+    near = np.count_nonzero(matches(segment.edges, timing.edges, timing.chip))
     return bool(near > 2 and near >= _LEAST_OWN * len(segment.edges))
-
-
-def _near(timing: LampTiming) -> float:
-    return 1.0 + 0.06 * timing.chip
 
 
 def _columns(spans: IndexArray) -> int:
@@ -190,7 +187,7 @@ def _least_columns(timing: LampTiming) -> float:
 
 def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:
     region = around(spans)
-    own = [one.where(matches(one, timing.edges, _near(timing))) for one in strips]
+    own = [one.where(matches(one, timing.edges, timing.chip)) for one in strips]
     low = float(np.median(np.concatenate([one.low for one in own])))
     high = float(np.median(np.concatenate([one.high for one in own])))
     chip, spacing = timing.chip, timing.spacing

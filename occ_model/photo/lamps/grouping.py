@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from occ_model.photo.lamps.edges import Edges, matches
+from occ_model.photo.lamps.edges import Edges, equal_within, matches
 from occ_model.photo.lamps.segments import Segment
 
 _MOST_DISTANCE = 2
@@ -20,9 +20,6 @@ a rim can join the edges of two lamps, and such a segment must not join the lamp
 
 _LEAST_EQUAL_EDGES = 3
 """Minimum number of equal edges."""
-
-_EDGE_TOLERANCE = 0.06
-"""Maximum distance of equal edges in chips, besides a column."""
 
 LEAST_STRIPS = 2
 """Minimum number of strips of a lamp: in one, noise makes edges equal."""
@@ -60,14 +57,15 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
 
 def _agree(one: Segment, other: Segment) -> bool:
     """Whether the edges of two segments lie at the same columns."""
-    off = 1.0 + _EDGE_TOLERANCE * min(one.chip, other.chip)
+    chip = min(one.chip, other.chip)
+    off = equal_within(chip)
     counts = len(one.edges), len(other.edges)
     here, there = one.edges.place, other.edges.place
     if min(counts) < _LEAST_EQUAL_FRACTION * max(counts) or not (
         here[0] <= there[-1] + off and there[0] <= here[-1] + off
     ):
         return False
-    near = np.count_nonzero(matches(one.edges, other.edges, off))
+    near = np.count_nonzero(matches(one.edges, other.edges, chip))
     return bool(near >= max(_LEAST_EQUAL_EDGES, _LEAST_EQUAL_FRACTION * max(counts)))
 
 
@@ -76,7 +74,7 @@ def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:
 
     The rim of a round lamp lies at other columns in each strip, and so is not among them.
     """
-    off = 1.0 + _EDGE_TOLERANCE * float(np.median([one.chip for one in group]))
+    off = equal_within(float(np.median([one.chip for one in group])))
     place = np.concatenate([one.edges.place for one in group])
     rises = np.concatenate([one.edges.rises for one in group])
     low = np.concatenate([one.edges.low for one in group])

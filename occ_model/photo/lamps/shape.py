@@ -9,9 +9,6 @@ from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
-_EDGE_TOLERANCE = 0.06
-"""Maximum distance of an edge from the lamp's in chips, besides a column."""
-
 _LEAST_SWING = 0.4
 """Minimum swing in a strip relative to the lamp's; less is scattered light."""
 
@@ -80,9 +77,7 @@ def _span(edges: Edges, timing: LampTiming, columns: int) -> tuple[float, float]
     """Return the first and the last column of a lamp in one strip; None if it is not seen there."""
     swing = edges.high - edges.low
     least = _LEAST_SWING * float(np.median(timing.edges.high - timing.edges.low))
-    shared = np.flatnonzero(
-        matches(edges, timing.edges, 1.0 + _EDGE_TOLERANCE * timing.chip) & (swing > least)
-    )
+    shared = np.flatnonzero(matches(edges, timing.edges, timing.chip) & (swing > least))
     if len(shared) < 2 or edges.rises[shared].all() or not edges.rises[shared].any():
         return None
     begin, end = int(shared[0]), int(shared[-1])

@@ -8,8 +8,8 @@ from occ_model.arrays import FloatArray
 MEAN_SHAPES, _SWING_SHAPES = 6, 4
 """Numbers of polynomials that describe the trends of a profile's mean and swing."""
 
-_LEAST_POWER = 0.05
-"""Minimum local power of a profile relative to its mean square."""
+LEAST_SWING = 0.05
+"""Minimum of a local swing relative to the largest one, or of a power to its mean: it divides."""
 
 
 def envelope(profile: FloatArray, width: int) -> tuple[FloatArray, FloatArray]:
@@ -50,7 +50,7 @@ def trend_of(profile: FloatArray, of_mean: int, of_swing: int) -> tuple[FloatArr
     """Return a profile's mean and standard deviation around each column, by so many polynomials."""
     mean = _smooth(profile, of_mean)
     square = (profile - mean) ** 2
-    power = np.maximum(_smooth(square, of_swing), _LEAST_POWER * float(np.mean(square)))
+    power = np.maximum(_smooth(square, of_swing), LEAST_SWING * float(np.mean(square)))
     return mean, np.sqrt(np.maximum(power, 1e-300))
 
 

@@ -15,10 +15,8 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.find import BANDS
 from occ_model.results.decoding import Region
-
-_BANDS = 64
-"""Maximum number of bands of rows."""
 
 _CLIPPED = 0.98
 """Fraction of white above which a pixel may have been clipped: compression changes it a little."""
@@ -86,7 +84,7 @@ class Cells:
         part = photo.samples[
             region.first_row : region.last_row, region.first_column : region.last_column
         ]
-        starts = np.linspace(0, len(part), min(_BANDS, len(part)) + 1).astype(np.int64)
+        starts = np.linspace(0, len(part), min(BANDS, len(part)) + 1).astype(np.int64)
         full = (part >= _CLIPPED * photo.white).view(np.uint8)
         means, clipped = [], []
         for first, last in pairwise(starts.tolist()):

@@ -21,8 +21,8 @@ from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Stripes
 
-_BANDS = 64
-"""Number of bands of rows that are compared."""
+BANDS = 64
+"""Maximum number of bands into which rows are gathered."""
 
 _LEAST_STRENGTH = 0.25
 """Minimum strength of the common stripes in a row relative to the median."""
@@ -137,7 +137,7 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
 def _striped_rows(photo: Photo) -> tuple[int, int]:
     """Find the rows that vary together, by the strength of the common stripes in each band."""
     rows, columns = photo.samples.shape
-    bands = min(_BANDS, rows)
+    bands = min(BANDS, rows)
     means = cv2.resize(photo.samples, (columns, bands), interpolation=cv2.INTER_AREA)
     slopes = np.diff(means.astype(np.float64) * (WHITE / photo.white), axis=1)
     if not slopes.any():
@@ -174,7 +174,7 @@ def _common_slopes(slopes: FloatArray) -> tuple[FloatArray, FloatArray]:
 def _edge_row(photo: Photo, near: int, common: FloatArray, typical: float, outward: int) -> int:
     """Find the first or last row with stripes, within a band to either side of a row."""
     rows = len(photo.samples)
-    height = -(-rows // _BANDS)
+    height = -(-rows // BANDS)
     first, last = max(0, near - height), min(rows, near + height)
     part = photo.samples[first:last].astype(np.float64) * (WHITE / photo.white)
     strengths = np.diff(part, axis=1) @ common

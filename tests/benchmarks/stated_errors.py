@@ -65,7 +65,7 @@ def told(found: list[Trial]) -> list[str]:
 
 def duties(found: list[Trial]) -> list[str]:
     """Report the errors of the duties of pulses, and how many that were given are wrong."""
-    sure = [one for one in found if one.is_sure and np.isfinite(one.duty)]
+    sure = [one for one in found if one.is_sure_of("exposure") and np.isfinite(one.duty)]
     measured = [one for one in sure if np.isfinite(one.duty_deviation)]
     off = np.abs([one.duty / one.duty_deviation for one in measured])
     told_wrong = sum(abs(one.duty) > _WRONG for one in sure if one not in measured)

@@ -6,14 +6,12 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.joint_fit import JointFit
+from occ_model.photo.fit.timing import SHORTEST
 
 _UNMODELLED = 0.05
 """Fraction of the data's misfit by which explanations must differ: effects outside the model change
 the misfit of each by chance. Without it, a blur of the wrong shape is often the only one left. The
 misfit of the priors has no such error and counts in full."""
-
-_LEAST_EXPOSURE = 2e-3
-"""Exposure in chips below which there is none."""
 
 _MOST_STEP_RATIO = 5.0
 """Maximum ratio of a step's standard deviation to the smallest one: all models have the same
@@ -37,7 +35,7 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
     usable = [
         one
         for one in known
-        if one.exposure > _LEAST_EXPOSURE and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
+        if one.exposure > 2.0 * SHORTEST and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
     ]
     fits = sorted(usable or known, key=lambda fit: fit.exposure)
     likeliest = min(fits, key=lambda fit: fit.misfit)

@@ -12,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.timing import Timing
 
 _REACH = 8
@@ -23,9 +22,6 @@ _LEAST_BLUR = 0.05
 
 _CHANGE = 1e-5
 """Finite difference of the blur in columns."""
-
-_MOST_LONGER = 0.4
-"""Maximum change of the time that the LED is on, relative to the shortest run of chips."""
 
 BLUR = 3
 """The blur's index among the parameters of slopes: step, exposure, middle, blur and longer."""
@@ -42,7 +38,6 @@ class BlurredLight:
 
     def __init__(self, chips: ByteArray, columns: int) -> None:
         self._period = len(chips)
-        self._longest = _MOST_LONGER * min(runs_of(chips))
         self._columns = columns
         change = chips.astype(np.int64) - np.roll(chips, 1)
         places = np.flatnonzero(change)
@@ -96,7 +91,6 @@ class BlurredLight:
         return slopes
 
     def _edges_of(self, longer: float) -> FloatArray:
-        longer = float(np.clip(longer, -self._longest, self._longest))
         return self._edges - 0.5 * longer * self._changes
 
     def _places(self, timing: Timing) -> FloatArray:

@@ -19,7 +19,7 @@ from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
 from occ_model.photo.fit.lit_columns import LitColumns
 from occ_model.photo.fit.normal_equations import NormalEquations
-from occ_model.photo.fit.timing import Timing
+from occ_model.photo.fit.timing import SHORTEST, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
 from occ_model.scene.parameter_kinds import Quantity
@@ -45,9 +45,6 @@ _CHIPS_PER_SHAPE = 6
 """Number of chips in view for each polynomial of a level."""
 
 _MOST_SHAPES = 8
-
-_SHORTEST = 1e-4
-"""Shortest exposure in chips: shorter ones make the same stripes."""
 
 _UNKNOWN_BLUR = 0.4
 """Standard deviation in columns of the blur that this model does not fit."""
@@ -139,7 +136,7 @@ class StripeModel:
         columns = len(self._profile)
         gamma = PARAMETERS["gamma"]
         assert isinstance(gamma, Quantity)  # noqa: S101 - it is one
-        low = np.array([0.5 * start.step, _SHORTEST, -np.inf, gamma.low])
+        low = np.array([0.5 * start.step, SHORTEST, -np.inf, gamma.low])
         high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
         if not with_gamma:

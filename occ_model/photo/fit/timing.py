@@ -8,6 +8,9 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
+SHORTEST = 1e-3
+"""Shortest exposure in chips: shorter ones make the same stripes."""
+
 
 @dataclass(frozen=True, slots=True)
 class Timing:

@@ -18,9 +18,6 @@ _LEAST_EQUAL_FRACTION = 0.65
 """Minimum fraction of equal edges of two segments, relative to the longer one: in a strip, noise or
 a rim can join the edges of two lamps, and such a segment must not join the lamps."""
 
-_LEAST_EQUAL_EDGES = 3
-"""Minimum number of equal edges."""
-
 LEAST_STRIPS = 2
 """Minimum number of strips of a lamp: in one, noise makes edges equal."""
 
@@ -66,7 +63,7 @@ def _agree(one: Segment, other: Segment) -> bool:
     ):
         return False
     near = np.count_nonzero(matches(one.edges, other.edges, chip))
-    return bool(near >= max(_LEAST_EQUAL_EDGES, _LEAST_EQUAL_FRACTION * max(counts)))
+    return bool(near >= _LEAST_EQUAL_FRACTION * max(counts))
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:

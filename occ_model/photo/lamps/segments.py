@@ -27,9 +27,6 @@ _LEAST_EDGES = 4
 _LEAST_MORE_EDGES = 4
 """Minimum number of edges by which a code must exceed a progression: a lamp's rim has two."""
 
-_MOST_LAMPS = 64
-"""Maximum number of lamps in a strip; of more, those with the strongest stripes."""
-
 _MOST_GAP_RATIO = 5.0
 """Ratio to the median distance of edges above which a gap lies between two lamps."""
 
@@ -97,9 +94,7 @@ def segments_of(
         for left, right in ((first, begin), (end, last)):
             if right - left >= _LEAST_EDGES:
                 waiting.append((left, right, _clipped(progressions, left, right)))
-    if len(found) > _MOST_LAMPS:
-        found.sort(key=lambda one: -float((one.edges.high - one.edges.low).sum()))
-    return found[:_MOST_LAMPS]
+    return found
 
 
 def _repeated(edges: Edges, chip: float) -> float | None:

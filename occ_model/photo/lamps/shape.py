@@ -10,13 +10,10 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
 _LEAST_SWING = 0.4
-"""Minimum swing in a strip relative to the lamp's; less is scattered light."""
+"""Minimum swing relative to the lamp's, or to the edge beside it; less is scattered light."""
 
 _LEAST_OWN = 0.7
 """Minimum fraction of the edges between a lamp's outermost ones that are its own."""
-
-_LEAST_RIM_SWING = 0.4
-"""Minimum swing of a bright stripe that the rim cuts, relative to the edge beside it."""
 
 _CUT_TOLERANCE = 0.3
 """Maximum distance of an edge from its place in chips where the rim cuts the stripe beside it."""
@@ -102,7 +99,7 @@ def _with_cut_stripes(edges: Edges, begin: int, end: int, timing: LampTiming) ->
     swing = edges.high - edges.low
 
     def is_own(at: int, beside: int) -> bool:
-        if not 0 <= at < len(edges) or swing[at] < _LEAST_RIM_SWING * swing[beside]:
+        if not 0 <= at < len(edges) or swing[at] < _LEAST_SWING * swing[beside]:
             return False
         outward = edges.rises[at] == (at > beside)  # a bright stripe lies beyond it
         start = timing.rise if edges.rises[at] else timing.fall
@@ -121,7 +118,7 @@ def _is_rim(edges: Edges, at: int, beside: int, stripe: float) -> bool:
     swing = edges.high - edges.low
     near = abs(edges.place[at] - edges.place[beside]) < stripe
     return bool(
-        near and edges.rises[at] == (at < beside) and swing[at] > _LEAST_RIM_SWING * swing[beside]
+        near and edges.rises[at] == (at < beside) and swing[at] > _LEAST_SWING * swing[beside]
     )
 
 

@@ -19,9 +19,6 @@ _ABOVE_MEDIAN = 1.6
 _LEAST_AREA = 3e-4
 """Minimum area of a lamp relative to the picture."""
 
-_MOST_BLINKING = 0.3
-"""Maximum fraction of a bright place inside lamps with stripes."""
-
 _MOST_COLUMNS = 512
 """Number of columns to which a picture is reduced: there are no fine stripes to be seen."""
 
@@ -43,7 +40,8 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
     for label in range(1, count):
         place = labels == label
         area = int(stats[label, cv2.CC_STAT_AREA])
-        if area < _LEAST_AREA * labels.size or np.mean(taken[place]) > _MOST_BLINKING:
+        is_blinking = 2 * np.count_nonzero(taken[place]) > area  # most of it
+        if area < _LEAST_AREA * labels.size or is_blinking:
             continue
         spans = _spans(place, bounds, columns / narrow)
         region = Region(

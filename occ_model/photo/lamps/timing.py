@@ -23,9 +23,6 @@ _TIGHTER = 0.5
 _MOST_RATIO = 0.5
 """Maximum ratio of the distances from a code's lattices after a rim is left out."""
 
-_LEAST_CODE_EDGES = 6
-"""Minimum number of edges that are left of a code."""
-
 _LEAST_DEVIATION = 0.1
 """Minimum standard deviation of an edge in columns."""
 
@@ -128,8 +125,6 @@ def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming 
     # The rim of a lamp is an edge too, which lies anywhere.
     for left, right in ((1, 0), (0, 1), (1, 1)) if is_code else ():
         begin, end = first + left, last - right
-        if end - begin < _LEAST_CODE_EDGES:
-            break
         inner = _fitted(edges.part(begin, end), weights[begin:end], spacing)
         if fit is not None and inner is not None and inner.off < _MOST_RATIO * fit.off:
             fit = inner

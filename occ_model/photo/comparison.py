@@ -8,8 +8,7 @@ from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, trend_of
 from occ_model.results.match import Comparison
 
-_LEAST_DEVIATION = 1e-9
-"""Standard deviation below which a profile is constant but for rounding."""
+_LEAST_DEVIATION = 1e-9  # standard deviation below which a profile is constant but for rounding
 
 _RIM = 6
 """Columns at either end of a photo's stripes where blur mixes the lamp with what is beside it: in

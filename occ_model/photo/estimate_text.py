@@ -2,11 +2,8 @@
 
 from occ_model.scene.parameter_kinds import Quantity
 
-_LARGEST_ERROR = 0.5
-"""Relative standard deviation above which only an upper limit is stated."""
-
-_LIMIT_DEVIATIONS = 2.0
-"""Number of standard deviations by which the limit exceeds the estimate."""
+_LARGEST_ERROR = 0.5  # relative standard deviation above which only an upper limit is stated
+_LIMIT_DEVIATIONS = 2.0  # number of standard deviations by which the limit exceeds the estimate
 
 
 def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:

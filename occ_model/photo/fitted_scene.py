@@ -25,8 +25,7 @@ from occ_model.transmitter.packet import sent_chips
 ESTIMATES = ("readout_time", "switching_frequency")
 """Parameters of which one is estimated and the other is known."""
 
-_MOST_DEVIATIONS = 3.0
-"""Standard deviations above which two exposure times contradict each other."""
+_MOST_DEVIATIONS = 3.0  # standard deviations above which two exposure times contradict each other
 
 _NOTE_ERROR = 0.012
 """Relative standard deviation of a noted exposure time: 1/500 stands for 1/512 s."""

@@ -40,14 +40,9 @@ __all__ = ["ESTIMATES", "PATTERN_SOURCES", "match_photo"]
 PATTERN_SOURCES = ("auto", "scene", "read")
 """Where the sent pattern is taken from: the scene, the photo, or whichever of them fits."""
 
-_EXPLAINED = 0.998
-"""Correlation of the scene's pulse above which no other duty is searched for."""
-
-_SAME_DUTY = 2.0
-"""Standard deviations within which a measured duty is the scene's."""
-
-_SECONDS = 0.05
-"""Minimum time between two reports of progress."""
+_EXPLAINED = 0.998  # correlation of the scene's pulse above which no other duty is searched for
+_SAME_DUTY = 2.0  # standard deviations within which a measured duty is the scene's
+_SECONDS = 0.05  # minimum time between two reports of progress
 
 
 def match_photo(  # noqa: PLR0913 - all but the first two are words with defaults

@@ -8,11 +8,8 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.chips.edges import Edges
 from occ_model.photo.chips.lattice import coarsest, lattice_at
 
-_LEAST_EDGES = 8
-"""Minimum number of edges in a burst: fewer lie on some lattice by chance."""
-
-_LEAST_PAUSE_RATIO = 1.25
-"""Minimum ratio of a pause to the longest bright run."""
+_LEAST_EDGES = 8  # minimum number of edges in a burst: fewer lie on some lattice by chance
+_LEAST_PAUSE_RATIO = 1.25  # minimum ratio of a pause to the longest bright run
 
 _MOST_INCOHERENCE_RATIO, _LEAST_COHERENCE = 0.5, 0.9
 """Maximum incoherence with a lattice for each burst, relative to that with one lattice for all, and

@@ -29,8 +29,7 @@ _STEPS_PER_CHIP = 6.0
 _RIM_DISTANCE = 0.2
 """Distance from the lattice, in chips, beyond which an outermost edge is the rim of the panel."""
 
-_LEAST_DEVIATION = 0.02
-"""Minimum standard deviation of an edge in chips."""
+_LEAST_DEVIATION = 0.02  # minimum standard deviation of an edge in chips
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,17 +23,10 @@ from occ_model.transmitter.packet import sent_chips
 _STEP_CHANGES = np.arange(-4, 5) / 8.0
 """Changes, in chips at the last column, of a known step that are tried."""
 
-_MOST_CORRECTIONS = 6
-"""Maximum number of times that the chips read are replaced by similar ones."""
-
-_MOST_POWER_RATIO = 0.9
-"""Ratio of squared residuals below which similar chips replace those read."""
-
-_PARTS_OF_A_PERIOD = 50
-"""Number of parts of a period; a pulse lasts a whole number of them."""
-
-_DUTY_STEPS = (4, 2, 1)
-"""Successive steps, in parts of a period, of the search for a duty."""
+_MOST_CORRECTIONS = 6  # maximum number of times that the chips read are replaced by similar ones
+_MOST_POWER_RATIO = 0.9  # ratio of squared residuals below which similar chips replace those read
+_PARTS_OF_A_PERIOD = 50  # number of parts of a period; a pulse lasts a whole number of them
+_DUTY_STEPS = (4, 2, 1)  # successive steps, in parts of a period, of the search for a duty
 
 _MOST_EXCHANGE_RATIO = 1.5
 """Maximum ratio of squared residuals after a pulse and its exposure are exchanged: both are rounded

@@ -14,8 +14,7 @@ _LEAST_PERIODS_OF_OTHERS = 3.0
 """Minimum number of periods in view of a short pattern, and of one that was read: two may agree by
 chance."""
 
-_LONG_PATTERN = 8
-"""Number of chips from which a pattern is long."""
+_LONG_PATTERN = 8  # number of chips from which a pattern is long
 
 _LONGEST_EXPOSURE = 3.2
 """Exposure in chips above which different codes make nearly the same stripes."""
@@ -26,8 +25,7 @@ _LEAST_CORRELATION = 0.9
 LEAST_INFORMATION = {False: 40.0, True: 100.0}
 """Minimum information in bits of given chips, and of chips that were read."""
 
-_MOST_UNEXPLAINED = 0.035
-"""Maximum unexplained fraction of the variance for chips that were read."""
+_MOST_UNEXPLAINED = 0.035  # maximum unexplained fraction of the variance for chips that were read
 
 _MOST_RATIO_TO_WAVE = 2.0
 """Maximum ratio of that fraction to what the best periodic wave leaves unexplained."""
@@ -35,8 +33,7 @@ _MOST_RATIO_TO_WAVE = 2.0
 _WELL_EXPLAINED = 0.02
 """Unexplained fraction of the variance that is always allowed: cameras differ from the model."""
 
-_LEAST_ROW_CORRELATION = 0.85
-"""Minimum correlation between the stripes of different rows."""
+_LEAST_ROW_CORRELATION = 0.85  # minimum correlation between the stripes of different rows
 
 _MOST_SATURATED = 0.5
 """Saturated fraction of the pixels above which chips that were read are doubtful."""

@@ -12,8 +12,7 @@ _MOST_BITS = 12
 """Number of bits up to which all codes are compared; of longer packets those that differ in one
 chip."""
 
-_MOST_CHIPS = 512
-"""Number of chips up to which other sequences are compared."""
+_MOST_CHIPS = 512  # number of chips up to which other sequences are compared
 
 
 def nearest_other(

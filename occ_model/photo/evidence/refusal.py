@@ -15,8 +15,7 @@ _LEAST_INFORMATION = 30.0
 """Minimum information in bits. The best of the many timings tried reaches 15 to 20 bits in any
 picture."""
 
-_LEAST_ROW_CORRELATION = 0.7
-"""Minimum correlation between the stripes of different rows."""
+_LEAST_ROW_CORRELATION = 0.7  # minimum correlation between the stripes of different rows
 
 
 def refusals(

@@ -11,21 +11,15 @@ _OWN_HARMONICS = 2
 """Multiple of the number of chips up to which harmonics belong to the pattern: the model's error
 repeats with it."""
 
-_LINE_BINS = 2
-"""Half-width of a spectral line in bins: that of a Hann window."""
+_LINE_BINS = 2  # half-width of a spectral line in bins: that of a Hann window
 
 _NEIGHBOURS = (-4, -3, 3, 4)
 """Distances to the harmonics that a harmonic is compared with: an error at the edges appears in all
 of them. The nearest ones may be sidebands of a light that the pattern modulates."""
 
-_MOST_POWER_RATIO = 4.0
-"""Ratio of powers up to which neighbouring harmonics have the same cause."""
-
-_LEAST_COLUMNS = 64
-"""Minimum number of columns for a spectrum."""
-
-_LEAST_CYCLES = 6
-"""Minimum number of periods in view; slower changes are uneven light."""
+_MOST_POWER_RATIO = 4.0  # ratio of powers up to which neighbouring harmonics have the same cause
+_LEAST_COLUMNS = 64  # minimum number of columns for a spectrum
+_LEAST_CYCLES = 6  # minimum number of periods in view; slower changes are uneven light
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,7 @@ from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results.decoding import Region
 
-_BANDS = 8
-"""Number of bands of rows that are compared."""
+_BANDS = 8  # number of bands of rows that are compared
 
 
 def rows_alike(photo: Photo, region: Region) -> float:

@@ -19,8 +19,7 @@ _DECISIVE = 10.0
 _MODEL_ERROR = 0.02
 """Error of the model relative to the height of the stripes, which every explanation may have."""
 
-_COSINES_PER_CHIP = 2.0
-"""Maximum number of cosines of a smooth curve per chip in view."""
+_COSINES_PER_CHIP = 2.0  # maximum number of cosines of a smooth curve per chip in view
 
 
 @dataclass(frozen=True, eq=False, slots=True)

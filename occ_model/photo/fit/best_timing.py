@@ -13,8 +13,7 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results.match import Stripes
 
-_LEAST_SURE_CORRELATION = 0.9
-"""Correlation above which a candidate is not a coincidence."""
+_LEAST_SURE_CORRELATION = 0.9  # correlation above which a candidate is not a coincidence
 
 _LEAST_CORRELATION_RATIO = 0.85
 """Minimum correlation of further candidates relative to the best one."""
@@ -25,22 +24,14 @@ _BEST, _SHORTEST = 4, 4
 _ROUGH_ROUNDS = 4
 """Number of iterations after which fits are compared, and only good ones continued."""
 
-_MOST_RESIDUAL_RATIO = 4.0
-"""Maximum ratio of a rough fit to the best one for it to be continued."""
+_MOST_RESIDUAL_RATIO = 4.0  # maximum ratio of a rough fit to the best one for it to be continued
 
 _MOST_FINISHED = 6
 
-_NEAR_EXPOSURES = (0.85, 0.93, 1.07, 1.15)
-"""Factors of an exposure from which it is fitted again."""
-
-_OTHER_EXPOSURES = (0.8, 1.25)
-"""Factors of an exposure from which other chips are fitted."""
-
-_LEAST_SPREAD = 1e-3
-"""Difference of exposures in chips below which fits are the same."""
-
-_MOST_EQUAL_RATIO = 1.05
-"""Maximum ratio of residuals of fits that are equally good."""
+_NEAR_EXPOSURES = (0.85, 0.93, 1.07, 1.15)  # factors of an exposure from which it is fitted again
+_OTHER_EXPOSURES = (0.8, 1.25)  # factors of an exposure from which other chips are fitted
+_LEAST_SPREAD = 1e-3  # difference of exposures in chips below which fits are the same
+_MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
 
 _EQUALIZED_RATIO = 0.5
 """Ratio to the other cameras' residual below which a picture was equalized: cameras do not do

@@ -9,11 +9,8 @@ from occ_model.photo.fit.averaged_fits import distinct
 from occ_model.photo.fit.blurred_light import BlurShape
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
 
-_MOST_COLUMNS = 12.0
-"""Exposure in columns below which blur may be taken for it."""
-
-_BLURS = (0.2, 0.7, 1.1, 1.5)
-"""Standard deviations of blur, in columns, that are tried."""
+_MOST_COLUMNS = 12.0  # exposure in columns below which blur may be taken for it
+_BLURS = (0.2, 0.7, 1.1, 1.5)  # standard deviations of blur, in columns, that are tried
 
 _BLUR_FRACTIONS: dict[BlurShape | None, tuple[float, ...]] = {
     None: (0.75, 0.9),
@@ -29,8 +26,7 @@ _WELL_KNOWN_BLUR = 0.1
 """Standard deviation of a fitted blur, in columns, below which no other blur is tried."""
 
 _LAST_ROUNDS = 10
-_SHORTEST = 0.2
-"""Shortest exposure in columns to start from."""
+_SHORTEST = 0.2  # shortest exposure in columns to start from
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -14,14 +14,9 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
 
-_REACH = 8
-"""Maximum distance in columns over which blur acts."""
-
-_LEAST_BLUR = 0.05
-"""Blur in columns below which a picture is sharp."""
-
-_CHANGE = 1e-5
-"""Finite difference of the blur in columns."""
+_REACH = 8  # maximum distance in columns over which blur acts
+_LEAST_BLUR = 0.05  # blur in columns below which a picture is sharp
+_CHANGE = 1e-5  # finite difference of the blur in columns
 
 BLUR = 3
 """The blur's index among the parameters of slopes: step, exposure, middle, blur and longer."""

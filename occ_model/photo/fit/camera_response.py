@@ -15,13 +15,11 @@ from occ_model.scene.scene import Scene
 _BRIGHT = 1000.0
 """Luminance in cd/m2 of the lit panel; only its ratio to that of the dark panel matters."""
 
-_DARKEST = 0.5
-"""Grey level below which dark columns are black."""
+_DARKEST = 0.5  # grey level below which dark columns are black
 
 _STEADY_LIGHT = np.ones(1)
 
-_RANK_RESOLUTION = 0.5
-"""Change of the timing in columns that changes the columns' ranks noticeably."""
+_RANK_RESOLUTION = 0.5  # change of the timing in columns that changes the columns' ranks noticeably
 
 AVERAGINGS = ("pixel-value", "light")
 

@@ -17,8 +17,7 @@ _EXPOSURES = (0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.0, 2.15, 2.3, 2.5, 2.7, 2.8
 _PHASES = np.arange(16) / 16.0
 """Exposures and phases in chips that are tried, twice as dense as for division."""
 
-_LEAST_GAIN = 1e-9
-"""Increase of the likeness beyond rounding error."""
+_LEAST_GAIN = 1e-9  # increase of the likeness beyond rounding error
 
 
 def chips_by_descent(

@@ -15,21 +15,16 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.stripes.envelope import MEAN_SHAPES, smooth_shapes
 
 _EXPOSURES = (0.1, 0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.15, 2.3, 2.5, 2.7, 2.85, 3.3)
-_PHASES = np.arange(8) / 8.0
-"""Exposures and phases in chips that are tried."""
-
-_LEAST_WEIGHT = 0.01
-"""Weight relative to the largest one below which a harmonic is mostly noise."""
+_PHASES = np.arange(8) / 8.0  # exposures and phases in chips that are tried
+_LEAST_WEIGHT = 0.01  # weight relative to the largest one below which a harmonic is mostly noise
 
 _MOST_HARMONICS = 160
 
-_REGULARIZATION = 1e-6
-"""Regularization of the normal equations relative to a harmonic's energy."""
+_REGULARIZATION = 1e-6  # regularization of the normal equations relative to a harmonic's energy
 
 _MOST_EVALUATIONS = 120
 
-_MOST_LONGER = 0.5
-"""Maximum change, in chips, of bright runs by gamma and saturation."""
+_MOST_LONGER = 0.5  # maximum change, in chips, of bright runs by gamma and saturation
 
 
 @dataclass(frozen=True, eq=False, slots=True)

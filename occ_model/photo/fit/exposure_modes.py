@@ -11,8 +11,7 @@ from occ_model.photo.fit.joint_fit import JointFit, JointModel
 from occ_model.photo.fit.other_starts import alike_among, other_starts, scanned_starts
 from occ_model.photo.fit.timing import Timing
 
-_MOST_EXCESS_MISFIT = 60.0
-"""Excess of the misfit above which an exposure is not refined."""
+_MOST_EXCESS_MISFIT = 60.0  # excess of the misfit above which an exposure is not refined
 
 _MOST_EXCESS, _MOST_RATIO = 9.0, 1.3
 """Excess of the misfit (three standard deviations), and its ratio, up to which another exposure is

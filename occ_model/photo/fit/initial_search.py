@@ -18,22 +18,17 @@ from occ_model.photo.fit.timing import Timing
 EXPOSURES = (0.15, 0.5, 0.85, 1.3, 1.7, 2.3, 2.7, 3.3, 3.7, 4.3, 4.7, 5.4, 6.3, 7.2)
 """Exposures that are tried, in chips; of a pulse in half periods."""
 
-_ROUGH_EXPOSURES = (0.3, 1.4, 2.4, 3.5, 5.4)
-"""Exposures with which all steps are compared."""
-
-_MOST_STEP = 0.95
-"""Maximum number of chips per column."""
+_ROUGH_EXPOSURES = (0.3, 1.4, 2.4, 3.5, 5.4)  # exposures with which all steps are compared
+_MOST_STEP = 0.95  # maximum number of chips per column
 
 _PADDING = 4
 _PHASES_A_CHIP = 8
 _ROUGH_PHASES_A_CHIP = 2
 
-_STEPS_PER_CHIP = 3.0
-"""Number of steps tried while the last column moves by one chip."""
+_STEPS_PER_CHIP = 3.0  # number of steps tried while the last column moves by one chip
 
 _BEST_STEPS = 24
-_AT_ONCE = 2**19
-"""Maximum number of array elements at once, which bounds the memory."""
+_AT_ONCE = 2**19  # maximum number of array elements at once, which bounds the memory
 
 
 def _nothing() -> None:

@@ -33,8 +33,7 @@ _UNKNOWN_BLUR = 0.02
 tried. An exposure of half a column behind a blur of one column is thus known to 50 %, one of four
 columns to 1 %."""
 
-_LEAST_EDGES = 0.1
-"""Minimum fraction of the edges' columns that is seen without clipping."""
+_LEAST_EDGES = 0.1  # minimum fraction of the edges' columns that is seen without clipping
 
 _MOST_UNUSUAL = 3.55
 """Distance of the camera's and the LED's six unknowns from their means, in standard deviations,

@@ -44,11 +44,8 @@ _KURTOSIS = 1.6
 normal (0), a quarter a box from resizing (-1.2), and a quarter has exponential tails (3). It is not
 fitted, since it would absorb what the model leaves unexplained."""
 
-_KURTOSIS_CHANGE = 0.2
-"""Finite difference of the excess kurtosis."""
-
-_ANY_GAMMA = 0.5
-"""Standard deviation of gamma's logarithm where nothing is known of it."""
+_KURTOSIS_CHANGE = 0.2  # finite difference of the excess kurtosis
+_ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
 
 _EDGE_SHIFT = 0.4
 """Standard deviation in columns of the distance of a stripe's edges where pixel values are
@@ -65,11 +62,8 @@ _MOST_SLOW_SHAPES = 32
 combination of a few of them. The rest would count as noise of many columns, and the priors would
 outweigh the data."""
 
-_EDGE = 0.05
-"""Distance from both levels, relative to the swing, at which a column is on an edge."""
-
-_GAMMA_BOUNDS = (-0.9, 0.9)
-"""Bounds of gamma's logarithm where it is roughly known."""
+_EDGE = 0.05  # distance from both levels, relative to the swing, at which a column is on an edge
+_GAMMA_BOUNDS = (-0.9, 0.9)  # bounds of gamma's logarithm where it is roughly known
 
 
 @dataclass(frozen=True, eq=False, slots=True)

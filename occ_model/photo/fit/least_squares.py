@@ -34,23 +34,18 @@ _LEAST_KEPT = 0.4
 """Minimum unsaturated fraction of the columns for the saturated ones to be left out."""
 
 _MOST_ROUNDS = 25
-_LEAST_GAIN = 1e-6
-"""Minimum relative decrease of the sum of squares for a further iteration."""
+_LEAST_GAIN = 1e-6  # minimum relative decrease of the sum of squares for a further iteration
 
 _REGULARIZATION = 1e-4
 """Regularization of the covariance: a parameter on which no column depends gets a standard
 deviation of a hundred of its scales."""
 
-_CHIPS_PER_SHAPE = 6
-"""Number of chips in view for each polynomial of a level."""
+_CHIPS_PER_SHAPE = 6  # number of chips in view for each polynomial of a level
 
 _MOST_SHAPES = 8
 
-_UNKNOWN_BLUR = 0.4
-"""Standard deviation in columns of the blur that this model does not fit."""
-
-_DARKEST = -0.1
-"""Minimum dark level relative to the swing: pixel values are not negative."""
+_UNKNOWN_BLUR = 0.4  # standard deviation in columns of the blur that this model does not fit
+_DARKEST = -0.1  # minimum dark level relative to the swing: pixel values are not negative
 
 
 @dataclass(frozen=True, eq=False, slots=True)

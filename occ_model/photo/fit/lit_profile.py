@@ -20,11 +20,8 @@ from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
-_LEAST_DEVIATION = 0.02
-"""Minimum standard deviation of a column mean in grey levels."""
-
-_COLUMNS_PER_SLOW_SHAPE = 8
-"""Minimum number of columns per polynomial that is projected out."""
+_LEAST_DEVIATION = 0.02  # minimum standard deviation of a column mean in grey levels
+_COLUMNS_PER_SLOW_SHAPE = 8  # minimum number of columns per polynomial that is projected out
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -11,18 +11,15 @@ from occ_model.photo.fit.joint_fit import JointFit, JointModel
 from occ_model.photo.fit.timing import Timing
 
 _MOST_STARTS = 3
-_LONGEST = 4.2
-"""Longest exposure in chips to start from."""
+_LONGEST = 4.2  # longest exposure in chips to start from
 
 _MOST_SCANNED = 2
-_MOST_MISFIT_RATIO = 4.0
-"""Maximum misfit ratio of a starting value."""
+_MOST_MISFIT_RATIO = 4.0  # maximum misfit ratio of a starting value
 
 _HELD = (0, 3, 4, 5, 6, 7, 8)
 """Indices of the parameters that are held while exposures are compared: all but the phase."""
 
-_ROUGH_ROUNDS = 3
-"""Number of iterations that separate promising exposures from others."""
+_ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
 
 
 def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:

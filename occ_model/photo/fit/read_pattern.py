@@ -26,25 +26,20 @@ from occ_model.photo.stripes.envelope import without_trend
 MOST_CHIPS = 128
 """Maximum number of chips in a period."""
 
-_LEAST_COHERENCE = 0.6
-"""Minimum coherence of edges with the best lattice of chips."""
+_LEAST_COHERENCE = 0.6  # minimum coherence of edges with the best lattice of chips
 
 _LONGEST_FOR_EDGES = 1.5
 """Exposure in chips above which edges may not show the lattice of the chips."""
 
-_MOST_COUNTS = 12
-"""Maximum number of lattices that are tried."""
-
-_WELL_EXPLAINED = 0.04
-"""Unexplained fraction of the harmonics' power at which the search ends."""
+_MOST_COUNTS = 12  # maximum number of lattices that are tried
+_WELL_EXPLAINED = 0.04  # unexplained fraction of the harmonics' power at which the search ends
 
 _MOST_EQUAL_RATIO = 1.5
 """Maximum ratio of the unexplained power to the least one at which fewer chips are preferred."""
 
 _LEAST_CROSSINGS = 4
 
-_MOST_UNEXPLAINED = 0.15
-"""Maximum unexplained fraction of the harmonics' power."""
+_MOST_UNEXPLAINED = 0.15  # maximum unexplained fraction of the harmonics' power
 
 _MOST_NEIGHBOUR_RATIO = 0.5
 """Maximum ratio of the unexplained power to that of neighbouring numbers of chips."""

@@ -12,11 +12,8 @@ _LOW = np.array([0.5, SHORTEST, -np.inf, -np.inf, -0.1, -0.9, -0.9, 0.0, -0.3])
 _HIGH = np.array([2.0, np.inf, np.inf, np.inf, 0.3, 0.9, 1.5, 3.0, 0.3])
 """Bounds of the parameters except gamma; those of the step are relative to it."""
 
-_EXPOSURE_SCALE = 0.05
-"""Scale of the exposure's logarithm."""
-
-_MOST_LOG_CHANGE = 5.0
-"""Maximum change of that logarithm."""
+_EXPOSURE_SCALE = 0.05  # scale of the exposure's logarithm
+_MOST_LOG_CHANGE = 5.0  # maximum change of that logarithm
 
 
 class ScaledParameters:

@@ -8,8 +8,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import WHITE
 
-_TOE = 0.03
-"""Fraction of white below which the curve is straight: noise lifts black."""
+_TOE = 0.03  # fraction of white below which the curve is straight: noise lifts black
 
 _GRID = np.linspace(-0.1, 1.0, 441)
 _STEP = float(_GRID[1] - _GRID[0])

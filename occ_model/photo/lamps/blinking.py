@@ -10,8 +10,7 @@ from occ_model.photo.lamps.shape import around
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.lamp import Lamp
 
-_LEAST_SHARED_ROWS = 0.5
-"""Minimum fraction of rows that two parts of one lamp have in common."""
+_LEAST_SHARED_ROWS = 0.5  # minimum fraction of rows that two parts of one lamp have in common
 
 _LEAST_LIGHT_RATIO = 0.5
 """Minimum brightness of a part, and of what lies between two parts, relative to the other part."""

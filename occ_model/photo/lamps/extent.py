@@ -6,23 +6,18 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.photo.lamps.timing import LampTiming
 
-_CELL = 8
-"""Columns over which levels are averaged, about as many as a strip has rows."""
-
-_PADDING = 3
-"""Cells around a shape within which its rim may lie."""
+_CELL = 8  # columns over which levels are averaged, about as many as a strip has rows
+_PADDING = 3  # cells around a shape within which its rim may lie
 
 _LEVELS = np.linspace(0.08, 0.92, 15)
 """Levels between the darkest and the brightest cell at which a rim is searched for."""
 
-_DARK = 10.0
-"""Grey levels added before ratios are formed: lower levels are noise."""
+_DARK = 10.0  # grey levels added before ratios are formed: lower levels are noise
 
 _MOST_FALL = 0.65
 """Maximum ratio of the levels outside and inside a rim; across two cells a halo falls less."""
 
-_LEAST_AREA = 0.2
-"""Minimum area within the rim relative to the shape; less is a hot spot."""
+_LEAST_AREA = 0.2  # minimum area within the rim relative to the shape; less is a hot spot
 
 
 def without_halo(

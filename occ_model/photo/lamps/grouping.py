@@ -21,8 +21,7 @@ a rim can join the edges of two lamps, and such a segment must not join the lamp
 LEAST_STRIPS = 2
 """Minimum number of strips of a lamp: in one, noise makes edges equal."""
 
-_LEAST_STRIP_FRACTION = 0.2
-"""Minimum fraction of a group's strips that show an edge."""
+_LEAST_STRIP_FRACTION = 0.2  # minimum fraction of a group's strips that show an edge
 
 
 def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:

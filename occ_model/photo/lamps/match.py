@@ -13,8 +13,7 @@ from occ_model.scene.scene import Scene
 
 MatchedLamp: TypeAlias = tuple[Lamp, Match | MatchError]
 
-_SEARCH = 0.2
-"""Fraction of the work that finding the lamps takes."""
+_SEARCH = 0.2  # fraction of the work that finding the lamps takes
 
 
 def match_lamps(

@@ -15,14 +15,9 @@ from occ_model.photo.chips.edges import Edges as ChipEdges
 from occ_model.photo.chips.lattice import coherence
 from occ_model.photo.lamps.edges import Edges
 
-_TOLERANCE = 0.04
-"""Maximum distance of an edge from its place, in periods and, besides, in columns."""
-
-_COLUMN_TOLERANCE = 0.8
-"""Columns by which an edge may lie off its place: pixels and noise."""
-
-_LEAST_EDGES = 4
-"""Minimum number of edges of a lamp: two rising and two falling ones."""
+_TOLERANCE = 0.04  # maximum distance of an edge from its place, in periods and, besides, in columns
+_COLUMN_TOLERANCE = 0.8  # columns by which an edge may lie off its place: pixels and noise
+_LEAST_EDGES = 4  # minimum number of edges of a lamp: two rising and two falling ones
 
 _LEAST_MORE_EDGES = 4
 """Minimum number of edges by which a code must exceed a progression: a lamp's rim has two."""
@@ -34,11 +29,8 @@ _LONG_EDGES, _NEARLY_ALL = 6, 0.9
 """Number of edges of a long progression, and fraction of a code's edges above which progressions
 explain all of them."""
 
-_LEAST_CODE_EDGES = 7
-"""Minimum number of edges of a code."""
-
-_MOST_EDGES = 400
-"""Number of edges in a strip above which they are those of a texture."""
+_LEAST_CODE_EDGES = 7  # minimum number of edges of a code
+_MOST_EDGES = 400  # number of edges in a strip above which they are those of a texture
 
 _LEAST_COHERENCE, _COLUMN_COHERENCE = 0.9, 0.5
 """Minimum coherence of edges with the lattice of a code of long chips, and its decrease in columns
@@ -47,14 +39,9 @@ per chip: pixels and blur shift the edges of short ones."""
 _SHORTEST, _LONGEST, _STEPS = 0.72, 1.4, 200
 """Chip lengths that are tried, relative to the distances of near edges, and their number."""
 
-_MOST_OFF = 0.2
-"""Maximum distance of a code's edge from its lattice in chips."""
-
-_LONGEST_RUN = 5.5
-"""Longest run of a code in chips; beyond it another lamp begins."""
-
-_LEAST_STEP_RATIO = 0.4
-"""Minimum ratio of neighbouring steps of one lamp."""
+_MOST_OFF = 0.2  # maximum distance of a code's edge from its lattice in chips
+_LONGEST_RUN = 5.5  # longest run of a code in chips; beyond it another lamp begins
+_LEAST_STEP_RATIO = 0.4  # minimum ratio of neighbouring steps of one lamp
 
 
 @dataclass(frozen=True, eq=False, slots=True)

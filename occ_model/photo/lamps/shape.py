@@ -12,17 +12,13 @@ from occ_model.results.decoding import Region
 _LEAST_SWING = 0.4
 """Minimum swing relative to the lamp's, or to the edge beside it; less is scattered light."""
 
-_LEAST_OWN = 0.7
-"""Minimum fraction of the edges between a lamp's outermost ones that are its own."""
+_LEAST_OWN = 0.7  # minimum fraction of the edges between a lamp's outermost ones that are its own
 
 _CUT_TOLERANCE = 0.3
 """Maximum distance of an edge from its place in chips where the rim cuts the stripe beside it."""
 
-_MOST_WIDTH = 1.15
-"""Maximum width of a stripe that the rim cuts, relative to a whole one."""
-
-_SMOOTH = 2
-"""Strips on either side over which the median of a rim is taken."""
+_MOST_WIDTH = 1.15  # maximum width of a stripe that the rim cuts, relative to a whole one
+_SMOOTH = 2  # strips on either side over which the median of a rim is taken
 
 
 def spans_of(

@@ -8,8 +8,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.lamps.edges import Edges
 from occ_model.photo.lamps.segments import Segment, segments_of
 
-_LATTICE_TOLERANCE = 0.12
-"""Maximum distance of an edge from a lattice relative to the spacing."""
+_LATTICE_TOLERANCE = 0.12  # maximum distance of an edge from a lattice relative to the spacing
 
 
 _CODE_OFF, _CODE_COLUMN = 0.045, 0.12
@@ -17,14 +16,9 @@ _PULSE_OFF, _PULSE_COLUMN = 0.08, 0.4
 """Maximum root mean square distance of the edges of a code, and of a pulse, from their lattices: in
 chips and, besides, in columns."""
 
-_TIGHTER = 0.5
-"""Factor of the tolerance for the mean edges of many rows."""
-
-_MOST_RATIO = 0.5
-"""Maximum ratio of the distances from a code's lattices after a rim is left out."""
-
-_LEAST_DEVIATION = 0.1
-"""Minimum standard deviation of an edge in columns."""
+_TIGHTER = 0.5  # factor of the tolerance for the mean edges of many rows
+_MOST_RATIO = 0.5  # maximum ratio of the distances from a code's lattices after a rim is left out
+_LEAST_DEVIATION = 0.1  # minimum standard deviation of an edge in columns
 
 _SPACING_TOLERANCE, _SHADED_TOLERANCE = 0.003, 0.06
 """Maximum relative difference of the spacings of a lamp and of its reflection; the second divided

@@ -9,8 +9,7 @@ from occ_model.photo.many.weighted_mean import combine
 from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.scene.parameters import quantity
 
-_SAME_EXPOSURE = 1.02
-"""Maximum ratio of noted exposure times that are the same."""
+_SAME_EXPOSURE = 1.02  # maximum ratio of noted exposure times that are the same
 
 
 def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:

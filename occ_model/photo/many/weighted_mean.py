@@ -25,8 +25,7 @@ _FALSE_ALARM = 0.01
 _NORMAL_MAD = 1.4826
 """Ratio of the standard deviation of a normal distribution to its median absolute deviation."""
 
-_LEAST_FOR_OUTLIERS = 3
-"""Minimum number of estimates among which an outlier can be identified."""
+_LEAST_FOR_OUTLIERS = 3  # minimum number of estimates among which an outlier can be identified
 
 
 def combine(

@@ -15,8 +15,7 @@ from occ_model.results.photo_table import UNREADABLE, PhotoRow
 PRELOAD = "occ_model.photo.many.row"
 """The module that a worker process needs."""
 
-_BEAT = 0.2
-"""Seconds between two heartbeats while this process waits for workers."""
+_BEAT = 0.2  # seconds between two heartbeats while this process waits for workers
 
 Files: TypeAlias = Iterable[tuple[int, Path]]
 """The files to match, each with its place in the table."""

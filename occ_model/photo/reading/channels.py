@@ -10,8 +10,7 @@ from occ_model.arrays import FloatArray
 from occ_model.photo.reading.image_decoding import DecodedPicture, Samples
 from occ_model.photo.reading.watched_file import Progress
 
-_Take: TypeAlias = Callable[[Samples], Samples]
-"""Extracts a channel from some pixels."""
+_Take: TypeAlias = Callable[[Samples], Samples]  # extracts a channel from some pixels
 
 _COLOURS = ("red", "green", "blue")
 _GREEN = 1

@@ -25,19 +25,13 @@ _PIXELS_ACROSS, _PIXELS_DOWN, _PIXELS_UNIT = 0xA20E, 0xA20F, 0xA210
 _UNITS = {2.0: 25.4e-3, 3.0: 1e-2, 4.0: 1e-3}
 """Metres in which the pixels of the sensor are counted."""
 
-_SQUARE = 0.02
-"""Fraction by which a pixel's sides may differ."""
-
-_DECIMALS = 3
-"""Decimals of millimetres that a focal length is written in at most."""
-
-_ISO_OR_MORE = 65535
-"""Value of the oldest tag, of 16 bits, where the ISO speed is larger."""
+_SQUARE = 0.02  # fraction by which a pixel's sides may differ
+_DECIMALS = 3  # decimals of millimetres that a focal length is written in at most
+_ISO_OR_MORE = 65535  # value of the oldest tag, of 16 bits, where the ISO speed is larger
 
 _LONGEST_NAME = 60
 
-_FIRST_LYING = 5
-"""The first orientation in which the camera's columns are stored as lines."""
+_FIRST_LYING = 5  # the first orientation in which the camera's columns are stored as lines
 
 
 @dataclass(frozen=True, slots=True)

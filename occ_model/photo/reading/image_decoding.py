@@ -27,11 +27,8 @@ Box: TypeAlias = tuple[int, int, int, int]
 DECODED = 0.8
 """Fraction of the work that is done when a picture is decoded."""
 
-_GREY_LEVEL = 257
-"""One grey level in samples of 16 bits: 65535 / 255."""
-
-_PART = 1 << 20
-"""Number of pixels that are converted at once: some megabytes."""
+_GREY_LEVEL = 257  # one grey level in samples of 16 bits: 65535 / 255
+_PART = 1 << 20  # number of pixels that are converted at once: some megabytes
 
 _NATIVE, _SWAPPED = ("16L", "16B") if sys.byteorder == "little" else ("16B", "16L")
 

@@ -11,8 +11,7 @@ from occ_model.photo.reading.size_limits import check_bytes
 if TYPE_CHECKING:
     from PIL.ImageFile import ImageFile
 
-_MOST_SCANS = 500
-"""Scans of a JPEG; encoders write about 10."""
+_MOST_SCANS = 500  # scans of a JPEG; encoders write about 10
 
 _MOST_PIXELS_OF_SCANS = 3_000_000_000
 """Pixels of a JPEG times its scans: 17 scans of 170 million pixels, which take some seconds."""
@@ -31,20 +30,17 @@ _MOST_BYTES = {
 }
 """Largest file in bytes, for formats whose decoders take some seconds for it."""
 
-_MOST_BYTES_OF_TIFF = 150_000_000
-"""Largest file in bytes, for a compressed TIFF."""
+_MOST_BYTES_OF_TIFF = 150_000_000  # largest file in bytes, for a compressed TIFF
 
 _MOST_BYTES_IN_PYTHON = 3_500_000
 """Largest file in bytes, for what Pillow decodes in Python: QOI, some BMP and PPM."""
 
-_DEEP_COLOURS = 2
-"""Pictures of 16-bit colours in memory at once: the upper and the lower bytes."""
+_DEEP_COLOURS = 2  # pictures of 16-bit colours in memory at once: the upper and the lower bytes
 
 _MOST_DEEP_AND_TRANSPARENT = 50_000_000
 """Pixels of 16-bit colours of which some may be transparent: each takes twice the time or more."""
 
-_LIBTIFF_COLOURS = 4
-"""Bytes of a pixel where libtiff itself converts YCbCr colours."""
+_LIBTIFF_COLOURS = 4  # bytes of a pixel where libtiff itself converts YCbCr colours
 
 _BITS_PER_SAMPLE = 258
 _ORIENTATION, _ROWS_PER_STRIP, _TILE_WIDTH, _TILE_LENGTH = 274, 278, 322, 323

@@ -35,8 +35,7 @@ _TIFF = (b"II*\0", b"MM\0*")
 _OTHERS = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILMCCD-RAW", b"FOVb")
 """The first bytes of RAW files of Olympus, Panasonic, Fujifilm and Sigma."""
 
-_CR3 = b"ftypcrx "
-"""Bytes 4 to 11 of Canon's newer files."""
+_CR3 = b"ftypcrx "  # bytes 4 to 11 of Canon's newer files
 
 _MOST_SUB_IFDS = 16
 _PHOTOMETRIC, _SUB_IFDS, _DNG_VERSION = 262, 330, 50706
@@ -45,8 +44,7 @@ _SENSOR_SAMPLES = (32803, 34892)
 
 _GREEN = b"G"[0]
 _ANY = "brightest"
-_NO_COLOUR = 6
-"""LibRaw's colour of a sensor without filters."""
+_NO_COLOUR = 6  # LibRaw's colour of a sensor without filters
 
 _ORIENTATIONS = {0: 1, 1: 2, 2: 4, 3: 3, 4: 5, 5: 8, 6: 6, 7: 7}
 """The EXIF orientation for LibRaw's flip: bit 0 mirrors columns, bit 1 rows, bit 2 transposes."""

@@ -8,8 +8,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.reading.image_decoding import Samples
 
-_USUAL = 0.97
-"""Fraction of the differences between neighbours that are not at a panel's edges."""
+_USUAL = 0.97  # fraction of the differences between neighbours that are not at a panel's edges
 
 
 def stripes_are_lines(samples: Samples, lying: bool) -> bool:

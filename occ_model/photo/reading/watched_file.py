@@ -8,8 +8,7 @@ from typing import TypeAlias
 Progress: TypeAlias = Callable[[float], object]
 """Called with the fraction of the work that is done, from 0 to 1; cancels the work by raising."""
 
-_STEP = 1 << 16
-"""Bytes after which progress is reported again: decoders read as many at once."""
+_STEP = 1 << 16  # bytes after which progress is reported again: decoders read as many at once
 
 
 class Reporter:

@@ -27,8 +27,7 @@ _LEAST_CLIPPED = 0.002
 _UNCLIPPED, _ALL_CLIPPED = 0.005, 0.9
 """Clipped fractions of a column's pixels below which it is not clipped, and above which it is."""
 
-_BLURRED_COLUMNS = 3
-"""Columns beside a clipped one that blur may have darkened."""
+_BLURRED_COLUMNS = 3  # columns beside a clipped one that blur may have darkened
 
 _LEAST_LIGHT = 0.6
 """Minimum brightness of a group where no pixel is clipped, relative to the brightest."""
@@ -39,8 +38,7 @@ _QUANTILE = 0.75
 _GROUP_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8)
 """Fractions of white that divide pixels into groups where some are clipped."""
 
-_CLIPPED_GROUPS = 2
-"""Number of groups of pixels that are clipped while the lamp is on."""
+_CLIPPED_GROUPS = 2  # number of groups of pixels that are clipped while the lamp is on
 
 _MOST_GROUPS = 3
 _HALF_WEIGHT_ROWS = 16.0
@@ -48,8 +46,7 @@ _HALF_WEIGHT_ROWS = 16.0
 but not the errors that all rows share."""
 
 _LEAST_COLUMNS = 24
-_LEAST_CELLS = 0.15
-"""Minimum number of pixels in a column relative to the group's median."""
+_LEAST_CELLS = 0.15  # minimum number of pixels in a column relative to the group's median
 
 
 @dataclass(frozen=True, eq=False, slots=True)

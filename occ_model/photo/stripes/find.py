@@ -24,23 +24,12 @@ from occ_model.results.match import Stripes
 BANDS = 64
 """Maximum number of bands into which rows are gathered."""
 
-_LEAST_STRENGTH = 0.25
-"""Minimum strength of the common stripes in a row relative to the median."""
-
-_LEAST_SLOPE = 0.3
-"""Minimum slope of an edge relative to a steep one; lenses darken the rim."""
-
-_LEAST_NEIGHBOUR_RATIO = 0.6
-"""Minimum slope of an outer edge relative to the edges beside it."""
-
-_NOISE_SLOPE = 0.08
-"""Slope relative to a steep edge below which it is noise or compression."""
-
-_SLOPE_COLUMNS = 4
-"""Number of columns over which a slope is measured."""
-
-_MOST_GAP_RATIO = 1.6
-"""Ratio to the widest gap between edges above which a gap ends the panel."""
+_LEAST_STRENGTH = 0.25  # minimum strength of the common stripes in a row relative to the median
+_LEAST_SLOPE = 0.3  # minimum slope of an edge relative to a steep one; lenses darken the rim
+_LEAST_NEIGHBOUR_RATIO = 0.6  # minimum slope of an outer edge relative to the edges beside it
+_NOISE_SLOPE = 0.08  # slope relative to a steep edge below which it is noise or compression
+_SLOPE_COLUMNS = 4  # number of columns over which a slope is measured
+_MOST_GAP_RATIO = 1.6  # ratio to the widest gap between edges above which a gap ends the panel
 
 _STEEP_QUANTILE = 0.98
 """Quantile of all slopes that represents a steep edge: the panel's rim is steeper."""
@@ -48,14 +37,9 @@ _STEEP_QUANTILE = 0.98
 _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3
 
-_LEAST_COHERENCE = 0.2
-"""Minimum fraction of the variation that all bands have in common."""
-
-_FULL = 0.996
-"""Fraction of white above which a sample is saturated."""
-
-_MOST_FULL = 0.8
-"""Saturated fraction of the columns above which the others do not show the stripes."""
+_LEAST_COHERENCE = 0.2  # minimum fraction of the variation that all bands have in common
+_FULL = 0.996  # fraction of white above which a sample is saturated
+_MOST_FULL = 0.8  # saturated fraction of the columns above which the others do not show the stripes
 
 
 def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:

@@ -5,23 +5,15 @@ import numpy as np
 from occ_model.arrays import FloatArray
 from occ_model.photo.stripes.envelope import smooth_shapes
 
-_SHORTEST = 3
-"""Shortest period in columns."""
-
-_LEAST_AUTOCORRELATION = 0.5
-"""Minimum autocorrelation after one period."""
+_SHORTEST = 3  # shortest period in columns
+_LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
 
 _TOLERANCE = 0.06
 """Maximum difference of the autocorrelation after the shortest period from the best one."""
 
-_LONGEST_FRACTION = 0.67
-"""Longest period relative to the width: part of it must be seen twice."""
-
-_MOST_HARMONICS = 24
-"""Maximum number of harmonics."""
-
-_MOST_ITERATIONS = 8
-"""Maximum number of Gauss-Newton iterations."""
+_LONGEST_FRACTION = 0.67  # longest period relative to the width: part of it must be seen twice
+_MOST_HARMONICS = 24  # maximum number of harmonics
+_MOST_ITERATIONS = 8  # maximum number of Gauss-Newton iterations
 
 
 def repeat_period(flattened: FloatArray) -> tuple[float, float] | None:

@@ -108,7 +108,6 @@ def enhance_comparison(comparison: Comparison, enhanced: FloatArray, method: str
 
 
 def _correlation(one: FloatArray, other: FloatArray, height: FloatArray) -> float:
-    """Return the correlation of two profiles; 0 where one of them has no stripes."""
     weights = height**2 / np.sum(height**2)
     a, b = one - weights @ one, other - weights @ other
     energy = float(np.sqrt(weights @ a**2)), float(np.sqrt(weights @ b**2))

@@ -112,7 +112,6 @@ def described(
 
 
 def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
-    """Compare a readout time's or frequency's error with what such an error is worth."""
     share = deviation / value
     if share <= _MOST_UNSURE:
         return []
@@ -132,7 +131,6 @@ def _doubts_by_others(photo: Photo, explanation: Explanation) -> list[str]:
 
 
 def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str]:
-    """Compare the fitted exposure time with the one that the camera noted."""
     noted = photo.exposure_time
     if noted is None:
         return []
@@ -161,7 +159,6 @@ def _within_pulse(fit: StripeFit, shortest: int) -> StripeFit:
 def _with_timing(
     scene: Scene, fit: StripeFit, explanation: Explanation, estimate: str, region: Region
 ) -> Scene:
-    """Set the chips of an explanation, the times of its fit and its camera in a scene."""
     timing, columns = fit.timing, len(fit.profile)
     readout, frequency = readout_and_frequency(fit, scene, estimate)
     scene, turned = with_chips(scene, explanation.chips)

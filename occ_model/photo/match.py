@@ -210,7 +210,6 @@ def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
 
 
 def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> list[CameraTone]:
-    """Return the camera responses that are tried."""
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)
@@ -221,7 +220,6 @@ def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) ->
 def _hypotheses(
     candidates: Candidates, sent: str, report: Callable[[float], object]
 ) -> list[Hypothesis]:
-    """Fit what the scene sends, what is read from the photo, or both."""
     as_sent = None if sent == "read" else candidates.as_sent()
     report(0.5)
     found = [] if sent == "scene" else _read(candidates, as_sent, sent)
@@ -270,7 +268,6 @@ def _chosen(
 
 
 def _at_rate(scene: Scene, rate: float) -> Scene:
-    """Let a scene send so many chips in the time of one."""
     if rate == 1.0:
         return scene
     frequency = scene.transmitter.switching_frequency * rate
@@ -298,7 +295,6 @@ def _exchanged_exposure(photo: Photo, match: Match, sent: str) -> float | None:
 
 
 def _doubt_of_exchange(match: Match, other: float) -> str:
-    """Doubt an exposure that a pulse as long may have, and the duty with it."""
     share = 100.0 * match.exposure_in_chips / len(match.pattern)
     time_ = quantity("exposure_time").format(other)
     return (

@@ -80,7 +80,6 @@ def in_columns(facts: tuple[Fact, ...], width: int = 22) -> Iterator[str]:
 
 
 def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
-    """Return an estimate with its error and what it rests on, or a given value, and its note."""
     deviation = match.uncertainties.get(name)
     text = estimate_text(quantity(name), getattr(match, name), deviation)
     if name == "switching_frequency" and len(match.pattern) == CHIPS_OF_A_CYCLE:
@@ -121,7 +120,6 @@ def _fit(match: Match) -> dict[str, tuple[str, str]]:
 
 
 def _duty(match: Match) -> tuple[str, str]:
-    """Return the duty, with its error where it was measured, and its note."""
     deviation = match.uncertainties.get("duty")
     if deviation is None:
         text = f"lit for {100.0 * match.duty:.3g} % of a period"
@@ -134,7 +132,6 @@ def _duty(match: Match) -> tuple[str, str]:
 
 
 def _alternative(other: Alternative, estimated: str, condition: str) -> str:
-    """Write another explanation of the stripes."""
     side = "lower" if other.evidence <= 0.0 else "higher"
     text = (
         f"{other.sent}: correlation {other.correlation:.3f}, log-likelihood {side} by "

@@ -49,7 +49,6 @@ def in_phase(edges: Edges) -> Edges | None:
 
 
 def _bursts(edges: Edges) -> list[Edges]:
-    """Split edges at dark runs that are longer than any bright one."""
     if min(len(edges.rising), len(edges.falling)) < 2:
         return [edges]
     bright = _gaps(edges.rising, edges.falling)

@@ -152,7 +152,6 @@ class Candidates:
         return other if other is not None and other.fit.correlation >= EXPLAINED else None
 
     def _swapped(self, found: Hypothesis, period: float, chips_sent: int) -> Hypothesis | None:
-        """Suppose a pulse as long as a hypothesis' exposure."""
         on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(canonical(found.chips)))
         return self._dimmed(on, period, chips_sent)
 
@@ -209,8 +208,6 @@ class Candidates:
         return self._supposed(sent, other, bits=bits, was_read=True, rate=found.rate)
 
     def _checked(self, tone: Tone) -> Tone:
-        """Check too whenever a fit evaluates the camera's response."""
-
         def checked(lit: FloatArray, gamma: float) -> FloatArray:
             self.check()
             return tone(lit, gamma)

@@ -159,7 +159,6 @@ def _doubts_by_residual(found: Hypothesis, stripes: Stripes) -> list[str]:
 
 
 def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
-    """Compare chips that were read with the repeated wave that they were read from."""
     if found.read_again:
         return [
             "The chips were found by trying many sequences of them, some of which may explain the "

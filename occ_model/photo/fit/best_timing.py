@@ -150,11 +150,13 @@ def _best_of_cameras(
     """Fit each camera's response from several timings; give the one with the least residual."""
     best: tuple[list[StripeFit], CameraTone] | None = None
     for camera in sorted(cameras, key=lambda one: one.enhancement == "equalization"):
-        if best is not None and best[0][0].correlation > _most_before(camera):
+        is_equalized = camera.enhancement == "equalization"
+        if best is not None and is_equalized and best[0][0].correlation > EXPLAINED:
             continue
         model = _model(stripes, chips, camera, starts[0].step)
         fits = _fits(model, starts, with_gamma)
-        if fits and (best is None or fits[0].residual < _share(camera) * best[0][0].residual):
+        ratio = _EQUALIZED_RATIO if is_equalized else 1.0
+        if fits and (best is None or fits[0].residual < ratio * best[0][0].residual):
             best = fits, camera
     return best
 
@@ -167,16 +169,6 @@ def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> lis
     good = [fit for fit in rough if fit.residual <= _MOST_RESIDUAL_RATIO * rough[0].residual]
     apart = _apart(good)[:_MOST_FINISHED]
     return _distinct([model.fit(fit.timing, with_gamma) for fit in apart])
-
-
-def _most_before(camera: CameraTone) -> float:
-    """Return the correlation by other cameras above which a camera need not be tried."""
-    return EXPLAINED if camera.enhancement == "equalization" else 1.0
-
-
-def _share(camera: CameraTone) -> float:
-    """Return the fraction of other cameras' residual below which a camera's fit is preferred."""
-    return _EQUALIZED_RATIO if camera.enhancement == "equalization" else 1.0
 
 
 def _candidates(
@@ -207,7 +199,6 @@ def _distinct(fits: Sequence[StripeFit]) -> list[StripeFit]:
 
 
 def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep the first fit of each exposure."""
     kept: list[StripeFit] = []
     for fit in fits:
         exposures = [other.timing.exposure for other in kept]
@@ -236,7 +227,6 @@ def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit
 
 
 def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep the best fit and those as good with another exposure, in order of the exposure."""
     least = min(fit.residual for fit in fits)
     good = [fit for fit in fits if fit.residual <= _MOST_EQUAL_RATIO * least]
     return sorted(good, key=lambda fit: fit.timing.exposure)

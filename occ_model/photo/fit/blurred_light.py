@@ -94,7 +94,6 @@ class BlurredLight:
         return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
 
     def _sharp(self, timing: Timing, edges: FloatArray) -> FloatArray:
-        """Return the lit fractions without blur."""
         # The running integral has corners at the edges; it is 0 at the first of them.
         levels = self._level_before + np.cumsum(self._changes)
         integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])

@@ -54,8 +54,6 @@ def camera_tones(
 
 
 def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
-    """Return the response of a scene's camera."""
-
     @lru_cache(maxsize=4)  # a fit evaluates the same gamma many times
     def levels(gamma: float) -> tuple[Scene, float, float]:
         dark = (low / high) ** gamma if low > _DARKEST else 0.0

@@ -261,7 +261,6 @@ class JointModel:
         return max(float(edges[part.kept].sum()) / count for part in self._parts)
 
     def _gammas(self) -> tuple[float, float]:
-        """Return the bounds of gamma's logarithm."""
         if not self.is_wide:
             return _GAMMA_BOUNDS
         inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
@@ -271,7 +270,6 @@ class JointModel:
     def _residual(
         self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
     ) -> FloatArray:
-        """Return the residual in standard deviations, at last that of what is usual."""
         self._check()
         seen = self._seen.by(values, tails, shape)
         unusual = (values[3:] - self._mean) / self._deviation

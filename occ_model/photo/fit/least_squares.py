@@ -178,7 +178,6 @@ class StripeModel:
 
 
 def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:
-    """Whether lit is above dark, and dark not negative."""
     usual = float(np.median(swing))
     return usual > 0.0 and float(np.median(low)) > _DARKEST * usual
 
@@ -198,7 +197,6 @@ def exposure_deviation(variance: float, exposure: float) -> float:
 
 
 def _covariance(slopes: FloatArray, residual: FloatArray) -> FloatArray:
-    """Return the covariance of fitted parameters from the model's slopes and the residual."""
     variance = float(residual @ residual) / max(1, len(residual) - slopes.shape[1])
     variance *= correlated_columns(residual)
     products = slopes.T @ slopes

@@ -53,8 +53,6 @@ class SeenSlopes:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Fitted:
-    """The levels that fit a profile, and what they follow from."""
-
     kept: LitColumns
     # Shape (kept,); error, slope: the light of their data less that of the levels, and the data's
     # slope over light, whose square is its weight.
@@ -132,7 +130,6 @@ class LitProfile:
         return np.concatenate([slope[self.kept], slope[self.clipped]])
 
     def _slow_shapes(self, columns: int, count: int) -> FloatArray:
-        """Return the slow shapes at the kept columns, shape (kept, count)."""
         count = min(count, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
         return np.ascontiguousarray(smooth_shapes(columns, count)[self.kept])
 
@@ -184,7 +181,6 @@ class LitProfile:
         return np.where(short > 0.0, slopes, 0.0)
 
     def _slopes_of_levels(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
-        """Return the levels' slopes, shape (parameters, levels)."""
         fitted, by_lit = self._fitted(seen), rates.lit[:, self.kept]
         error, weight = fitted.error, fitted.slope**2
         by_light, by_slope = rates.tone.at(self.data)
@@ -211,7 +207,6 @@ class LitProfile:
     def _slopes_of_blurred(
         self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray
     ) -> FloatArray:
-        """Return the slopes of the kept columns' residual where pixel values are blurred."""
         levels, picture = self._fitted(seen).shown, LitColumns(self._shapes, sharp)
         light, fixed = picture.light(levels), np.zeros((rates.parameters, len(levels)))
         values = seen.table.value_of(light)
@@ -237,14 +232,12 @@ class LitProfile:
         return solved(products, columns.sums(steep * values))
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
-        """Return the kept columns' data less the blurred values of light."""
         return np.asarray(
             self.data - _convolved(seen.table.value_of(light), seen.kernel)[self.kept]
         )
 
 
 def _convolved(values: FloatArray, kernel: FloatArray) -> FloatArray:
-    """Blur along the last axis."""
     rows = np.atleast_2d(values)
     blurred = cv2.filter2D(rows, -1, kernel[None], borderType=cv2.BORDER_REPLICATE)
     return np.asarray(blurred, dtype=np.float64).reshape(values.shape)

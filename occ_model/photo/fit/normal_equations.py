@@ -30,7 +30,6 @@ class NormalEquations:
         return matrix
 
     def _products(self, weight: FloatArray) -> FloatArray:
-        """Return the weighted sums over the columns of the products of any two shapes."""
         sums = self._shapes @ weight
         return np.asarray(0.5 * (sums[self._up] + sums[self._down]))
 

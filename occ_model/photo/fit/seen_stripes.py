@@ -65,7 +65,6 @@ class SeenStripes:
         )
 
     def _parts(self, values: Sequence[float]) -> tuple[Timing, ToneCurve, float, float]:
-        """Return the timing, the tone curve, the blur, and how much longer the LED is on."""
         step, exposure, middle, _, offset, shoulder, contrast, blur, longer = values
         curve = ToneCurve(self.gamma(values), offset, shoulder, contrast)
         return Timing(step, exposure, middle, self._gamma), curve, blur, longer

@@ -87,7 +87,6 @@ def _turning_points(profile: FloatArray, least: float) -> IndexArray:
 
 
 def _without_ringing(profile: FloatArray, turns: IndexArray) -> IndexArray:
-    """Take out steps that are much smaller than those beside them."""
     kept = turns
     while len(kept) > 2:
         steps = np.abs(np.diff(profile[kept]))
@@ -174,7 +173,6 @@ def matches(edges: Edges, others: Edges, chip: float) -> np.ndarray:
 
 
 def _distance(places: FloatArray, others: FloatArray) -> FloatArray:
-    """Return the distance of each place from the nearest of others, which are in order."""
     after = np.clip(np.searchsorted(others, places), 0, len(others) - 1)
     before = np.maximum(after - 1, 0)
     return np.minimum(np.abs(others[after] - places), np.abs(others[before] - places))

@@ -107,7 +107,6 @@ def _blinking(
     bounds: IndexArray,
     means: FloatArray,
 ) -> list[Blinking]:
-    """Describe the lamps of a group of segments, among the segments of all groups."""
     edges, weights = common_edges(group)
     found = []
     pulses = sum(len(one.edges) for one in group if one.period is not None)
@@ -259,7 +258,6 @@ def _without_parts(blinking: Sequence[Blinking]) -> list[Blinking]:
 
 
 def _shared(one: Lamp, other: Lamp) -> float:
-    """Return the fraction of a lamp's area that lies within another one."""
     here, there = one.spans[:, None, :], other.spans[None, :, :]
     high = np.minimum(here[..., 1], there[..., 1]) - np.maximum(here[..., 0], there[..., 0])
     wide = np.minimum(here[..., 3], there[..., 3]) - np.maximum(here[..., 2], there[..., 2])

@@ -52,7 +52,6 @@ def groups_of(segments: Sequence[Segment]) -> list[list[Segment]]:
 
 
 def _agree(one: Segment, other: Segment) -> bool:
-    """Whether the edges of two segments lie at the same columns."""
     chip = min(one.chip, other.chip)
     off = equal_within(chip)
     counts = len(one.edges), len(other.edges)

@@ -101,7 +101,6 @@ def _are_pulses(progressions: list[tuple[int, int, float]], first: int, last: in
 def _clipped(
     progressions: list[tuple[int, int, float]], first: int, last: int
 ) -> list[tuple[int, int, float]]:
-    """Return the parts of progressions that lie within some edges."""
     parts = [(max(a, first), min(b, last), period) for a, b, period in progressions]
     return [part for part in parts if part[1] - part[0] >= _LEAST_EDGES]
 

@@ -47,7 +47,6 @@ def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]
 
 
 def _spans(place: np.ndarray, bounds: IndexArray, scale: float) -> IndexArray:
-    """Return the shape of a place by strips."""
     rows = []
     for strip in np.flatnonzero(place.any(axis=1)).tolist():
         here = np.flatnonzero(place[strip])

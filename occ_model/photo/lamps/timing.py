@@ -110,7 +110,6 @@ def timings_of(edges: Edges, weights: FloatArray, codes: bool = True) -> list[La
 
 
 def _refined(segment: Segment, edges: Edges, weights: FloatArray) -> LampTiming | None:
-    """Fit the lattices of the rising and of the falling edges by least squares."""
     is_code = segment.period is None
     spacing = segment.chip if segment.period is None else segment.period
     inside = (edges.place >= segment.edges.place[0]) & (edges.place <= segment.edges.place[-1])
@@ -142,7 +141,6 @@ class _Lattices:
 
 
 def _fitted(edges: Edges, weights: FloatArray, spacing: float) -> _Lattices | None:
-    """Fit lattices of about a spacing; None where there are only rising or only falling edges."""
     steps = np.zeros(len(edges))
     for kind in (True, False):
         same = edges.rises == kind

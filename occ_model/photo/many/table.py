@@ -29,7 +29,6 @@ def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:
 def _combined(
     rows: Sequence[PhotoRow], places: Sequence[int], name: str
 ) -> CombinedEstimate | None:
-    """Combine the estimates of some photos; outliers are places in the table."""
     values, deviations, of = [], [], []
     for place in places:
         value, deviation = getattr(rows[place], name), rows[place].uncertainty(name)

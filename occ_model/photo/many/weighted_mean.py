@@ -57,7 +57,6 @@ def combine(
 
 
 def _weighted_mean(x: FloatArray, sigma: FloatArray) -> tuple[float, float]:
-    """Return the mean weighted by the inverse variances, and its standard deviation."""
     weights = (sigma.min() / sigma) ** 2
     total = float(weights.sum())
     return float(weights @ x) / total, float(sigma.min()) / math.sqrt(total)
@@ -72,7 +71,6 @@ def _scale(chi_square: float, degrees: int) -> float:
 
 
 def _probability(chi_square: float, degrees: int) -> float:
-    """Return the probability of a chi-square that is as large or larger."""
     if not degrees:
         return 1.0
     from scipy.special import gammaincc  # slow to import

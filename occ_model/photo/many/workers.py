@@ -64,7 +64,6 @@ def _has_workers(settings: MatchSettings, heartbeat: Heartbeat) -> bool:
 
 
 def _finished(progress: "_Progress", jobs: int, heartbeat: Heartbeat) -> Rows:
-    """Return rows until all files are matched, or workers are lost."""
     # Importing what starts processes takes time.
     from occ_model.parallel.process_pool import ProcessPool
     from occ_model.parallel.worker_thread import WorkerThread

@@ -57,7 +57,6 @@ def _luma(pixels: Samples) -> Samples:
 
 
 def _choice(means: FloatArray, has_colours: bool, channel: str, near: float) -> tuple[_Take, str]:
-    """Choose the channel: give the function that extracts it, and its name."""
     if not has_colours:
         return _only(_GREEN), "grey"
     if channel == "luma":
@@ -73,7 +72,6 @@ def _only(index: int) -> _Take:
 
 
 def _colours_of(picture: DecodedPicture, report: Progress) -> tuple[FloatArray, bool]:
-    """Return the means of red, green and blue, and whether they differ anywhere."""
     rows, columns = picture.shape
     sums, has_colours = np.zeros(3), False
     for left, top, right, bottom in picture.boxes():

@@ -134,7 +134,6 @@ def _iso(tags: Mapping[int, Any]) -> float | None:
 
 
 def _within(name: str, number: float | None) -> float | None:
-    """Return a number within the range of a scene's parameter, None for any other."""
     if number is None:
         return None
     try:
@@ -177,7 +176,6 @@ def _text(value: Any) -> str:
 
 
 def _camera(make: str, model: str) -> str | None:
-    """Join a maker and a model, which often begins with its maker's name."""
     first_word = make.split(" ", 1)[0].casefold()
     if first_word and model.casefold().startswith(first_word):
         return model

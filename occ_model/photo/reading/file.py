@@ -77,7 +77,6 @@ def picture_opener(path: Path, file: WatchedFile, max_pixels: int) -> "Opener":
 
 
 def _refusal(path: Path, error: Exception, max_pixels: int) -> PhotoError:
-    """Word why a file cannot be read."""
     from PIL import Image
 
     shown = one_line(str(path))

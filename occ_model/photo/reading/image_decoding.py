@@ -104,7 +104,6 @@ class DecodedPicture:
 
 
 def _palette_of(picture: "PillowImage") -> Samples:
-    """Return the colours of a picture's palette, shape (256, 3)."""
     swatch = picture.crop((0, 0, 256, 1))
     swatch.frombytes(bytes(range(256)))
     colours: Samples = _colours(swatch)[0]

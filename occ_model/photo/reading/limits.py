@@ -139,7 +139,6 @@ def _bytes_a_pixel(picture: "ImageFile", scan_header: int) -> float:
 
 
 def _bytes_decoded(mode: str) -> int:
-    """Return the bytes in which Pillow holds a pixel."""
     if mode in ("1", "L", "P"):
         return 1
     return 2 if mode.startswith("I;16") else 4

@@ -1,6 +1,6 @@
 """Read a photograph: the samples of one channel, its columns being the scan axis."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import cast
 
@@ -71,17 +71,6 @@ class Photo:
     focal_length_step: float = 0.0
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Read:
-    """What is read of a file, the scan axis being the columns."""
-
-    samples: Samples
-    channel: str
-    turned: bool
-    notes: CameraNotes
-    is_linear: bool
-
-
 def load_photo(
     path: str | Path,
     scan_axis: str = "auto",
@@ -120,10 +109,32 @@ def load_photo(
     check_choice("scan_axis", scan_axis, SCAN_AXES)
     check_choice("channel", channel, CHANNELS)
     check_count("max_pixels", max_pixels, 1)
-    file = _path(path)
+    file, most = _path(path), int(max_pixels)
     report = Reporter(progress)
     report(0.0)
-    return _loaded(file, _read(file, channel, scan_axis, int(max_pixels), report))
+    with open_file(file, most, report) as opened:
+        is_linear = is_raw(opened)
+        if is_linear:
+            mosaic = read_mosaic(file, opened, channel, most, report)
+            notes, orientation, taken = mosaic.notes, mosaic.orientation, mosaic.channel
+            turned = _is_turned(mosaic.one_plane(), orientation, scan_axis)
+            samples = mosaic.samples(along_lines=turned != turns_of(orientation)[0])
+        else:
+            samples, taken, notes, orientation = _taken(file, opened, channel, most, report)
+            turned = _is_turned(samples, orientation, scan_axis)
+    samples = _turned(samples, orientation, turned)
+    white = white_of(samples)
+    return Photo(
+        path=file,
+        samples=samples,
+        white=white,
+        image=_in_grey_levels(samples),
+        profile=means_along(samples, 0) * (WHITE / white),
+        turned=turned,
+        channel=taken,
+        is_linear=is_linear,
+        **asdict(notes),
+    )
 
 
 def _path(path: str | Path) -> Path:
@@ -133,27 +144,6 @@ def _path(path: str | Path) -> Path:
         raise PhotoError(
             f"{shown(path)} is not the path of a photo; allowed: str or Path."
         ) from None
-
-
-def _loaded(path: Path, read: _Read) -> Photo:
-    samples, notes = read.samples, read.notes
-    white = white_of(samples)
-    return Photo(
-        path=path,
-        samples=samples,
-        white=white,
-        image=_in_grey_levels(samples),
-        profile=means_along(samples, 0) * (WHITE / white),
-        turned=read.turned,
-        channel=read.channel,
-        exposure_time=notes.exposure_time,
-        f_number=notes.f_number,
-        iso=notes.iso,
-        camera=notes.camera,
-        is_linear=read.is_linear,
-        equivalent_focal_length=notes.equivalent_focal_length,
-        focal_length_step=notes.focal_length_step,
-    )
 
 
 def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
@@ -174,25 +164,7 @@ def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     return means * (WHITE / photo.white)
 
 
-def _read(path: Path, channel: str, scan_axis: str, max_pixels: int, report: Reporter) -> _Read:
-    """Read the samples of one channel with the scan axis as columns."""
-    with open_file(path, max_pixels, report) as file:
-        if is_raw(file):
-            mosaic = read_mosaic(path, file, channel, max_pixels, report)
-            notes, orientation = mosaic.notes, mosaic.orientation
-            turned = _is_turned(mosaic.one_plane(), orientation, scan_axis)
-            along_lines = turned != turns_of(orientation)[0]
-            samples, taken = mosaic.samples(along_lines), mosaic.channel
-            is_linear = True
-        else:
-            samples, taken, notes, orientation = _taken(path, file, channel, max_pixels, report)
-            turned = _is_turned(samples, orientation, scan_axis)
-            is_linear = False
-    return _Read(_turned(samples, orientation, turned), taken, turned, notes, is_linear)
-
-
 def _is_turned(samples: Samples, orientation: int, scan_axis: str) -> bool:
-    """Whether the lines of the upright photo are the scan axis."""
     lying, _, _ = turns_of(orientation)
     return scan_axis == "lines" or (scan_axis == "auto" and stripes_are_lines(samples, lying))
 
@@ -215,7 +187,6 @@ def _turned(samples: Samples, orientation: int, turned: bool) -> Samples:
 def _taken(
     path: Path, file: WatchedFile, channel: str, max_pixels: int, report: Reporter
 ) -> tuple[Samples, str, CameraNotes, int]:
-    """Read the samples of one channel as they are stored, with the EXIF data."""
     decoded = DecodedPicture(picture_opener(path, file, max_pixels))
     try:
         notes, orientation = camera_notes(decoded.picture), orientation_of(decoded.picture)

@@ -128,7 +128,6 @@ def read_mosaic(
 
 
 def _mosaic(shown: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
-    """Copy what is needed of an unpacked file."""
     photosites = raw.raw_image_visible if raw.raw_type.name == "Flat" else None
     pattern = raw.raw_pattern if photosites is not None else None
     if photosites is None or pattern is None or photosites.dtype != np.uint16:
@@ -167,7 +166,6 @@ def _mosaic(shown: str, raw: "RawPy", tags: dict[int, Any]) -> Mosaic:
 
 
 def _levels(shown: str, raw: "RawPy", colour: int) -> tuple[float, float]:
-    """Return the black and the white level of a colour."""
     black = float(raw.black_level_per_channel[colour])
     white = float(raw.white_level)
     noted = raw.camera_white_level_per_channel

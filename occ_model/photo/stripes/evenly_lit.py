@@ -113,7 +113,6 @@ class Cells:
         return profiles[:_MOST_GROUPS]
 
     def _groups(self, rows: FloatArray) -> list[NDArray[np.bool_]]:
-        """Divide the bands of rows, where some pixels are clipped."""
         steps = [*(step * WHITE for step in _GROUP_LEVELS), _CLIPPED * WHITE]
         groups = [(low < rows) & (rows <= high) for low, high in pairwise(steps)]
         core = rows > steps[-1]

@@ -95,7 +95,6 @@ def _stripes_of(photo: Photo) -> Stripes:
 
 
 def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes:
-    """Find the stripes in a rectangle whose column means are given."""
     first, last, gap = _striped_columns(profile)
     profile = profile[first:last]
     low, high = envelope(profile, 2 * gap)

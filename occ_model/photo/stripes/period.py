@@ -65,7 +65,6 @@ def autocorrelation(values: FloatArray) -> FloatArray:
 
 
 def _refined(flattened: FloatArray, period: float) -> tuple[float, float]:
-    """Refine a period by a fit of its harmonics, in Gauss-Newton steps."""
     count = len(flattened)
     harmonics = harmonics_within(count, period)
     change = 0.1 * period / count  # small against a column at the last stripe
@@ -104,7 +103,6 @@ def harmonics_within(columns: int, period: float) -> int:
 
 
 def _residual(flattened: FloatArray, period: float, harmonics: int) -> FloatArray:
-    """Return the residual of a fit of a period's harmonics."""
     count = len(flattened)
     turn = 2.0 * np.pi / period * np.arange(count)[:, None] * np.arange(1, harmonics + 1)
     waves = np.hstack([np.cos(turn), np.sin(turn)])

@@ -56,9 +56,7 @@ class LitColumns:
 
         ``weight``, ``error``: shape (columns,), the weight of each column's light, and what is seen
         of it less its model. ``by_tone``: shape (other parameters, columns), the slopes of weight
-        times error over what changes the light that is seen.
-
-        Shape (parameters, 2 shapes).
+        times error over what changes the light that is seen. Shape (parameters, 2 shapes).
         """
         pull = -weight * self.swing(levels)
         of_dark = (pull * by_lit) @ self.shapes.T

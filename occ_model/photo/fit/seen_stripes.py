@@ -21,10 +21,7 @@ IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
 
 
 class SeenStripes:
-    """Lit fractions and a tone curve.
-
-    ``values_blurred``: whether pixel values are blurred, or light.
-    """
+    """Lit fractions and a tone curve."""
 
     def __init__(
         self, chips: ByteArray, columns: int, gamma: float, *, values_blurred: bool

@@ -96,12 +96,9 @@ class EvenTable:
 
 
 class ToneTable:
-    """A tabulated tone curve.
+    """The light of each tabulated pixel value, and the pixel value's slope over light.
 
-    ``light``, ``slope``: the light of each tabulated pixel value, and the pixel value's slope over
-    light.
-
-    ``steepness``: the slope of grey levels over light at white.
+    Its steepness is the slope of grey levels over light at white.
     """
 
     def __init__(self, light: FloatArray, slope: FloatArray) -> None:
@@ -132,10 +129,8 @@ class ToneTable:
 class ToneSlopes:
     """The slopes of a tabulated tone curve over its parameters.
 
-    ``light``: shape (parameters, grey levels), the slopes of the light of each tabulated pixel
-    value.
-
-    ``of_steepness``: shape (parameters,), the slopes of the grey levels' slope at white.
+    ``light``: shape (parameters, grey levels), those of the light of each tabulated pixel value.
+    ``of_steepness``: shape (parameters,), those of the grey levels' slope at white.
     """
 
     def __init__(self, table: ToneTable, light: FloatArray) -> None:

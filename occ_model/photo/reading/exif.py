@@ -86,10 +86,7 @@ def orientation_of(picture: "PillowImage") -> int:
 
 
 def turns_of(orientation: int) -> tuple[bool, bool, bool]:
-    """Return the steps that undo an EXIF orientation.
-
-    ``transpose``, ``mirror_rows``, ``mirror_columns``: whether each is needed, in this order.
-    """
+    """Return the steps that undo an EXIF orientation."""
     mirror_rows = orientation in (3, 4, 7, 8)
     mirror_columns = orientation in (2, 3, 6, 7)
     return orientation >= _FIRST_LYING, mirror_rows, mirror_columns

@@ -11,8 +11,6 @@ _END, _SCAN = b"\xd9", b"\xda"
 def count_scans(content: bytes | bytearray, most: int, most_segments: int) -> int:
     """Count the scans of a JPEG as its decoder meets them, without decoding any.
 
-    ``content``: the whole file.
-
     The number of scans; ``most + 1`` for more, or where there are too many segments.
     """
     scans, place = 0, 2

@@ -149,10 +149,7 @@ def _path(path: str | Path) -> Path:
 def column_means(photo: Photo, first_row: int, last_row: int) -> FloatArray:
     """Average the columns of a photo over some of its rows.
 
-    ``photo``: the photo; its samples are averaged in the full depth of the file. ``first_row``,
-    ``last_row``: the first row, and the one after the last.
-
-    Shape (columns,), grey levels.
+    In grey levels of the file's full depth; ``last_row`` is the one after the last.
     """
     rows = len(photo.samples)
     if not 0 <= first_row < last_row <= rows:

@@ -17,8 +17,6 @@ def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
     """Average each column of a lamp over the rows in which the lamp covers it.
 
     A round lamp is thus as bright in its outer columns, which cover few rows, as in its middle.
-
-    Shape (columns of the lamp's region,), grey levels.
     """
     region = lamp.region
     rows, columns = photo.samples.shape

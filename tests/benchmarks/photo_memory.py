@@ -167,10 +167,7 @@ KINDS: dict[str, tuple[str, Callable[[Path, int, bool], None]]] = {
         "tif",
         with_tifffile(3, np.uint8, **_SHRUNK, rowsperstrip=16),
     ),
-    "TIFF 8-bit RGB deflate tiles": (
-        "tif",
-        with_tifffile(3, np.uint8, **_SHRUNK, tile=(256, 256)),
-    ),
+    "TIFF 8-bit RGB deflate tiles": ("tif", with_tifffile(3, np.uint8, **_SHRUNK, tile=(256, 256))),
     "TIFF 8-bit RGB deflate one strip": (
         "tif",
         with_tifffile(3, np.uint8, **_SHRUNK, rowsperstrip=1 << 30),

@@ -282,9 +282,7 @@ def line_of(row: ParameterRow) -> QLineEdit | None:
 def lines_and_notices(application: Application) -> dict[str, tuple[QLineEdit, QLabel]]:
     """Find the fields that values are typed into, and where they say what is wrong."""
     code = application.controls.code
-    found: dict[str, tuple[QLineEdit, QLabel]] = {
-        "code": (code.number.lineEdit(), code.notices[0]),
-    }
+    found: dict[str, tuple[QLineEdit, QLabel]] = {"code": (code.number.lineEdit(), code.notices[0])}
     for panel in application.controls.panels.values():
         for name, row in panel.rows.items():
             line = line_of(row)

@@ -6,9 +6,7 @@ import numpy as np
 from hypothesis import strategies as st
 
 from hard_cases.references import decades, signed_decades, within
-from occ_model.camera.projection import (
-    rotation_of,
-)
+from occ_model.camera.projection import rotation_of
 from occ_model.scene.scene import Scene
 
 STEEP = math.radians(89.99)

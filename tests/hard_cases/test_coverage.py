@@ -13,9 +13,7 @@ from hard_cases.laws import cases, record
 from hard_cases.poses_and_lenses import GEOMETRY, SMALL
 from hard_cases.references import decades
 from occ_model.camera.coverage import Coverage
-from occ_model.camera.projection import (
-    row_spans,
-)
+from occ_model.camera.projection import row_spans
 from occ_model.scene.scene import Scene
 
 

@@ -9,13 +9,7 @@ import pytest
 from hypothesis import strategies as st
 
 from hard_cases.laws import cases, record
-from hard_cases.references import (
-    STARTS,
-    decades,
-    signed_decades,
-    some_columns,
-    within,
-)
+from hard_cases.references import STARTS, decades, signed_decades, some_columns, within
 from occ_model.camera.optics import Gain, Optics
 from occ_model.camera.projection import rotation_of
 from occ_model.camera.sensor import saturation_value

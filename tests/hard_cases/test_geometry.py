@@ -10,9 +10,7 @@ import pytest
 import occ_model as occ
 from hard_cases.laws import cases, record
 from hard_cases.poses_and_lenses import POSES, SMALL, STEEP, poses
-from occ_model.camera.projection import (
-    image_rays,
-)
+from occ_model.camera.projection import image_rays
 from occ_model.scene.scene import Scene
 
 
@@ -34,10 +32,7 @@ class ExactView:
                 mpmath.mpf(scene.transmitter.panel_height) / 2,
             )
             self.focal = mpmath.mpf(camera.focal_length_pixels)
-            self.centre = (
-                mpmath.mpf(camera.columns - 1) / 2,
-                mpmath.mpf(camera.rows - 1) / 2,
-            )
+            self.centre = (mpmath.mpf(camera.columns - 1) / 2, mpmath.mpf(camera.rows - 1) / 2)
 
     def corners(self) -> list[tuple[mpmath.mpf, mpmath.mpf, mpmath.mpf]]:
         """Column, row and depth of each corner; no place for one that is not before the camera."""

@@ -8,14 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 from hard_cases.laws import cases, record
-from hard_cases.references import (
-    PATTERNS,
-    STARTS,
-    ExactTimes,
-    decades,
-    some_columns,
-    within,
-)
+from hard_cases.references import PATTERNS, STARTS, ExactTimes, decades, some_columns, within
 from occ_model.camera.exposure import lit_fraction
 from occ_model.effects.led_edges import edged_lit_fraction
 from occ_model.scene.scene import Scene

@@ -13,10 +13,7 @@ from hard_cases.laws import cases, record
 from hard_cases.poses_and_lenses import GEOMETRY, POSES, SMALL, lenses, poses
 from hard_cases.references import decades, signed_decades
 from occ_model.camera.optics import Optics
-from occ_model.camera.projection import (
-    image_points,
-    image_rays,
-)
+from occ_model.camera.projection import image_points, image_rays
 from occ_model.effects.distortion import Distortion, distorted
 from occ_model.scene.scene import Scene
 

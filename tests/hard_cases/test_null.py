@@ -10,14 +10,7 @@ from hypothesis import strategies as st
 
 import occ_model as occ
 from hard_cases.laws import cases, record
-from hard_cases.references import (
-    PATTERNS,
-    STARTS,
-    ExactTimes,
-    decades,
-    signed_decades,
-    within,
-)
+from hard_cases.references import PATTERNS, STARTS, ExactTimes, decades, signed_decades, within
 from occ_model.camera.enhancement import enhance
 from occ_model.camera.photometry import FLAT
 from occ_model.scene.scene import Scene

@@ -164,13 +164,7 @@ def test_a_start_whole_packets_later_changes_only_rounding(
     size=decades(1e-16, 1e-6),
 )  # fmt: skip
 def test_a_small_change_of_a_time_changes_on_time_by_its_share(
-    chips: float,
-    frequency: float,
-    readout: float,
-    start: float,
-    which: str,
-    sign: int,
-    size: float,
+    chips: float, frequency: float, readout: float, start: float, which: str, sign: int, size: float
 ) -> None:
     """The change is relative, 1e-12 among others; its share is exact arithmetic's Lipschitz bound.
 

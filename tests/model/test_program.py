@@ -69,8 +69,7 @@ def test_a_full_output_is_a_sentence(line: str) -> None:
 
 @pytest.mark.parametrize("redirect", ["2>&-", "2>/dev/full"])
 @pytest.mark.parametrize(
-    ("line", "code"),
-    [pytest.param("presets", 0, marks=pytest.mark.whole), ("presets nobody", 2)],
+    ("line", "code"), [pytest.param("presets", 0, marks=pytest.mark.whole), ("presets nobody", 2)]
 )
 def test_errors_that_nobody_can_read_leave_the_exit_code(
     redirect: str, line: str, code: int

@@ -7,13 +7,7 @@ import numpy as np
 from occ_model.photo.fit.joint_fit import USUAL
 from occ_model.photo.stripes.envelope import smooth_shapes
 from photo_world.photograph import World, blurred, falloff, lit_fraction, scale
-from photo_world.pixel_noise import (
-    cosines_of_eight,
-    jpeg_noise,
-    jpeg_steps,
-    square_of,
-    whitened,
-)
+from photo_world.pixel_noise import cosines_of_eight, jpeg_noise, jpeg_steps, square_of, whitened
 
 _ROWS = 8
 """Rows that count as equally bright: those of a block of JPEG."""

@@ -155,13 +155,7 @@ def test_next_to_no_distortion_pictures_the_straight_panel() -> None:
 
 
 @pytest.mark.parametrize(
-    "lens",
-    [
-        {"radial_k1": -1.0},
-        {"radial_k1": -0.5},
-        {"radial_k2": -5.0},
-        {"tangential_p1": 0.9},
-    ],
+    "lens", [{"radial_k1": -1.0}, {"radial_k1": -0.5}, {"radial_k2": -5.0}, {"tangential_p1": 0.9}]
 )
 @pytest.mark.parametrize("distance", [0.05, 1.2, 50.0])
 def test_a_lens_that_folds_is_refused_with_its_coefficients(

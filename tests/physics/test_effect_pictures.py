@@ -155,10 +155,7 @@ def test_of_column_effects_the_signal_is_the_enhanced_profile(
     np.testing.assert_array_equal(frame.signal, enhance(frame.profile, enhancement))
 
 
-@pytest.mark.parametrize(
-    "changes",
-    [{"illuminance": 0.0}, {"iso": 6400.0, "luminance": 370.0}],
-)
+@pytest.mark.parametrize("changes", [{"illuminance": 0.0}, {"iso": 6400.0, "luminance": 370.0}])
 def test_the_profile_is_the_mean_of_noisy_clipped_pixels(
     scene: Scene, changes: dict[str, float]
 ) -> None:

@@ -16,10 +16,7 @@ def sample() -> list[Found]:
     return [round_trip(seed) for seed in SAMPLE]
 
 
-@pytest.fixture(
-    scope="module",
-    params=["sample", pytest.param("whole", marks=pytest.mark.whole)],
-)
+@pytest.fixture(scope="module", params=["sample", pytest.param("whole", marks=pytest.mark.whole)])
 def found(request: pytest.FixtureRequest, sample: list[Found]) -> list[Found]:
     """Match the sample, or all photos."""
     return (

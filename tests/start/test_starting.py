@@ -31,9 +31,7 @@ def script_of(start: ModuleType) -> Path:
 
 @pytest.mark.usefixtures("echoing_venv")
 def test_a_second_start_installs_and_prints_nothing_of_its_own(
-    start: ModuleType,
-    run_captured: Callable[..., subprocess.CompletedProcess[str]],
-    tmp_path: Path,
+    start: ModuleType, run_captured: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
 ) -> None:
     command = [sys.executable, str(script_of(start)), "--version", "two words"]
     # No program is in reach, so that the start cannot install anything.
@@ -69,13 +67,7 @@ def test_the_application_replaces_the_script_with_its_arguments(
 
 
 TESTS = "pytest -n auto --dist worksteal -k 'one or two'"
-CHECKS = {
-    TESTS,
-    "ruff check .",
-    "ruff format --check .",
-    "mypy",
-    "lint-imports",
-}
+CHECKS = {TESTS, "ruff check .", "ruff format --check .", "mypy", "lint-imports"}
 
 
 @pytest.mark.parametrize("failing", [set(), {"mypy"}, {TESTS}, {"ruff check .", "mypy"}, CHECKS])
@@ -102,9 +94,7 @@ def test_every_check_runs_and_any_failure_counts(
 
 
 def test_other_checks_keep_their_output_until_the_tests_end(
-    start: ModuleType,
-    put_program: Callable[[Path, str], None],
-    capfd: pytest.CaptureFixture[str],
+    start: ModuleType, put_program: Callable[[Path, str], None], capfd: pytest.CaptureFixture[str]
 ) -> None:
     for check in CHECKS:
         program = check.split()[0]

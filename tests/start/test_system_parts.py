@@ -124,11 +124,7 @@ def test_a_complete_system_is_left_alone(
 
 @pytest.mark.parametrize(("user", "prefix"), [(0, ""), (1000, "sudo ")])
 def test_only_missing_packages_are_installed_after_a_fresh_list(
-    start: ModuleType,
-    monkeypatch: pytest.MonkeyPatch,
-    visible: list[str],
-    user: int,
-    prefix: str,
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, visible: list[str], user: int, prefix: str
 ) -> None:
     on_path(monkeypatch, "apt-get", "sudo")
     monkeypatch.setattr(start, "root_prefix", prefix.split)

@@ -51,12 +51,7 @@ def damage_place(start: ModuleType) -> None:
 
 @pytest.mark.parametrize(
     ("damage", "usable"),
-    [
-        (damage_nothing, True),
-        (damage_python, False),
-        (damage_making, False),
-        (damage_place, False),
-    ],
+    [(damage_nothing, True), (damage_python, False), (damage_making, False), (damage_place, False)],
 )
 def test_a_half_made_or_moved_venv_does_not_serve(
     start: ModuleType,

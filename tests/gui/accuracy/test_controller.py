@@ -306,9 +306,7 @@ def test_a_study_that_was_stopped_before_it_began_does_not_begin(
     assert not bench.measured
 
 
-def test_only_a_picture_with_the_same_effects_takes_anothers_times(
-    tiny: SimulationRequest,
-) -> None:
+def test_only_a_picture_with_the_same_effects_takes_anothers_times(tiny: SimulationRequest) -> None:
     made = tuple(
         TimeShares(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
         for names in ([], ["jpeg"], ["jpeg", "vignetting"])

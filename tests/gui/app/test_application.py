@@ -156,9 +156,7 @@ def test_nothing_of_an_application_outlives_it(qtbot: QtBot, small_scene: Scene)
     assert [widget for widget in QApplication.topLevelWidgets() if widget not in before] == []
 
 
-def test_closing_during_a_simulation_delivers_nothing_afterwards(
-    application: Application,
-) -> None:
+def test_closing_during_a_simulation_delivers_nothing_afterwards(application: Application) -> None:
     arrived: list[int] = []
     application.simulation.snapshot_shown.connect(
         lambda shown: arrived.append(shown.frame.image.size)

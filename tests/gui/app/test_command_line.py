@@ -244,8 +244,7 @@ def test_without_a_display_a_screenshot_is_offered(
 
 
 @pytest.mark.parametrize(
-    "named",
-    [{"QT_QPA_PLATFORM": "xcb", "DISPLAY": ":59999"}, {"QT_QPA_PLATFORM": "none such"}],
+    "named", [{"QT_QPA_PLATFORM": "xcb", "DISPLAY": ":59999"}, {"QT_QPA_PLATFORM": "none such"}]
 )
 def test_a_display_that_does_not_answer_gives_a_sentence(named: dict[str, str]) -> None:
     here = {k: v for k, v in ENVIRONMENT.items() if k not in DISPLAYS}

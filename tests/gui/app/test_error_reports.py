@@ -118,9 +118,7 @@ def test_painting_goes_on_after_a_guarded_exception(monkeypatch: pytest.MonkeyPa
     assert seen == [ZeroDivisionError]
 
 
-def test_the_previous_hook_is_restored_when_the_window_closes(
-    qtbot: QtBot,
-) -> None:
+def test_the_previous_hook_is_restored_when_the_window_closes(qtbot: QtBot) -> None:
     before = (sys.excepthook, threading.excepthook)
     reports = ErrorReports()
     reports.install()

@@ -145,14 +145,10 @@ def twelve_settings() -> list[tuple[Scene, str]]:
 
 
 @pytest.mark.parametrize(
-    "number",
-    [pytest.param(n, marks=pytest.mark.whole if 1 <= n <= 5 else ()) for n in range(12)],
+    "number", [pytest.param(n, marks=pytest.mark.whole if 1 <= n <= 5 else ()) for n in range(12)]
 )
 def test_six_doors_give_the_same_number(
-    number: int,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
+    number: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Strip, map, limits, both commands of the shell, and banner, asked the same."""
     scene, decoder = twelve_settings()[number]

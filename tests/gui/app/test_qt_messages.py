@@ -30,9 +30,7 @@ def test_a_message_keeps_its_level_and_its_words(logged: pytest.LogCaptureFixtur
     ]
 
 
-def test_a_platforms_note_on_every_window_is_no_warning(
-    logged: pytest.LogCaptureFixture,
-) -> None:
+def test_a_platforms_note_on_every_window_is_no_warning(logged: pytest.LogCaptureFixture) -> None:
     qWarning(HARMLESS)
     assert [level for _, level, _ in logged.record_tuples] == [logging.DEBUG]
 

@@ -238,9 +238,7 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for(measuring: Me
         assert len(x) > 1
 
 
-def test_each_number_of_bits_that_is_offered_is_one_of_whole_payloads(
-    measuring: Measuring,
-) -> None:
+def test_each_number_of_bits_that_is_offered_is_one_of_whole_payloads(measuring: Measuring) -> None:
     effort, whole = measuring.pane.effort, BenchRequest().payload_bits
     offered = [int(effort.itemData(place)) for place in range(effort.count())]
     assert len(offered) > 1

@@ -321,9 +321,7 @@ def test_the_page_is_no_higher_than_its_sentences(view: AdviceView, small_scene:
     assert content.minimumSizeHint().height() <= needed
 
 
-def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
-    advised: MapBench,
-) -> None:
+def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(advised: MapBench) -> None:
     advice = advised.view.advice
 
     def state() -> tuple[set[bool], list[bool]]:
@@ -344,9 +342,7 @@ def test_outdated_advice_is_dimmed_and_leads_only_where_it_still_holds(
     assert state() == ({False}, [False, False, False])
 
 
-def test_the_buttons_of_the_cards_live_again_when_their_scene_comes_back(
-    advised: MapBench,
-) -> None:
+def test_the_buttons_of_the_cards_live_again_when_their_scene_comes_back(advised: MapBench) -> None:
     cards = advised.view.advice.cards.cards.values()
     first = advised.scenes.scene
     advised.scenes.change(iso=200.0)

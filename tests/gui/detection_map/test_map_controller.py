@@ -92,10 +92,7 @@ class Bench:
         self.settings = self.scenes.settings
         self.pane = RecordingPane()
         self.controller = DetectionMapController(
-            self.scenes,
-            self.settings,
-            self.queue.channels[0],
-            self.pane,
+            self.scenes, self.settings, self.queue.channels[0], self.pane
         )
 
     def wait_until_idle(self) -> RateMap:
@@ -142,9 +139,7 @@ def test_the_lattice_spans_both_sliders(bench_of: Callable[..., Bench]) -> None:
     assert (found.y_values[0], found.y_values[-1]) == (0.2, 5.0)
 
 
-def test_a_coarse_map_comes_first_and_no_point_is_repeated(
-    bench_of: Callable[..., Bench],
-) -> None:
+def test_a_coarse_map_comes_first_and_no_point_is_repeated(bench_of: Callable[..., Bench]) -> None:
     bench = bench_of()
     bench.look()
     points = [
@@ -198,9 +193,7 @@ def test_what_the_map_does_not_depend_on_measures_nothing_anew(
 
 
 @pytest.mark.whole
-def test_a_change_of_the_scene_gives_the_map_of_the_new_one(
-    bench_of: Callable[..., Bench],
-) -> None:
+def test_a_change_of_the_scene_gives_the_map_of_the_new_one(bench_of: Callable[..., Bench]) -> None:
     bench = bench_of()
     before = bench.look()
     bench.scenes.change(exposure_time=136e-6)

@@ -10,11 +10,7 @@ from gui.detection_map.conftest import MapBench
 from gui.stores import show
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor, QImage
-from PySide6.QtWidgets import (
-    QAbstractButton,
-    QComboBox,
-    QWidget,
-)
+from PySide6.QtWidgets import QAbstractButton, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.detection_map.axis_ticks import axis_title, ticks
@@ -65,8 +61,7 @@ def test_why_the_whole_map_is_refused_stands_in_its_place(view: MapView) -> None
 
 
 @pytest.mark.parametrize(
-    ("decoders", "word"),
-    [(DECODERS, "both decoders"), ((*DECODERS, "third"), "all decoders")],
+    ("decoders", "word"), [(DECODERS, "both decoders"), ((*DECODERS, "third"), "all decoders")]
 )
 def test_the_choice_of_every_decoder_counts_those_of_the_map(
     qtbot: QtBot, decoders: tuple[str, ...], word: str
@@ -275,9 +270,7 @@ def test_the_numbers_of_an_even_axis_are_as_close_as_they_may_be(name: str, most
     assert step < 2.5 / most * (1.0 + 1e-6)
 
 
-def test_the_status_shows_rate_bits_and_interval_or_why_not(
-    view: MapView,
-) -> None:
+def test_the_status_shows_rate_bits_and_interval_or_why_not(view: MapView) -> None:
     counts = (("threshold", 45, 78.6, 95.7),)
     view.show_facts(PointFacts(10e3, 1.2, counts, 50, 5, ""))
     messages = "10 kHz, 1.2 m: threshold 90 %, 45 of 50 bits (79 to 96 %)"

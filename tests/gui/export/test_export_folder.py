@@ -72,9 +72,7 @@ def test_a_temporary_folder_that_is_gone_already_is_no_error(tmp_path: Path) -> 
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_is_no_folder_of_files_alone_is_not_taken_for_one_of_an_export(
-    tmp_path: Path,
-) -> None:
+def test_what_is_no_folder_of_files_alone_is_not_taken_for_one_of_an_export(tmp_path: Path) -> None:
     (tmp_path / "figure.png").write_bytes(b"")
     assert _holds_only_files(tmp_path)
     (tmp_path / "deeper").mkdir()

@@ -86,9 +86,7 @@ def names(application: Application) -> list[str]:
     return [combo.itemData(place) or combo.itemText(place) for place in range(combo.count())]
 
 
-def test_the_window_starts_in_spite_of_rubbish_among_presets(
-    application: Application,
-) -> None:
+def test_the_window_starts_in_spite_of_rubbish_among_presets(application: Application) -> None:
     assert names(application) == [*occ.presets(), "rubbish: cannot be read"]
     place = len(occ.presets())
     entries = application.controls.preset.model()

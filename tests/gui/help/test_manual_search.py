@@ -38,9 +38,7 @@ def test_all_words_are_there_and_a_heading_counts_more(folder: Path) -> None:
     assert titles(search(found, "light unknown")) == []
 
 
-def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(
-    qtbot: QtBot,
-) -> None:
+def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(qtbot: QtBot) -> None:
     window = HelpWindow(docs_folder())
     qtbot.addWidget(window)
     every = sections(docs_folder())

@@ -256,10 +256,7 @@ def test_the_animation_moves_while_it_is_seen_and_stops_at_a_click(
 
 
 def test_the_end_shows_the_answers_and_saves_them_as_a_report(
-    bench: Lessons,
-    guide: LessonView,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
+    bench: Lessons, guide: LessonView, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     guide.list.choices[0].click()
     bench.answer("62.5")

@@ -198,10 +198,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_mended(
     )
     refused: list[str] = []
     view.refused.connect(refused.append)
-    fields = {
-        "auto": view.form.known["switching_frequency"],
-        "square": view.form.square,
-    }
+    fields = {"auto": view.form.known["switching_frequency"], "square": view.form.square}
     for sent, field in fields.items():
         choose(qtbot, view.form.sent, sent)
         shown, notice = field.text(), view.form.notices[field]

@@ -73,9 +73,7 @@ def bench(qtbot: QtBot, photo: Photo) -> Bench:
     return Bench(qtbot, photo)
 
 
-def test_every_lamp_has_an_outline_and_a_row(
-    bench: Bench,
-) -> None:
+def test_every_lamp_has_an_outline_and_a_row(bench: Bench) -> None:
     bench.find()
     assert len(bench.outlines.items) == bench.form.table.rowCount() == len(LAMPS)
     texts = [
@@ -95,9 +93,7 @@ def test_every_lamp_has_an_outline_and_a_row(
     )
 
 
-def test_a_click_within_a_lamp_chooses_it(
-    bench: Bench,
-) -> None:
+def test_a_click_within_a_lamp_chooses_it(bench: Bench) -> None:
     bench.find()
     bench.outlines.click(QPointF(70.0, 40.0))
     assert bench.parts.part is LAMPS[1]
@@ -300,9 +296,7 @@ def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(benc
         assert handle["pos"] + handle["center"] == pg.Point(1.0, 1.0)
 
 
-def test_a_lamps_number_stands_above_it_and_hides_nothing_of_it(
-    bench: Bench,
-) -> None:
+def test_a_lamps_number_stands_above_it_and_hides_nothing_of_it(bench: Bench) -> None:
     bench.find()
     for (_, number), lamp in zip(bench.outlines.items, LAMPS, strict=True):
         assert (number.pos().x(), number.pos().y()) == (

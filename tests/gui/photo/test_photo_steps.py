@@ -107,9 +107,7 @@ def test_the_pane_leads_from_step_to_step(qtbot: QtBot, photo: Photo) -> None:
     assert spoken(view.steps)[0] == "Open: next step"
 
 
-def test_the_steps_stand_as_far_from_what_is_above_as_from_what_is_below(
-    steps: PhotoSteps,
-) -> None:
+def test_the_steps_stand_as_far_from_what_is_above_as_from_what_is_below(steps: PhotoSteps) -> None:
     layout = steps.layout()
     assert layout is not None
     margins = layout.contentsMargins()

@@ -173,9 +173,7 @@ def picture(pane: PicturePane) -> Grey:
 
 
 def test_the_old_picture_is_left_of_the_line_the_new_one_right(
-    qtbot: QtBot,
-    pane_with_wipe: tuple[PicturePane, BeforeWipe],
-    snapshot_of: SnapshotOf,
+    qtbot: QtBot, pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
 ) -> None:
     pane, wipe = pane_with_wipe
     now, then = flat(snapshot_of(columns=400), 200), flat(snapshot_of(columns=400), 50)

@@ -183,10 +183,7 @@ def test_closing_the_photo_removes_it_from_the_simulation(
 
 
 def test_the_opacity_slider_fades_from_simulation_to_photo(
-    view: ImageView,
-    snapshot_of: SnapshotOf,
-    photo: Photo,
-    grey_picture: Callable[[QWidget], Grey],
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo, grey_picture: Callable[[QWidget], Grey]
 ) -> None:
     view.show_snapshot(snapshot_of())
     view.simulation.box.setRange(QRectF(1210, 1, 40, 40), padding=0)

@@ -198,10 +198,7 @@ def test_the_plot_shows_the_first_packets_of_both_up_to_their_brightest_columns(
 
 @pytest.mark.parametrize("columns", [(600, 900), (900, 600)])
 def test_the_plot_ends_with_the_longer_profile_where_no_packet_does(
-    view: CompareView,
-    pins: PinController,
-    bare_snapshot_of: SnapshotOf,
-    columns: tuple[int, int],
+    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf, columns: tuple[int, int]
 ) -> None:
     # At 1 kHz a packet is far longer than the picture.
     a, b = (bare_snapshot_of(switching_frequency=1e3, columns=count) for count in columns)

@@ -46,9 +46,7 @@ def test_the_main_sliders_stand_on_the_first_page(panel: ControlPanel) -> None:
     assert all(isinstance(row, QuantityRow) for row in first.rows.values())
 
 
-def test_effects_parameters_have_a_page_of_their_own_in_order(
-    panel: ControlPanel,
-) -> None:
+def test_effects_parameters_have_a_page_of_their_own_in_order(panel: ControlPanel) -> None:
     assert tuple(panel.panels["Effects"].rows) == EFFECTS
 
 
@@ -130,9 +128,7 @@ def test_the_preset_shown_is_the_scenes_or_none(panel: ControlPanel) -> None:
     assert panel.preset.placeholderText()
 
 
-def test_other_presets_replace_the_last_ones_without_a_signal(
-    panel: ControlPanel,
-) -> None:
+def test_other_presets_replace_the_last_ones_without_a_signal(panel: ControlPanel) -> None:
     told: list[str] = []
     panel.preset_chosen.connect(told.append)
     panel.list_presets([("mine", "My own"), *PRESETS])

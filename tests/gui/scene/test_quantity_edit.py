@@ -111,9 +111,7 @@ def test_an_impossible_value_is_refused_and_the_last_restored(
     assert (field.edit.value(), field.edit.text()) == (before, shown)
 
 
-def test_a_refusal_is_emitted_once_for_enter_and_leaving(
-    qtbot: QtBot,
-) -> None:
+def test_a_refusal_is_emitted_once_for_enter_and_leaving(qtbot: QtBot) -> None:
     field = Field("exposure_time", qtbot)
     field.enter("soon")
     field.edit.editingFinished.emit()  # as leaving the field does
@@ -224,9 +222,7 @@ def test_a_number_typed_over_a_double_clicked_one_replaces_its_decimals(qtbot: Q
     assert field.edit.value() == 20e3
 
 
-def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(
-    qtbot: QtBot,
-) -> None:
+def test_a_bare_number_that_hardly_means_the_unit_shown_is_asked_for_its_unit(qtbot: QtBot) -> None:
     field = Field("switching_frequency", qtbot)
     field.enter("10 kHz")
     field.enter("20000")

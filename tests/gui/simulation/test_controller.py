@@ -199,9 +199,7 @@ def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
     assert far.panel_origin == pytest.approx(tuple(far.frame.corners.min(axis=0)))
 
 
-def test_stopping_during_a_simulation_returns_without_a_result(
-    bench: Bench,
-) -> None:
+def test_stopping_during_a_simulation_returns_without_a_result(bench: Bench) -> None:
     pictures: list[object] = []
     bench.controller.picture_ready.connect(pictures.append)
     bench.store.change(iso=200.0)

@@ -120,10 +120,7 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
 @pytest.mark.parametrize("step", [1, 2, 7, 11, 22])
 @pytest.mark.parametrize("changes", [{}, {"distance": 0.4}, {"pitch": 0.2}])
 def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
-    rows: StoryRows,
-    bare_snapshot_of: Callable[..., Snapshot],
-    step: int,
-    changes: dict[str, Any],
+    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot], step: int, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
     rows.show_picture(Picture.of(snapshot.frame, "camera"))

@@ -34,8 +34,7 @@ def field_of(bench: ControlsBench, name: str) -> QLineEdit | QAbstractSpinBox:
 
 
 @pytest.mark.parametrize(
-    ("name", "typed"),
-    [("iso", "250"), ("bits", "12"), ("pattern", "1100"), ("code", "0000000001")],
+    ("name", "typed"), [("iso", "250"), ("bits", "12"), ("pattern", "1100"), ("code", "0000000001")]
 )
 def test_undo_after_entering_a_value_restores_the_scene(
     qtbot: QtBot, bench: ControlsBench, small_scene: Scene, name: str, typed: str

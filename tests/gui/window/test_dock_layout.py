@@ -331,9 +331,7 @@ def test_every_axis_label_fits_its_axis(application: Application, user: User, si
         assert axis_labels_cut_off(application.window) == []
 
 
-def test_every_effect_is_in_view_at_the_windows_first_size(
-    application: Application,
-) -> None:
+def test_every_effect_is_in_view_at_the_windows_first_size(application: Application) -> None:
     application.window.bring_to_front("accuracy")
     QApplication.processEvents()
     table = application.view("accuracy").table

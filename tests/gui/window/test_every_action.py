@@ -167,9 +167,7 @@ def test_the_keys_reach_every_control(controls: list[Control]) -> None:
     assert [str(control) for control in controls if not control.is_in_reach] == []
 
 
-def test_each_tooltip_has_meaning_symbol_range_and_unit(
-    application: Application,
-) -> None:
+def test_each_tooltip_has_meaning_symbol_range_and_unit(application: Application) -> None:
     for panel in application.controls.panels.values():
         for name, row in panel.rows.items():
             declared = PARAMETERS[name]

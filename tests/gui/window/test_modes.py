@@ -157,9 +157,7 @@ def test_the_pane_of_a_mode_has_most_of_the_window(
         assert window.size() == size
 
 
-def test_a_mode_that_was_left_in_a_wider_window_does_not_widen_it(
-    application: Application,
-) -> None:
+def test_a_mode_that_was_left_in_a_wider_window_does_not_widen_it(application: Application) -> None:
     window = application.window
     window.resize(1920, 1000)
     QApplication.processEvents()

@@ -63,9 +63,7 @@ def test_none_rounds_to_the_nearest_level(profile: np.ndarray) -> None:
 
 
 @given(profile=wide)
-def test_stretch_maps_the_smallest_to_0_and_the_largest_to_255(
-    profile: np.ndarray,
-) -> None:
+def test_stretch_maps_the_smallest_to_0_and_the_largest_to_255(profile: np.ndarray) -> None:
     enhanced = enhance(profile, "stretch")
     rounded = np.rint(profile)
     low, high = rounded.min(), rounded.max()
@@ -78,9 +76,7 @@ def test_stretch_maps_the_smallest_to_0_and_the_largest_to_255(
 
 
 @given(profile=wide)
-def test_equalization_maps_each_level_to_its_share_of_columns(
-    profile: np.ndarray,
-) -> None:
+def test_equalization_maps_each_level_to_its_share_of_columns(profile: np.ndarray) -> None:
     rounded = np.rint(profile)
     at_most = np.array([(rounded <= value).sum() for value in rounded])
     darkest = at_most.min()

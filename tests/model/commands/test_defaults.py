@@ -14,8 +14,7 @@ NAMES = {"pictures": "pictures", "images": "images", "seed": "seed", "rate": "ra
 
 
 @pytest.mark.parametrize(
-    ("module", "function"),
-    [(sweep, occ.sweep), (limits, occ.limits), (most_bits, occ.most_bits)],
+    ("module", "function"), [(sweep, occ.sweep), (limits, occ.limits), (most_bits, occ.most_bits)]
 )
 def test_defaults_of_a_command_are_those_of_its_function(
     module: object, function: Callable[..., object]

@@ -108,8 +108,7 @@ def test_a_full_disk_leaves_the_old_table(
 
 
 @pytest.mark.parametrize(
-    "delay",
-    [0.0, *(pytest.param(late, marks=pytest.mark.whole) for late in (0.8, 1.6)), 3.0],
+    "delay", [0.0, *(pytest.param(late, marks=pytest.mark.whole) for late in (0.8, 1.6)), 3.0]
 )
 def test_interrupts_end_all_processes_with_one_line(
     folder: Path, tmp_path: Path, delay: float

@@ -177,9 +177,7 @@ def test_what_cannot_be_is_a_sentence_and_nothing_is_written(
 
 @pytest.mark.whole
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_a_cluster_is_reached_with_dasks_certificates(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_cluster_is_reached_with_dasks_certificates(monkeypatch: pytest.MonkeyPatch) -> None:
     def rpc(address: str, connection_args: object = None) -> None:
         raise ConnectionError(f"{address} by {connection_args}")
 

@@ -50,9 +50,7 @@ def check_drawing(path: Path) -> None:
 
 @pytest.mark.parametrize("ending", ["svg", "pdf", "png"])
 @pytest.mark.parametrize(
-    "text",
-    [pytest.param(EVIL, marks=pytest.mark.whole), EVIL + FORGED],
-    ids=["marks", "forged"],
+    "text", [pytest.param(EVIL, marks=pytest.mark.whole), EVIL + FORGED], ids=["marks", "forged"]
 )
 def test_a_lessons_text_is_text_in_its_report(tmp_path: Path, ending: str, text: str) -> None:
     path = tmp_path / f"report.{ending}"

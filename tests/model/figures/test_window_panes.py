@@ -85,8 +85,7 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "ending",
-    [pytest.param(one, marks=pytest.mark.whole if one in DEAR else ()) for one in ENDINGS],
+    "ending", [pytest.param(one, marks=pytest.mark.whole if one in DEAR else ()) for one in ENDINGS]
 )
 def test_the_same_drawing_is_the_same_file(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"a{ending}"

@@ -19,9 +19,7 @@ def bench() -> Bench:
     return Bench()
 
 
-def test_a_dead_worker_loses_no_job_and_repeats_no_delivered_one(
-    bench: Bench,
-) -> None:
+def test_a_dead_worker_loses_no_job_and_repeats_no_delivered_one(bench: Bench) -> None:
     bench.ask(MAP, 1, stage(0, *"abcde"))
     bench.finish(2)
     bench.worker.die()

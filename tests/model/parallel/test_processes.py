@@ -47,9 +47,7 @@ def test_another_thread_holds_nothing() -> None:
     assert seen == [before]
 
 
-def test_idle_workers_end_by_themselves_and_are_not_killed(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_idle_workers_end_by_themselves_and_are_not_killed(monkeypatch: pytest.MonkeyPatch) -> None:
     # As long as it takes on a machine that is busy.
     monkeypatch.setattr("occ_model.parallel.process_pool._EXIT_SECONDS", 60.0)
     pool = ProcessPool(2, "worker_calls")

@@ -92,11 +92,7 @@ def test_a_wrong_estimate_does_not_pull_however_sure(sigma: float) -> None:
     assert found is not None
     assert without is not None
     assert found.outliers == (9,)
-    assert (found.value, found.uncertainty, found.count) == (
-        without.value,
-        without.uncertainty,
-        9,
-    )
+    assert (found.value, found.uncertainty, found.count) == (without.value, without.uncertainty, 9)
 
 
 def test_errors_that_are_all_too_small_widen_the_means() -> None:

@@ -164,10 +164,7 @@ def test_a_region_holds_its_bright_pixels_and_fits_them_closely(
     check_any(image, fraction)
 
 
-@given(
-    line=arrays.arrays(np.uint8, st.integers(1, 400)),
-    fraction=st.floats(1e-4, 0.5),
-)
+@given(line=arrays.arrays(np.uint8, st.integers(1, 400)), fraction=st.floats(1e-4, 0.5))
 def test_the_same_holds_for_images_of_one_row_or_one_column(
     line: np.ndarray, fraction: float
 ) -> None:

@@ -30,9 +30,7 @@ def variances(counts: list[int]) -> dict[int, Fraction]:
 
 
 @given(counts=histograms)
-def test_of_equally_good_splits_the_middle_one_is_taken(
-    counts: list[int],
-) -> None:
+def test_of_equally_good_splits_the_middle_one_is_taken(counts: list[int]) -> None:
     exact = variances(counts)
     split = otsu_split(np.array(counts))
     if not exact:

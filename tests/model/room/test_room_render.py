@@ -162,8 +162,7 @@ def test_the_plan_of_a_picture_includes_what_any_of_its_lamps_calls_for(seed: in
 
 
 @pytest.mark.parametrize(
-    ("own", "effect"),
-    [({"lambertian_order": 6.0}, "emission"), ({"edge_time": 2e-5}, "led-edges")],
+    ("own", "effect"), [({"lambertian_order": 6.0}, "emission"), ({"edge_time": 2e-5}, "led-edges")]
 )
 def test_an_effect_that_one_lamp_alone_has_is_planned_for(
     own: dict[str, float], effect: str

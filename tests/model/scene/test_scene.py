@@ -12,14 +12,7 @@ from payloads import PAYLOADS
 
 import occ_model.scene.scene
 from occ_model.errors import ParameterError
-from occ_model.scene.parameter_kinds import (
-    ChipPattern,
-    Choice,
-    Count,
-    Parameter,
-    Payload,
-    Quantity,
-)
+from occ_model.scene.parameter_kinds import ChipPattern, Choice, Count, Parameter, Payload, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import GROUPS, Scene, group_of
 

@@ -47,9 +47,7 @@ def test_points_are_counted_right_where_effects_are_few(preset: str) -> None:
     assert len(list(accuracy(scene, settings))) == point_count(scene, settings)
 
 
-def test_the_closed_form_is_exact_and_samples_err_by_1_over_n(
-    points: list[AccuracyPoint],
-) -> None:
+def test_the_closed_form_is_exact_and_samples_err_by_1_over_n(points: list[AccuracyPoint]) -> None:
     *samples, closed = of(points, "integration")
     assert closed.error < 1e-9
     assert len(samples) == len(SAMPLES) == 13
@@ -127,9 +125,7 @@ def test_the_plan_is_given_in_words(capsys: pytest.CaptureFixture[str]) -> None:
     assert any(line.startswith("Shot and read noise: ") and "by hand" in line for line in lines)
 
 
-def test_an_unknown_or_contradictory_effect_is_refused(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+def test_an_unknown_or_contradictory_effect_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plan", "--on", "blur"]) == 2
     assert "effect is 'blur'; allowed: led-edges," in capsys.readouterr().err
     assert main(["plan", "--on", "jpeg", "--off", "jpeg"]) == 2

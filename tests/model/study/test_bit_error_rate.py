@@ -12,11 +12,7 @@ from occ_model.results.bench import BenchPoint, written
 from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.study import success_rate
-from occ_model.study.bit_error_rate import (
-    bit_errors_of,
-    error_interval,
-    with_payload,
-)
+from occ_model.study.bit_error_rate import bit_errors_of, error_interval, with_payload
 from occ_model.study.theory import gaussian_rate_bound, row_rate_frequency
 
 SCENE = occ.load_preset("phone-136us").replace(rows=60, enhancement="none")

@@ -115,9 +115,7 @@ def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_are_exact
     assert found.highest is found.intervals[-1].highest
 
 
-def test_the_images_that_confirm_an_end_have_not_chosen_it(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_the_images_that_confirm_an_end_have_not_chosen_it(monkeypatch: pytest.MonkeyPatch) -> None:
     def noted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
         frequency = scene.transmitter.switching_frequency
         # By the images that choose, reading ends at 12 kHz; by any others, at 11 kHz.
@@ -134,9 +132,7 @@ def test_the_images_that_confirm_an_end_have_not_chosen_it(
     assert (range_end.works.whole, range_end.fails.whole) == (20, 0)
 
 
-def test_a_range_that_reaches_the_search_limit_says_so(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_a_range_that_reaches_the_search_limit_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda _: True))
     far = SCENE.replace(switching_frequency=3e6)
     found = occ.limits(far, images=1)

@@ -200,9 +200,7 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
         view.show_certain(CERTAIN)
 
 
-def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(
-    view: ManyPhotosView,
-) -> None:
+def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(view: ManyPhotosView) -> None:
     view.show_table(table())
     assert not view.findChildren(QToolButton)
     assert "hold only if f = 10 kHz" in view.paste.why_none.text()
@@ -214,9 +212,7 @@ def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(
     assert "if f" not in view.title.text() + tip(view, 0, ESTIMATE)
 
 
-def test_rows_of_a_running_match_name_the_frequency_that_they_rest_on(
-    view: ManyPhotosView,
-) -> None:
+def test_rows_of_a_running_match_name_the_frequency_that_they_rest_on(view: ManyPhotosView) -> None:
     view.show_begun("readout_time", occ.Scene())
     view.show_row(0, ROWS[0], 1)
     assert "if f = 10 kHz" in view.title.text()

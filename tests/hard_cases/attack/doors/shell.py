@@ -20,12 +20,7 @@ import occ_model as occ
 from hard_cases.attack import chance as made
 from hard_cases.attack.promise import Door
 from occ_model.effects.registry import NAMES
-from occ_model.program import (
-    EXIT_FAILURE,
-    EXIT_INTERRUPTED,
-    EXIT_MISUSE,
-    INTERRUPTED,
-)
+from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED, EXIT_MISUSE, INTERRUPTED
 from occ_model.scene.parameters import PARAMETERS
 
 _INTERRUPT_S = 0.4

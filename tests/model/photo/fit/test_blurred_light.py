@@ -10,11 +10,7 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 
 CODES = ("10", "0110", "1100", "10011010", "0111011")
-TIMINGS = (
-    Timing(0.13, 0.7, 3.3, 2.2),
-    Timing(0.31, 5.4, 0.2, 2.2),
-    Timing(0.05, 11.5, -7.6, 2.2),
-)
+TIMINGS = (Timing(0.13, 0.7, 3.3, 2.2), Timing(0.31, 5.4, 0.2, 2.2), Timing(0.05, 11.5, -7.6, 2.2))
 COLUMNS = 150
 
 

@@ -53,9 +53,8 @@ class AccuracyPlot(QWidget):
         self._outdated = False
         self._fits_points = True
         self.title = ElidedLabel("Error over time")
-        self.legend = QLabel()
+        self.legend = QLabel(wordWrap=True)
         self.legend.setAccessibleName("Legend")
-        self.legend.setWordWrap(True)
         self.plot = new_plot(
             "Error over time",
             "time (ms)",

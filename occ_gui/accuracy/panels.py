@@ -35,10 +35,7 @@ class Panels(QWidget):
         self._chosen = main
         for panel in self._panels:
             panel.widget.setParent(self)
-        self.tabs = QTabBar()
-        self.tabs.setDrawBase(False)
-        self.tabs.setExpanding(False)
-        self.tabs.setUsesScrollButtons(False)
+        self.tabs = QTabBar(drawBase=False, expanding=False, usesScrollButtons=False)
         self.tabs.currentChanged.connect(self._choose)
         self._offer(self._panels)
 

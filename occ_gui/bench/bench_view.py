@@ -76,9 +76,7 @@ class BenchView(QWidget):
             "How often does each decoder misread a bit? Choose the code and the decoders above, "
             "and press Measure: the error rates appear here, over the exposure and over the noise."
         )
-        invitation = QLabel(text)
-        invitation.setWordWrap(True)
-        invitation.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        invitation = QLabel(text, wordWrap=True, alignment=Qt.AlignmentFlag.AlignCenter)
         invitation.setContentsMargins(64, 8, 64, 8)
         return invitation
 

@@ -43,8 +43,7 @@ class Store(QObject):
         self._left: Workspace | None = None
         self._is_telling = self._is_resuming = False
         self._selections: list[Selection[object]] = []
-        self.undo_stack = QUndoStack(self)
-        self.undo_stack.setUndoLimit(MOST_STEPS)
+        self.undo_stack = QUndoStack(self, undoLimit=MOST_STEPS)
         # Told when the stack has finished: a listener that edits in turn puts its step on top.
         self.undo_stack.indexChanged.connect(self._on_index)
 

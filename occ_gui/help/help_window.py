@@ -52,8 +52,7 @@ class HelpWindow(QMainWindow):
         self.resize(_SIZE)
 
     def _lay_out(self) -> None:
-        bar = QToolBar("Navigation")
-        bar.setMovable(False)
+        bar = QToolBar("Navigation", movable=False)
         self._add_history(bar)
         bar.addSeparator()
         self.search.setPlaceholderText("Find in this page")
@@ -99,8 +98,7 @@ class HelpWindow(QMainWindow):
     def _add_key(
         self, key: QKeySequence.StandardKey | QKeySequence, do: Callable[[], object]
     ) -> None:
-        action = QAction(self)
-        action.setShortcut(QKeySequence(key))
+        action = QAction(self, shortcut=QKeySequence(key))
         action.triggered.connect(lambda: do())
         self.addAction(action)
 

@@ -21,8 +21,7 @@ class AnswerField(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.field = QLineEdit()
-        self.field.setMaxLength(_LONGEST)
+        self.field = QLineEdit(maxLength=_LONGEST)
         self.field.setAccessibleName("Your answer")
         self.field.setToolTip("Type your answer here before you look at the explanation.")
         leave_undo_to_window(self.field)

@@ -47,9 +47,7 @@ class CompareView(QWidget):
         self.clear.setToolTip("Forget A and B.")
         self.clear.setAccessibleName("Clear A and B")
         self.clear.clicked.connect(self.clear_asked)
-        self.hint = QLabel()
-        self.hint.setWordWrap(True)
-        self.hint.setTextFormat(Qt.TextFormat.PlainText)
+        self.hint = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self._make_table()
         self._make_plot()
         self._lay_out()
@@ -85,8 +83,7 @@ class CompareView(QWidget):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         # The height of a sentence depends on the width of its column, so rows are fitted after all
         # columns are.
-        self._fitting = QTimer(self, singleShot=True)
-        self._fitting.setInterval(0)
+        self._fitting = QTimer(self, singleShot=True, interval=0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
         header.sectionResized.connect(lambda: self._fitting.start())
 

@@ -90,7 +90,6 @@ def _label(declared: Parameter) -> QLabel:
     if declared.symbol:
         base, _, index = declared.symbol.partition("_")
         text += f" <i>{base}</i><sub>{index}</sub>" if index else f" <i>{base}</i>"
-    label = QLabel(text)
-    label.setTextFormat(Qt.TextFormat.RichText)
+    label = QLabel(text, textFormat=Qt.TextFormat.RichText)
     label.setToolTip(explain(declared))
     return label

@@ -252,8 +252,7 @@ class PatternRow(ParameterRow):
         super().__init__(declared, parent)
         self._declared = declared
         self._shown = ""
-        self.field = QLineEdit()
-        self.field.setPlaceholderText(f"empty: {declared.empty}")
+        self.field = QLineEdit(placeholderText=f"empty: {declared.empty}")
         leave_undo_to_window(self.field)
         _fill(self, self.field, declared)
         self.field.textEdited.connect(self._gestures.end)

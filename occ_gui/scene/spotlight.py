@@ -67,8 +67,7 @@ class Spotlight(QObject):
 
     def _dim(self, widget: QWidget, why: str) -> None:
         """Dim a widget, let it take nothing, and say why in its tool tips."""
-        effect = QGraphicsOpacityEffect(widget)
-        effect.setOpacity(_DIMMED)
+        effect = QGraphicsOpacityEffect(widget, opacity=_DIMMED)
         widget.setGraphicsEffect(effect)
         self._dimmed.append(widget)
         if widget.isEnabledTo(self._controls):

@@ -41,8 +41,7 @@ class OutdatedMarks(QObject):
         """The picture that stays as the scene has none; None where no scene was refused."""
         self._is_verdict_marked = False
         self._run = ""
-        self._settling = QTimer(self, singleShot=True)
-        self._settling.setTimerType(Qt.TimerType.PreciseTimer)
+        self._settling = QTimer(self, singleShot=True, timerType=Qt.TimerType.PreciseTimer)
         self._settling.timeout.connect(self._update)
         board.changed.connect(self._update)
         simulation.submitted.connect(self._update)

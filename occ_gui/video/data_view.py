@@ -32,9 +32,7 @@ class DataView(QWidget):
         self.text.setAccessibleName("What was read")
         self.text.setPlaceholderText("What is read of the film appears here.")
         self.text.setTabChangesFocus(True)
-        self.sentences = QLabel()
-        self.sentences.setWordWrap(True)
-        self.sentences.setTextFormat(Qt.TextFormat.PlainText)
+        self.sentences = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.sentences.setAccessibleName("What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.labels: dict[str, QLabel] = {}

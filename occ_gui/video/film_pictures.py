@@ -62,8 +62,7 @@ class FilmPictures(QWidget):
         self._film = _Side("Film")
         self._simulated = _Side("Simulated film")
         self.film, self.simulated = self._film.pane, self._simulated.pane
-        self.split = QSplitter(Qt.Orientation.Horizontal)
-        self.split.setChildrenCollapsible(False)
+        self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         for side in (self._film, self._simulated):
             self.split.addWidget(side)
         layout = QVBoxLayout(self)

@@ -42,8 +42,7 @@ class LineLegend(QWidget):
     def add_sample(
         self, key: str, draw: Drawing, size: QSize, text: str, meaning: str = ""
     ) -> None:
-        entry = QWidget()
-        entry.setToolTip(meaning)
+        entry = QWidget(toolTip=meaning)
         layout = QHBoxLayout(entry)
         layout.setContentsMargins(0, 0, 6, 0)
         layout.addWidget(Sample(draw, size), 0, Qt.AlignmentFlag.AlignVCenter)

@@ -37,10 +37,9 @@ class StateBar(QWidget):
         font.setPointSizeF(_LARGER * font.pointSizeF())
         self.title.setFont(font)
         self.sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.wrapped = QLabel()
-        self.wrapped.setTextFormat(Qt.TextFormat.PlainText)
-        self.wrapped.setWordWrap(True)
-        self.wrapped.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.wrapped = QLabel(
+            textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop
+        )
         self._lines = 1
         self.chips = ChipRow()
         self.step = QPushButton()

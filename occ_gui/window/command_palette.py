@@ -56,8 +56,7 @@ class CommandPalette(QDialog):
         self._commands = commands
         self._matching: list[Command] = []
         self._chosen: Command | None = None
-        self.line = QLineEdit()
-        self.line.setPlaceholderText("A few letters of a command or parameter")
+        self.line = QLineEdit(placeholderText="A few letters of a command or parameter")
         self.line.setAccessibleName("Words to look for")
         self.line.setToolTip("Up and down choose, Enter does it, Escape leaves.")
         self.line.textChanged.connect(self._filter)

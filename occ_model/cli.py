@@ -19,7 +19,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _command(arguments: Sequence[str] | None) -> Callable[[], int]:
-    """Read the command line; return the command to run."""
     # Only here, where Ctrl-C is answered: the commands import all of the model.
     from occ_model.commands.command_line import read_command_line, run_command
 

@@ -259,7 +259,6 @@ class AccuracyPlot(QWidget):
 
 
 def _forced(expected: Forecast) -> set[str]:
-    """Return the effects that are switched on by hand."""
     return {d.effect for d in expected.plan.decisions if d.forced and d.included}
 
 

@@ -92,7 +92,6 @@ class CostMeasurement:
 
 
 def _compared(request: SimulationRequest) -> tuple[object, ...]:
-    """Return what a comparison with the complete simulation depends on."""
     return request.scene, request.settings.observable, request.settings.seed
 
 

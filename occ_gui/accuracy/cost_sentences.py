@@ -10,7 +10,6 @@ from occ_model.results.plan import Decision
 
 
 def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | None) -> str:
-    """Say what the picture takes and how exact it is."""
     now, then = milliseconds(costs.picture.seconds), milliseconds(made)
     time = f"This picture: {now} ms"
     if costs.is_comparable and now != then:

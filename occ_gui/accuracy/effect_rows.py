@@ -115,7 +115,6 @@ def _row(
 
 
 def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str, str]:
-    """Return what leaving an effect out changes, and how that is known."""
     if not decision.estimate:
         return "none", "The scene does not have this effect."
     estimate = levels(decision.estimate)
@@ -131,11 +130,9 @@ def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str
 
 
 def levels(error: float) -> str:
-    """Write an error in levels."""
     return f"{error:.0f}" if 100.0 <= error < 1e5 else f"{error:.2g}"
 
 
 def milliseconds(seconds: float) -> str:
-    """Write a time in milliseconds."""
     time = 1e3 * seconds
     return f"{time:.0f}" if time >= 100.0 else f"{time:.1f}" if time >= 1.0 else f"{time:.2g}"

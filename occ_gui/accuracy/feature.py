@@ -37,8 +37,6 @@ def accuracy(scenes: SceneStore, simulation: SimulationController) -> "Feature[A
 
 
 def accuracy_figure() -> Figure:
-    """Declare the figure of the points that are measured by now."""
-
     def ask(pane: "AccuracyPane | None", _shown: Snapshot) -> Draw:
         points = () if pane is None else pane.view.plot.measured
         if not points:

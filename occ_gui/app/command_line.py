@@ -188,7 +188,6 @@ def _leave_plugins(code: int, preferences: "QSettings | None") -> None:
 
 
 def _prepare(options: argparse.Namespace) -> None:
-    """Check the options before a window is opened."""
     if options.match and not options.photo:
         raise occ.OccError("--match needs a photo; name one with --photo.")
     if options.screenshot:
@@ -207,7 +206,6 @@ def _prepare(options: argparse.Namespace) -> None:
 
 
 def _draw_icon(application: "Application") -> None:
-    """Give the window its icon as soon as it is open."""
     from PySide6.QtCore import QTimer
 
     from occ_gui.widgets.icons import program_icon
@@ -217,7 +215,6 @@ def _draw_icon(application: "Application") -> None:
 
 
 def _close_on_interrupt(application: "Application") -> None:
-    """Close the window on Ctrl+C in the terminal that started it."""
     from PySide6.QtCore import QTimer
 
     window = application.window

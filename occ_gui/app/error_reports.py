@@ -100,7 +100,6 @@ class ErrorReports(QObject):
 
 
 def _place(trace: TracebackType | None) -> tuple[str, int]:
-    """Return the file and line where an exception was raised."""
     if trace is None:
         return "", 0
     while trace.tb_next is not None:

@@ -162,7 +162,6 @@ class BandsView(QWidget):
 
 
 def _verdict(speed: SpeedDepth) -> tuple[str, str]:
-    """Return in a word and in a sentence whether a speed shows bars."""
     if speed.is_free:
         return "none", f"{speed.name} shows no bars."
     if not speed.is_doubtful:

@@ -56,7 +56,6 @@ class BenchTable(QTableWidget):
 
 
 def cell_text(point: BenchPoint, what: str, frames_a_second: float) -> str:
-    """Write a value with its 95 % interval."""
     errors = point.errors
     if what == RATES:
         return f"{errors.rate:.2g} ({errors.low:.2g} – {errors.high:.2g})"  # noqa: RUF001

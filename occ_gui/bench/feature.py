@@ -36,8 +36,6 @@ def bench(
 
 
 def bench_figure(store: Store) -> Figure:
-    """Declare the figure, which there is once all points are measured."""
-
     def ask(pane: "BenchPane | None", _shown: Snapshot) -> Draw:
         there = None if pane is None else pane.controller.full
         if there is None:

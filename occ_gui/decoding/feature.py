@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
 
 def decoding(store: Store) -> Feature[tuple[Reading | None, str]]:
-    """Declare the pane: it shows what the chosen decoder reads."""
-
     def make() -> Pane[tuple[Reading | None, str]]:
         from occ_gui.decoding.pane import DecodePane
 
@@ -32,7 +30,6 @@ def decoding(store: Store) -> Feature[tuple[Reading | None, str]]:
 
 
 def decoding_figures() -> tuple[Figure, ...]:
-    """Declare one figure for each decoder that reads every picture."""
     return tuple(
         Figure(name=f"decoding-{name}", title=f"Decoding, {name}", draw=partial(_steps, name))
         for name in QUICK_DECODERS

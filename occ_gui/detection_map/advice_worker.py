@@ -24,7 +24,6 @@ def advise(
 def carry_most(
     scene: Scene, decoder: str, frames_a_second: float, heartbeat: Heartbeat
 ) -> MostBits:
-    """Find which code, frequency and number of bits carry most with a decoder."""
     most = 1.0 / (scene.camera.columns * scene.camera.readout_time)
     frames = min(frames_a_second, most)
     (found,) = most_bits(scene, (decoder,), frames_a_second=frames, heartbeat=heartbeat)

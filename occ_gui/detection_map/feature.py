@@ -36,8 +36,6 @@ def detection_map(
 
 
 def map_figure(store: Store) -> Figure:
-    """Declare the figure, which there is once all points of the map are known."""
-
     def ask(pane: "MapPane | None", _shown: Snapshot) -> Draw:
         there = None if pane is None else pane.map.full
         if there is None:

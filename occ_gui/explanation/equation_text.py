@@ -82,7 +82,6 @@ def _base_in_italics(text: str) -> str:
 
 
 def _joined(terms: Iterable[tuple[str, Term]], changed: frozenset[str]) -> str:
-    """Join terms, with those marked that depend on a changed parameter."""
     text, tight = "", True
     for html, term in terms:
         if not (tight or html.startswith(")")):

@@ -20,8 +20,6 @@ def export(
     current_pane: Callable[[], str],
     scenes: SceneStore,
 ) -> Feature[None]:
-    """Declare the export of the figures that the panes of the shell declare."""
-
     def make() -> Service:
         from occ_gui.export.export_controller import ExportController
 

@@ -68,7 +68,6 @@ def _is_file(path: Path) -> bool:
 
 
 def sample_photos() -> list[Path]:
-    """List the sample photos of the program, sorted by name."""
     return sorted(resource_path("photos").glob("*.jpg"))
 
 

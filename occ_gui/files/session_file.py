@@ -100,7 +100,6 @@ class SessionFile:
 
 
 def _record_in(path: Path) -> dict[str, Any] | None:
-    """Read a session file; None where there is none or it is damaged."""
     try:
         record = json.loads(read_text(path, LARGEST))
     except Exception:  # noqa: BLE001 - the window starts whatever the file contains

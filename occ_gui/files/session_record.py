@@ -62,7 +62,6 @@ class Kept:
 
 
 def record_of(kept: Kept) -> dict[str, Any]:
-    """Write what is kept as plain values."""
     workspace, history = kept.workspace, kept.history
     return {
         "scene": workspace.scene.to_toml(),

@@ -285,5 +285,4 @@ class LessonController(QObject):
 
 
 def is_own(photo: PhotoChoice) -> bool:
-    """Return whether a photo of the user's own is open, and no sample."""
     return photo.path not in {None, *sample_photos()}

@@ -16,7 +16,6 @@ def typeset(text: str) -> str:
 
 
 def paragraph(text: str = "") -> QLabel:
-    """Make a label for plain text of several lines."""
     label = QLabel(text)
     label.setWordWrap(True)
     label.setTextFormat(Qt.TextFormat.PlainText)

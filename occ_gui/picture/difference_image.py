@@ -154,7 +154,6 @@ def _halved(
 
 
 def _span(edges: FloatArray) -> float:
-    """Return the number of pixels that a cell spans."""
     return float(edges[-1] - edges[0]) / (len(edges) - 1)
 
 

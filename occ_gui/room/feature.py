@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
 
 def room(store: Store) -> Feature[RoomChoice]:
-    """Declare the pane: it shows a room of its own, not the scene."""
-
     def make() -> Pane[RoomChoice]:
         from occ_gui.room.pane import RoomPane
 

@@ -62,7 +62,6 @@ class FloorMap:
 
 
 def plan_of(room: Room) -> RoomPlan:
-    """Draw up a room from above."""
     height = float(np.mean([lamp.z for lamp in room.lamps]))
     outlines = {lamp.name: room_outline(lamp)[:, :2] for lamp in room.lamps}
     return RoomPlan(outlines, seen_outline(room, height), aim_of(room.camera, height), height)
@@ -95,7 +94,6 @@ def _small(image: ByteArray) -> ByteArray:
 
 
 def map_room(room: Room, report: Callable[[float], object]) -> FloorMap:
-    """Measure a map over the floor below a room's lamps."""
     request = RoomMapRequest(room, *floor_under(room, SIDE))
     found = room_map(request, progress=lambda done, total, _: report(done / total))
     return FloorMap(request, found)

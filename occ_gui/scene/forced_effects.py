@@ -17,7 +17,6 @@ def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -
 
 
 def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:
-    """List the effects that are switched by hand."""
     places = {name: place for place, name in enumerate(labels)}
     names = sorted(force, key=lambda name: places.get(name, len(places)))
     return ", ".join(switch_text(name, force[name], labels) for name in names)

@@ -80,7 +80,6 @@ class Spotlight(QObject):
 
 
 def _bring_into_view(panel: QWidget, row: QWidget) -> None:
-    """Show the page and the part of it in which a row stands."""
     parent = panel.parentWidget()
     scroll: QScrollArea | None = None
     while parent is not None:

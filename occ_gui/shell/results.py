@@ -66,7 +66,6 @@ MadeOf: TypeAlias = Callable[[Results], SimulationRequest | None]
 
 
 def of_snapshot(results: Results) -> SimulationRequest | None:
-    """Give what the exact picture was computed from."""
     return None if results.snapshot is None else results.snapshot.request
 
 
@@ -76,7 +75,6 @@ def of_reading(results: Results) -> SimulationRequest | None:
 
 
 def of_picture(results: Results) -> SimulationRequest | None:
-    """Give what the picture was computed from, before it is decoded."""
     return None if results.picture is None else results.picture.request
 
 

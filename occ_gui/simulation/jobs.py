@@ -105,7 +105,6 @@ def _in_whole_picture(result: DecodeResult, draft: Frame) -> DecodeResult:
 
 
 def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
-    """Read an exact picture."""
     scene = frame.scene
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)

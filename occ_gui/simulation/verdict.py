@@ -54,7 +54,6 @@ def _awaited() -> str:
 
 
 def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
-    """Return the indices of the received bits that differ from the sent ones."""
     pairs = zip(sent, received, strict=False)
     return [place for place, (one, other) in enumerate(pairs) if one != other]
 

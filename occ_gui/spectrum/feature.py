@@ -5,7 +5,6 @@ from occ_gui.simulation.snapshot import Snapshot
 
 
 def spectrum() -> Feature[Snapshot]:
-    """Declare the pane: it shows the exact picture that is there."""
     return Feature(
         name="spectrum",
         title="Spectrum and levels",

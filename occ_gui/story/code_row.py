@@ -226,6 +226,5 @@ def _looks(decoded: DecodeResult) -> tuple[object, ...]:
 
 
 def _have_room(painter: QPainter, widths: Sequence[float]) -> tuple[bool, bool]:
-    """Return whether the bits of a row have room for marks, and for their digits."""
     metrics = painter.fontMetrics()
     return have_room_for_marks(metrics, widths), have_room_for_bits(metrics, widths)

@@ -48,7 +48,6 @@ class Measured:
 
 
 def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -> Measured | None:
-    """Measure between the cursors; None while there are none."""
     if not cursors.columns:
         return None
     first, second = cursors.columns
@@ -62,7 +61,6 @@ def measure(cursors: MeasureCursors, scene: Scene, profile: FloatArray | None) -
 
 
 def in_words(measured: Measured) -> str:
-    """Write a difference in one line."""
     parts = [
         f"1 to 2: {measured.columns:.1f} columns",
         SECOND.format(measured.time, 4),

@@ -30,7 +30,6 @@ def chips_of(reading: Reading, decoder: str) -> tuple[Chip, ...]:
 
 
 def computing() -> Chip:
-    """Return the label of results that are not there yet."""
     return Chip(_COMPUTING, "computing", "The results are computed.", State.WAITING)
 
 

@@ -229,7 +229,6 @@ class StoryRows(QWidget):
 
 
 def _panel_of(reading: ColumnView) -> tuple[float, float]:
-    """Return the first and last column of the panel; of the picture where it shows none."""
     last_column = len(reading.profile) - 1
     panel = np.clip(reading.corners[:, 0], 0, last_column)
     first, last = float(panel.min()), float(panel.max())

@@ -46,7 +46,6 @@ class SaveJob:
 
 
 def save_files(job: SaveJob) -> Saved:
-    """Write a board's files into a new folder."""
     from occ_model.figures.transmitter_files import write_transmitter_files
 
     folder = new_folder(job.parent, f"blink-{job.sent.board.name}")

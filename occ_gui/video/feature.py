@@ -7,8 +7,6 @@ from occ_gui.values.film_choice import FilmChoice
 
 
 def video(scenes: SceneStore, board: Board) -> Feature[FilmChoice]:
-    """Declare the pane: it shows films, and the film of the scene."""
-
     def make() -> Pane[FilmChoice]:
         from occ_gui.video.wiring import VideoWiring
 

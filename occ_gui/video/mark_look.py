@@ -41,7 +41,6 @@ def brush_of(state: MarkState, palette: QPalette) -> QBrush:
 
 
 def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPalette) -> None:
-    """Draw a mark at the bottom of its place, as high as its state says."""
     height = place.height() * HEIGHTS[state]
     bar = QRectF(place.left(), place.bottom() - height, place.width(), height)
     ink = ink_of(state, palette)

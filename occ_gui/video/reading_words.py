@@ -6,7 +6,6 @@ from occ_model.results.video_reading import FilmProgress, VideoReading
 def sentences_of(
     known: FilmProgress, whole: VideoReading | None, problem: str | None
 ) -> tuple[str, ...]:
-    """List what is not sure of a film, and what is wrong with it."""
     said = [problem] if problem else []
     if whole is not None and whole.failure is not None:
         said.append(whole.failure)

@@ -15,7 +15,6 @@ class FilmToSave:
 
 
 def save_film(request: FilmToSave, report: Report) -> Path:
-    """Write a film, report the written share of it, and return its file."""
     count = request.film.frame_count or 1
     occ.write_video(request.film, request.path, lambda frames: report(frames / count))
     return request.path

@@ -145,7 +145,6 @@ class ChipRow(QWidget):
 
 
 def plain_text_of(html: str) -> str:
-    """Return the text of a chip without its markup."""
     return html.replace("<sub>", "_").replace("</sub>", "")
 
 

@@ -164,7 +164,6 @@ def _jump(
 
 
 def _show_page_of(widget: QWidget) -> None:
-    """Show the tab page that contains a control."""
     page: QWidget | None = widget
     while page is not None:
         around = page.parentWidget()

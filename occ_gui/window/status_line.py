@@ -103,7 +103,6 @@ class StatusLine(QStatusBar):
 
 
 def _in_one_line(text: str) -> str:
-    """Write a list of sentences as one text."""
     return " ".join(text.replace(_BULLET, " ").split())
 
 

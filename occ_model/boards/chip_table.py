@@ -22,13 +22,11 @@ def packed(chips: ByteArray) -> bytes:
 
 
 def c_table(chips: ByteArray) -> str:
-    """Write packed chips as the lines of a table in C."""
     octets = [f"0x{octet:02X}" for octet in packed(chips)]
     return "\n".join(f"    {', '.join(line)}," for line in _lines(octets))
 
 
 def python_table(chips: ByteArray) -> str:
-    """Write packed chips as lines of bytes in Python."""
     octets = [f"\\x{octet:02x}" for octet in packed(chips)]
     return "\n".join(f'    b"{"".join(line)}"' for line in _lines(octets))
 

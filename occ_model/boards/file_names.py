@@ -22,7 +22,6 @@ def sketch_name(folder: Path, board: Board) -> str:
 
 
 def file_names(folder: Path, board: Board) -> tuple[str, ...]:
-    """Name the files that are written to a folder: the sketch, and what comes with it."""
     return (
         sketch_name(folder, board),
         "waveform.csv",

@@ -28,7 +28,6 @@ def board_named(name: str) -> Board:
 
 
 def source_text(sent: Transmission) -> str:
-    """Write the sketch that sends something."""
     return _SKETCHES[sent.board.name](sent)
 
 

@@ -29,7 +29,6 @@ class Wiring:
 
 
 def wiring(board: Board) -> Wiring:
-    """Compute the circuit's values for a board."""
     gate = next_resistor(board.volts / board.pin_current)
     led = next_resistor((board.volts - LED_VOLTS) / LED_CURRENT)
     return Wiring(

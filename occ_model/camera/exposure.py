@@ -66,7 +66,6 @@ def _column_starts(
 
 @lru_cache(maxsize=8)
 def _step(readout_time: float, frequency: float, period: int) -> Fraction:
-    """Return the step from column to column, within one period."""
     return Fraction(readout_time) * Fraction(frequency) % period
 
 

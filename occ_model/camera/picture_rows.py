@@ -31,7 +31,6 @@ def in_blocks(rows: range) -> list[range]:
 
 
 def split_at(band: range, rows: Sequence[int]) -> list[range]:
-    """Divide a band before some rows."""
     ends = {bisect_left(band, row) for row in rows} | {0, len(band)}
     return [band[start:stop] for start, stop in pairwise(sorted(ends))]
 
@@ -285,7 +284,6 @@ class PictureRows:
 
 
 def _without(lit: _Lit, shared: Sequence[slice]) -> list[_Lit]:
-    """Return the parts whose columns are not shared."""
     pieces, start = [], lit.columns.start
     for columns in shared:
         if columns.stop <= start or columns.start >= lit.columns.stop:

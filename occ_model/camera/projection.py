@@ -85,7 +85,6 @@ def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
 
 
 def geometry_of(camera: Camera) -> tuple[int, int, float]:
-    """Return all that the rays of a camera's pixels depend on."""
     return camera.rows, camera.columns, camera.focal_length_pixels
 
 

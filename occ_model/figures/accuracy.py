@@ -29,7 +29,6 @@ _COLOURS = dict(
 def write_accuracy_figure(
     folder: Path, scene: Scene, settings: SimulationSettings, points: Sequence[AccuracyPoint]
 ) -> None:
-    """Write the figure as PDF and PNG, and its points as CSV."""
     drawing = accuracy_drawing(points)
     notes = settings_notes(settings)
     provenance = Provenance(drawing.title, {"at hand": scene}, settings.seed, notes)
@@ -38,7 +37,6 @@ def write_accuracy_figure(
 
 
 def accuracy_drawing(points: Sequence[AccuracyPoint]) -> Drawing:
-    """Draw error over time."""
     header = ("part", "name", "time (ms)", "error (levels)", "current")
 
     def rows() -> Iterable[tuple[object, ...]]:

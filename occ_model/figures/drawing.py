@@ -57,7 +57,6 @@ def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
 
 
 def figure_format(path: Path) -> str:
-    """Return the format that a file's ending names."""
     ending = path.suffix.lower().removeprefix(".")
     if ending not in FORMATS:
         raise OutputError(
@@ -120,7 +119,6 @@ def files_of(drawing: Drawing, folder: Path) -> list[Path]:
 def write_all(
     folder: Path, drawings: Iterable[Drawing], provenance: Callable[[Drawing], Provenance]
 ) -> list[Path]:
-    """Write drawings in all formats into a folder, which is created where there is none."""
     make_folder(folder)
     written = []
     for drawing in drawings:

@@ -98,7 +98,6 @@ def _write(
 
 
 def _draw_seen(figure: Figure, each: AnsweredStep, top: float, bottom: float) -> None:
-    """Draw what the student saw, where there is room for it."""
     room = min(top - bottom, 0.2 * _room(each))
     if room <= 0.03:
         return

@@ -161,7 +161,6 @@ def write_rate_figure(
 
 
 def _rate_maps(tables: Mapping[str, SweepTable]) -> Figure:
-    """Draw a map for each preset and decoder."""
     decoders = next(iter(tables.values())).decoders
     figure = Figure(figsize=(7.2, 2.6 * len(decoders) + 0.6))
     axes = figure.subplots(len(decoders), len(tables), squeeze=False, sharex=True, sharey=True)

@@ -35,7 +35,6 @@ _CAPTION_PARAMETERS = ("exposure_time", "switching_frequency", "readout_time", "
 
 
 def caption(scene: Scene) -> str:
-    """Describe the scene of a figure in a line."""
     return ", ".join(_named_values(scene))
 
 
@@ -200,7 +199,6 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
 
 
 def _threshold_among(simulated: FloatArray, decoded: DecodeResult, enhanced: bool) -> float | None:
-    """Return the level of a decoder's threshold in a profile, None where it has none there."""
     between = threshold_levels(simulated, decoded)
     if between is None or decoded.threshold is None:
         return None

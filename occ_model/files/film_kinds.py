@@ -35,7 +35,6 @@ FIRST_BYTES = 16  # number of bytes that identify the kind
 
 
 def container_of(path: Path, start: bytes) -> Container:
-    """Recognize a film by the first bytes of its file."""
     kind = kind_of_film(start)
     if kind is not None:
         return kind

@@ -16,7 +16,6 @@ def resource_names(folder: str, ending: str) -> tuple[str, ...]:
 
 
 def resource_text(*parts: str) -> str:
-    """Read a text that comes with the package."""
     return _resource(*parts).read_text(encoding="utf-8")
 
 

@@ -92,7 +92,6 @@ def _unwritable(path: Path, error: OSError | ValueError) -> OutputError:
 
 
 def _replace(path: Path, content: bytes, permissions: int | None) -> None:
-    """Replace a file by a new one in one step."""
     with _replacement(path, permissions) as temporary:
         temporary.write_bytes(content)
 

@@ -110,7 +110,6 @@ class Listener(Protocol):
 
 
 def do_job(job: Job, heartbeat: Heartbeat) -> JobResult:
-    """Do a job; an error becomes a part of the result."""
     try:
         heartbeat()
         return JobResult(job.function(*job.arguments, heartbeat))

@@ -63,7 +63,6 @@ class Run:
 
     @property
     def waiting_stage(self) -> StageProgress | None:
-        """The first stage with a job that waits, None where there is none."""
         return next((stage for stage in self.begun if stage.has_waiting), None)
 
     @property

@@ -167,7 +167,6 @@ class Scheduler:
             future.add_done_callback(lambda done: self._inbox.put(lambda: self._land(done)))
 
     def _new_workers(self, run: Run) -> Workers | None:
-        """Start the workers, or the fallback where there are no processes."""
         try:
             self.workers = self._start()
         except NO_PROCESSES as error:
@@ -203,7 +202,6 @@ class Scheduler:
         )
 
     def _land(self, future: "Future[JobResult]") -> None:
-        """Take the result of a job that has come back."""
         workers = self.workers
         if future not in self._in_flight or workers is None:
             return  # workers ended, and its job was given to others

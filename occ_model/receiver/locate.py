@@ -97,7 +97,6 @@ def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
 
 
 def _above(image: ByteArray, level: float) -> ByteArray:
-    """Mark the pixels above a level: 255, the others 0."""
     return np.asarray(cv2.threshold(image, level, 255, cv2.THRESH_BINARY)[1], dtype=np.uint8)
 
 

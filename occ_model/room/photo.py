@@ -77,7 +77,6 @@ def _camera_of(photo: Photo, image: ByteArray, scene: Scene) -> tuple[Scene, lis
 
 
 def _with_focal_length(photo: Photo, scene: Scene, given: float | None) -> tuple[Scene, float, str]:
-    """Return the scene with a focal length, its error's fraction of it, and where it is from."""
     noted, fraction = photo.equivalent_focal_length, 0.0
     if given is not None:
         PARAMETERS["equivalent_focal_length"].check(given)

@@ -68,7 +68,6 @@ class ReadLamp:
 
 
 def check_picture(image: NDArray[Any], room: Room) -> ByteArray:
-    """Return a picture of the room's camera, or refuse what is none."""
     camera = room.scene.camera
     picture = np.asarray(image)
     if picture.dtype != np.uint8 or picture.shape != (camera.rows, camera.columns):

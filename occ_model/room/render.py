@@ -135,7 +135,6 @@ def render_room(
 
 
 def _dark_view(scene: Scene) -> PaperView:
-    """Return the view of a picture that shows no lamp."""
     return paper_view_of(dataclasses.replace(scene, pose=Pose(distance=1.0, offset_x=1e3)))
 
 

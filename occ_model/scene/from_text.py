@@ -40,7 +40,6 @@ def check_scene_path(path: Path) -> None:
 
 
 def write_scene_file(path: Path, scene: Scene) -> None:
-    """Write a scene so that :func:`read_scene_file` reads it."""
     check_scene_path(path)
     write_whole(path, scene.to_toml().encode("utf-8"))
 

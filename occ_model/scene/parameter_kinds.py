@@ -69,7 +69,6 @@ class Quantity(Declaration):
         return self.unit.format(value, digits=_LIMIT_DIGITS)
 
     def check(self, value: object) -> float:
-        """Return ``value`` as a float, or raise :class:`ParameterError`."""
         if type(value) is float:  # as most are, and checked faster than any number
             number = value
         elif isinstance(value, bool) or not isinstance(value, Real):
@@ -123,7 +122,6 @@ class Quantity(Declaration):
         return low <= value <= high
 
     def format(self, value: float, digits: int = 6) -> str:
-        """Write a value with its unit."""
         return self.unit.format(value, digits)
 
     def at(self, fraction: float) -> float:
@@ -159,7 +157,6 @@ class Count(Declaration):
         return f"a whole number from {self.low} to {self.high}"
 
     def check(self, value: object) -> int:
-        """Return ``value`` as an int, or raise :class:`ParameterError`."""
         number = _whole(value)
         if number is None:
             raise self.refuse(f"is {shown(value)}", self.allowed)
@@ -192,7 +189,6 @@ class Choice(Declaration):
         return ", ".join(self.choices)
 
     def check(self, value: object) -> str:
-        """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or value not in self.choices:
             raise self.refuse(f"is {shown(value)}", self.allowed)
         return value
@@ -223,7 +219,6 @@ class OpenChoice(Choice):
         return tuple(dict.fromkeys((*self.choices, *plugin_names(self.group))))
 
     def check(self, value: object) -> str:
-        """Return ``value``, or raise :class:`ParameterError`."""
         if isinstance(value, str) and (value in self.choices or value in self.all_choices()):
             return value
         raise self.refuse(f"is {shown(value)}", ", ".join(self.all_choices()))
@@ -241,7 +236,6 @@ class Payload(Declaration):
         return f"nothing, or {PAYLOADS}"
 
     def check(self, value: object) -> str:
-        """Return ``value`` in its shortest form, or raise :class:`ParameterError`."""
         try:
             return canonical(value)
         except ValueError as problem:
@@ -251,7 +245,6 @@ class Payload(Declaration):
         return self.check(text)
 
     def format(self, value: str) -> str:
-        """Write a value as it would be typed."""
         return typed_form(value)
 
 
@@ -268,7 +261,6 @@ class ChipPattern(Declaration):
         return f"nothing, or up to {self.most} characters 0 and 1"
 
     def check(self, value: object) -> str:
-        """Return ``value``, or raise :class:`ParameterError`."""
         if not isinstance(value, str) or set(value) - {"0", "1"}:
             raise self.refuse(f"is {shown(value)}", self.allowed)
         if len(value) > self.most:

@@ -103,7 +103,6 @@ def _over(
 
 
 def checked_notes(table: object) -> dict[str, str]:
-    """Return the notes on a preset's values, or refuse a value that is not a table of notes."""
     if not isinstance(table, dict) or not all(isinstance(note, str) for note in table.values()):
         raise SceneFileError(
             f"The notes on a preset are {shown(table)}; allowed: a text a parameter."

@@ -54,7 +54,6 @@ def presets() -> tuple[str, ...]:
 
 
 def user_presets() -> tuple[str, ...]:
-    """List the names of the user's own presets."""
     return tuple(_read_own()[0])
 
 

@@ -28,12 +28,10 @@ class ColumnMeans:
             self._counts[rim.columns] += np.count_nonzero(rim.inside, axis=0)
 
     def include(self, other: "ColumnMeans") -> None:
-        """Add the pixels of another one."""
         self._sums += other._sums
         self._counts += other._counts
 
     def means(self, otherwise: FloatArray) -> FloatArray:
-        """Return the means, and ``otherwise`` in columns without pixels."""
         means = self._sums / np.maximum(self._counts, 1)
         return np.asarray(np.where(self._counts > 0, means, otherwise))
 

@@ -94,7 +94,6 @@ def _error(
 
 
 def _rows_before(places: IndexArray, rows: range) -> IndexArray:
-    """Return how many of some rows lie before each place."""
     return np.clip(-(-(places - rows.start) // rows.step), 0, len(rows))
 
 

@@ -104,7 +104,6 @@ def _spread(rows: range, count: int) -> tuple[range, ...]:
 
 
 def _repeated(image: ByteArray, parts: tuple[_Part, ...]) -> ByteArray:
-    """Repeat the bands beside the panel."""
     pieces, first = [], 0
     for part in parts:
         last = first + BAND * len(part.bands)

@@ -184,7 +184,6 @@ def _check(content: Mapping[str, Any], scene: Scene) -> Check | None:
 
 
 def _changed(scene: Scene, content: Mapping[str, Any]) -> Scene:
-    """Change a scene by the values of a table named ``set``."""
     values = content.get("set", {})
     if not isinstance(values, Mapping):
         raise _MistakeError(f"set is {shown(values)}, not a table of parameters.", "set")

@@ -16,7 +16,6 @@ _BLOCK_BYTES = 255 - PARITY_BYTES  # most bytes of the payload in a block
 
 
 def protected_bits(bits: int) -> int:
-    """Count the bits of a payload with its parity."""
     octets = -(-bits // 8)
     return 8 * (octets + PARITY_BYTES * -(-octets // _BLOCK_BYTES))
 

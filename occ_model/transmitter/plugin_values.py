@@ -48,7 +48,6 @@ def are_places(places: object, count: int) -> bool:
 
 
 def is_reason(failure: object) -> bool:
-    """Whether a plug-in's failure is None or a sentence."""
     return failure is None or (isinstance(failure, str) and bool(failure))
 
 

@@ -77,7 +77,6 @@ def _wrong(read: ByteArray | None, sent: ByteArray | None, part: slice) -> int |
 
 
 def _seen(frames: list[PlacedFrame], length: int) -> dict[int, int]:
-    """Count the chips in view of each packet of which there are any."""
     whole = sorted(
         (frame.first + frame.reading.whole[0], frame.first + frame.reading.whole[1])
         for frame in frames

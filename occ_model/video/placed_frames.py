@@ -172,7 +172,6 @@ class PlacedFrames:
             self._find_part()
 
     def _place_others(self) -> bool:
-        """Try the frames again that were not placed; return whether any was."""
         others = [number for number, place in enumerate(self._places) if place is None]
         return sum(self._place(number) for number in others) > 0
 

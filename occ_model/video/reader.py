@@ -185,7 +185,6 @@ class VideoReader:
         return read_soft_frame(self._joined.ratios, scheme, self._period.header)
 
     def _failure(self, soft: SoftFrame | None) -> str | None:
-        """Say why the payload is not read."""
         if self._placed.placed == 0:
             described = self._without_packets.described(self._scene.camera.readout_time)
             if not described:

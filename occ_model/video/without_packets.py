@@ -57,7 +57,6 @@ class WithoutPackets:
         self._looks: list[_Look] = []
 
     def add(self, time: float, image: ByteArray, region: Region | None) -> None:
-        """Look at the next frame."""
         region = region or Region(0, image.shape[0], 0, image.shape[1])
         even = without_trend(column_means(image, region))
         self._looks.append(_look(time, float(image.mean()), even, region.first_column))
@@ -65,7 +64,6 @@ class WithoutPackets:
     def clock(
         self, times: FrameTimes | None, readout_time: float, tolerance: float, columns: int
     ) -> Clock | None:
-        """State the clock of a square wave; None where the frames show none."""
         seen = [look for look in self._looks if look.is_pulse]
         if (
             times is None

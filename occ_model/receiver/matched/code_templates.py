@@ -117,7 +117,6 @@ def codes_by_levels(bits: int) -> IndexArray:
 
 
 def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
-    """Return the profiles of some codes, shape (codes, bins)."""
     impulses = np.zeros((len(codes), len(response)))
     impulses[:, ::BINS_PER_CHIP] = packets(codes, bits)
     spectrum = np.fft.rfft(impulses, axis=1) * np.fft.rfft(response)

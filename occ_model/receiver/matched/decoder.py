@@ -264,7 +264,6 @@ def _unexplained(correlation: float) -> float:
 
 
 def _row_correlations(a: FloatArray, b: FloatArray) -> FloatArray:
-    """Correlate each row of one array with the same row of another."""
     a = a - a.mean(axis=1, keepdims=True)
     b = b - b.mean(axis=1, keepdims=True)
     energy = np.sqrt((a**2).sum(axis=1) * (b**2).sum(axis=1))

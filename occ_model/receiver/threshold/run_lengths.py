@@ -55,7 +55,6 @@ class ChipFit:
     misfit: float  # root mean square distance from whole chips, plus penalties
 
     def chips_in(self, runs: Runs) -> IndexArray:
-        """Count the chips of every run, at least one each."""
         sign = np.where(runs.values == 1, 1.0, -1.0)
         counts = np.rint((runs.lengths - sign * self.widening) / self.chip_length)
         return np.maximum(counts, 1.0).astype(np.int64)

@@ -52,12 +52,10 @@ def _of_kind(name: str, kind: type[_Kind]) -> _Kind:
 
 
 def count(name: str) -> Count:
-    """Return the declaration of a whole number."""
     return _of_kind(name, Count)
 
 
 def quantity(name: str) -> Quantity:
-    """Return the declaration of a quantity, with its unit and slider."""
     return _of_kind(name, Quantity)
 
 

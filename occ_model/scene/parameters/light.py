@@ -131,7 +131,6 @@ class Transmitter(Group):
 
     @property
     def payload_length(self) -> int:
-        """How many bits are sent."""
         return len(self.payload_bits) if self.payload else self.bits
 
     @property

@@ -169,7 +169,6 @@ def _sub_packets(
 
 
 def _number(bits: ByteArray, division: _Division) -> tuple[int, str | None]:
-    """Return the number of a sub-packet, and what is wrong with it."""
     first, last = bits[: division.asynchronous], bits[division.bits - division.asynchronous :]
     last = last[: division.asynchronous]
     if not np.array_equal(first, last):

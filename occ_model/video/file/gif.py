@@ -54,7 +54,6 @@ def _blocks(content: bytes) -> bytes:
 
 
 def _encoded(picture: ByteArray) -> bytes:
-    """Encode one picture, with its colours, as it stands in a GIF of several."""
     from PIL import Image
 
     buffer = BytesIO()

@@ -39,7 +39,6 @@ class OpenCvSource(FrameSource):
         self.frame_count = round(count) if 0.0 < count < _MAX_FRAMES else None
 
     def read(self) -> StoredFrame | None:
-        """Return the next frame, None after the last."""
         found, pixels = self._capture.read()
         if not found or pixels is None:
             return None
@@ -58,10 +57,8 @@ class OpenCvSource(FrameSource):
         return frame if frame is not None and abs(frame.time - time) < within else None
 
     def close(self) -> None:
-        """Free the file and the decoder."""
         self._capture.release()
 
     def _time(self) -> float:
-        """Return the time of the frame that was read last."""
         time = self._capture.get(cv2.CAP_PROP_POS_MSEC) / _MILLISECONDS
         return time if math.isfinite(time) else 0.0

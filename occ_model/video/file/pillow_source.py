@@ -35,7 +35,6 @@ class PillowSource(FrameSource):
         self._next, self._time = 0, 0.0
 
     def read(self) -> StoredFrame | None:
-        """Return the next frame, None after the last."""
         try:
             self._picture.seek(self._next)
             shown = self._picture.convert("RGBA") if self._has_colours() else self._picture
@@ -59,7 +58,6 @@ class PillowSource(FrameSource):
         return True
 
     def close(self) -> None:
-        """Free the file and the decoder."""
         self._picture.close()
 
     def _has_colours(self) -> bool:

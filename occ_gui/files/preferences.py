@@ -27,12 +27,8 @@ class Preferences(QObject):
         super().__init__()
         self._settings = settings
         self._unstored: dict[str, str | list[str]] = {}
-        self._files = _paths(self._value(_FILES))
+        self.files = _paths(self._value(_FILES))
         self._folders = {key: next(iter(_paths(self._value(key))), None) for key in _FOLDERS}
-
-    @property
-    def files(self) -> tuple[Path, ...]:
-        return self._files
 
     @property
     def folder(self) -> str:
@@ -66,11 +62,11 @@ class Preferences(QObject):
         """Add an opened file to the recent files, and store its folder."""
         path = path.absolute()
         self.visit(path)
-        others = (other for other in self._files if other != path)
+        others = (other for other in self.files if other != path)
         self._keep((path, *others)[:MOST_RECENT])
 
     def drop(self, path: Path) -> None:
-        self._keep(tuple(other for other in self._files if other != path))
+        self._keep(tuple(other for other in self.files if other != path))
 
     def clear(self) -> None:
         self._keep(())
@@ -87,8 +83,8 @@ class Preferences(QObject):
         self._write(key, text_of(folder))
 
     def _keep(self, files: tuple[Path, ...]) -> None:
-        if files != self._files:
-            self._files = files
+        if files != self.files:
+            self.files = files
             self._write(_FILES, [text for path in files if (text := text_of(path))])
             self.changed.emit()
 

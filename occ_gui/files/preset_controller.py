@@ -35,7 +35,7 @@ class PresetController(QObject):
         super().__init__(window)
         self._window = window
         self._store = store
-        self._own: tuple[str, ...] = ()
+        self.own: tuple[str, ...] = ()
         self._presets: list[Preset] = []
         self._unreadable: dict[str, str] = {}
         self._read()
@@ -50,10 +50,6 @@ class PresetController(QObject):
     def unreadable(self) -> list[tuple[str, str]]:
         """Names of the user's preset files that cannot be read, with the reasons."""
         return list(self._unreadable.items())
-
-    @property
-    def own(self) -> tuple[str, ...]:
-        return self._own
 
     def name_of(self, scene: Scene) -> str:
         return next((p.name for p in self._presets if p.scene == scene), "")
@@ -133,7 +129,7 @@ class PresetController(QObject):
 
     def _read(self) -> None:
         self._presets = list(all_presets())
-        self._own = user_presets()
+        self.own = user_presets()
         self._unreadable = {
             name: one_line(reason, LONGEST) for name, reason in unreadable_presets().items()
         }

@@ -27,7 +27,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
     def __init__(self) -> None:
         super().__init__()
         self._layers: tuple[_Layer, _Layer] = ((_NO_IMAGE, QRectF()), (_NO_IMAGE, QRectF()))
-        self._gain = 1
+        self.gain = 1
         self._means: dict[int, tuple[QRectF, tuple[int, int], FloatArray]] = {}
 
     def set_image(self, layer: int, image: ByteArray, rect: QRectF) -> None:
@@ -38,12 +38,8 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         self._means.pop(layer, None)
         self.update()
 
-    @property
-    def gain(self) -> int:
-        return self._gain
-
     def set_gain(self, gain: int) -> None:
-        self._gain = gain
+        self.gain = gain
         self.update()
 
     def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
@@ -64,7 +60,7 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
         on_screen = painter.deviceTransform().mapRect(grid)
         shape = (max(1, math.ceil(on_screen.height())), max(1, math.ceil(on_screen.width())))
         difference = np.abs(self._averaged(0, grid, shape) - self._averaged(1, grid, shape))
-        levels = np.minimum(self._gain * difference + 0.5, 255.0).astype(np.uint8, order="C")
+        levels = np.minimum(self.gain * difference + 0.5, 255.0).astype(np.uint8, order="C")
         rows, columns = shape
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, False)
         image = QImage(levels.data, columns, rows, columns, QImage.Format.Format_Grayscale8)

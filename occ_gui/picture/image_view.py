@@ -38,7 +38,7 @@ class ImageView(QWidget):
         self.shown_photo: Photo | None = None
         self._frame: Frame | None = None
         self._mode = MODES[0]
-        self._whose = PICTURES[0]
+        self.whose = PICTURES[0]
         self.simulation = PicturePane("Simulated picture")
         self.photo = PicturePane("Photo")
         self.overlay = PhotoOverlay(self.simulation.box)
@@ -131,7 +131,7 @@ class ImageView(QWidget):
         frame, mode = self._frame, self._mode
         picture = "Simulated picture"
         if frame is not None:
-            picture = frame.picture_title(self._whose)
+            picture = frame.picture_title(self.whose)
             if frame.rows_step > 1:
                 text = "Draft, one row in {step}: {picture}"
                 picture = text.format(step=frame.rows_step, picture=picture)
@@ -149,7 +149,7 @@ class ImageView(QWidget):
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         if snapshot.frame is not self._frame:  # it may have been shown before it was decoded
-            self.show_picture(Picture(snapshot.frame, self._whose, ()))
+            self.show_picture(Picture(snapshot.frame, self.whose, ()))
         self.show_reading(snapshot)
 
     def show_reading(self, reading: Reading) -> None:
@@ -158,9 +158,9 @@ class ImageView(QWidget):
     def show_picture(self, picture: Picture) -> None:
         """Show this picture in place of the previous one; the region decoded from that stays."""
         self._frame = frame = picture.frame
-        image = frame.picture(self._whose)
+        image = frame.picture(self.whose)
         # The user may have chosen the other picture since this one was prepared.
-        halves = picture.halves if picture.whose == self._whose else ()
+        halves = picture.halves if picture.whose == self.whose else ()
         self.simulation.show_picture(image, halves, frame.rows_step)
         if frame.rows_step == 1:
             self.overlay.set_simulated(image)
@@ -173,15 +173,10 @@ class ImageView(QWidget):
         """Return how many rows of the picture share a pixel of the screen."""
         return self.simulation.rows_per_pixel()
 
-    @property
-    def whose(self) -> str:
-        """Whose picture is shown, one of PICTURES."""
-        return self._whose
-
     def choose_picture(self, whose: str) -> None:
-        if whose == self._whose:
+        if whose == self.whose:
             return
-        self._whose = whose
+        self.whose = whose
         self.switch.show_key(whose)
         self.before.choose_picture(whose)
         if self._frame is not None:

@@ -39,8 +39,8 @@ class PhotoOverlay(QObject):
         super().__init__()
         self._simulated = _NO_IMAGE
         self._photo: ByteArray | None = None
-        self._placement = Placement()
-        self._mode = MODES[0]
+        self.placement = Placement()
+        self.mode = MODES[0]
         self._movable = False
         self._updating_frame = False
         self._over, self.difference = AveragedImage(), DifferenceImage()
@@ -56,13 +56,13 @@ class PhotoOverlay(QObject):
         for depth, item in enumerate((self._over, self.difference, self.line, self.frame)):
             item.setZValue(10 + depth)
             box.addItem(item, ignoreBounds=True)
-        self._opacity = 0.5
+        self.opacity = 0.5
         self._arrange()
 
     def set_simulated(self, image: ByteArray) -> None:
         """Set the picture under the photo, its first pixel's centre at (0, 0)."""
         self._simulated = image
-        if self._mode == "difference":
+        if self.mode == "difference":
             self._compare()
 
     def set_photo(self, photo: ByteArray | None) -> None:
@@ -71,7 +71,7 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     def set_placement(self, placement: Placement) -> None:
-        self._placement = placement
+        self.placement = placement
         self._arrange()
 
     @property
@@ -80,12 +80,12 @@ class PhotoOverlay(QObject):
 
     def set_mode(self, mode: str) -> None:
         """Set the way of showing the photo, one of MODES; nothing is drawn over for the first."""
-        self._mode = mode
+        self.mode = mode
         self._arrange()
 
     def set_opacity(self, opacity: float) -> None:
         """Set the opacity of a blended photo, from 0 to 1."""
-        self._opacity = opacity
+        self.opacity = opacity
         self._arrange()
 
     def set_movable(self, movable: bool) -> None:
@@ -93,39 +93,25 @@ class PhotoOverlay(QObject):
         self._arrange()
 
     @property
-    def mode(self) -> str:
-        """The way of showing the photo, one of MODES."""
-        return self._mode
-
-    @property
-    def placement(self) -> Placement:
-        return self._placement
-
-    @property
-    def opacity(self) -> float:
-        """The opacity of a blended photo, from 0 to 1."""
-        return self._opacity
-
-    @property
     def split_row(self) -> float:
         return float(self.line.value())
 
     def _arrange(self) -> None:
         photo = self._photo
-        over = photo is not None and self._mode != "beside"
-        self._over.setVisible(over and self._mode != "difference")
-        self._over.setOpacity(self._opacity if self._mode == "blend" else 1.0)
-        self.line.setVisible(over and self._mode == "split")
-        self.difference.setVisible(over and self._mode == "difference")
+        over = photo is not None and self.mode != "beside"
+        self._over.setVisible(over and self.mode != "difference")
+        self._over.setOpacity(self.opacity if self.mode == "blend" else 1.0)
+        self.line.setVisible(over and self.mode == "split")
+        self.difference.setVisible(over and self.mode == "difference")
         self.frame.setVisible(over and self._movable)
         if photo is None or not over:
             return
-        rect = rect_of(photo, self._placement)
+        rect = rect_of(photo, self.placement)
         self._over.set_image(photo, rect)
         if self._line_is_centred:
             self.line.setValue(rect.center().y())
         self._split()
-        if self._mode == "difference":
+        if self.mode == "difference":
             self.difference.set_image(1, photo, rect)
             self._compare()
         self._updating_frame = True
@@ -137,7 +123,7 @@ class PhotoOverlay(QObject):
         self.difference.set_image(0, self._simulated, rect_of(self._simulated, Placement()))
 
     def _split(self) -> None:
-        self._over.show_from(self.line.value() if self._mode == "split" else -math.inf)
+        self._over.show_from(self.line.value() if self.mode == "split" else -math.inf)
 
     def _keep_line(self) -> None:
         self._line_is_centred = False

@@ -39,8 +39,8 @@ class LiveVideo(Video):
         self._after = after
         self._changed = Condition()
         self._newest: LivePicture | None = None
-        self._arrived = 0
-        self._has_ended = self._is_stopped = False
+        self.arrived = 0
+        self.has_ended = self._is_stopped = False
         self.last: VideoFrame | None = None
         self._problem: str | None = None
         self._orders: list[Callable[[], None]] = []
@@ -55,23 +55,13 @@ class LiveVideo(Video):
         """Why there are no more pictures, or None."""
         return self._problem
 
-    @property
-    def arrived(self) -> int:
-        """How many pictures the source has given."""
-        return self._arrived
-
-    @property
-    def has_ended(self) -> bool:
-        """Whether no more pictures come."""
-        return self._has_ended
-
     def start(self) -> None:
         self._thread.start()
 
     def end(self) -> None:
         """End filming: the device is released as soon as it answers."""
         with self._changed:
-            self._is_stopped = self._has_ended = True
+            self._is_stopped = self.has_ended = True
             self._newest = None
             self._changed.notify_all()
 
@@ -107,9 +97,9 @@ class LiveVideo(Video):
 
     def _next(self) -> VideoFrame | None:
         with self._changed:
-            self._changed.wait_for(lambda: self._newest is not None or self._has_ended)
+            self._changed.wait_for(lambda: self._newest is not None or self.has_ended)
             picture, self._newest = self._newest, None
-            index = self._arrived - 1
+            index = self.arrived - 1
         if picture is None:
             return None
         grey = self._grey(picture.pixels)
@@ -145,7 +135,7 @@ class LiveVideo(Video):
         finally:
             self.source.close()
             with self._changed:
-                self._has_ended = True
+                self.has_ended = True
                 self._problem = None if self._is_stopped else problem
                 self._changed.notify_all()
 
@@ -154,7 +144,7 @@ class LiveVideo(Video):
             orders, self._orders = self._orders, []
             if not self._is_stopped:
                 self._newest = picture
-                self._arrived += 1
+                self.arrived += 1
                 self._changed.notify_all()
         for order in orders:
             order()

@@ -19,7 +19,7 @@ class ReadingController(QObject):
         super().__init__()
         self.reading = FilmReading.nothing()
         self._request: ReadingRequest | None = None
-        self._is_done = False
+        self.is_done = False
         self.runner: Task[ReadingRequest, FilmReading] = Task(
             read_film, "reading of the film", impatient=True
         )
@@ -32,15 +32,11 @@ class ReadingController(QObject):
         return not self.runner.is_idle
 
     @property
-    def is_done(self) -> bool:
-        return self._is_done
-
-    @property
     def scene(self) -> Scene | None:
         return None if self._request is None else self._request.scene
 
     def start(self, film: Video, scene: Scene, is_live: bool = False) -> None:
-        self._request, self._is_done = ReadingRequest(film, scene, is_live), False
+        self._request, self.is_done = ReadingRequest(film, scene, is_live), False
         self.reading = FilmReading.nothing()
         self.runner.ask(self._request)
         self.changed.emit()
@@ -52,7 +48,7 @@ class ReadingController(QObject):
 
     def forget(self) -> None:
         self.runner.cancel()
-        self._request, self._is_done = None, False
+        self._request, self.is_done = None, False
         self.reading = FilmReading.nothing()
         self.changed.emit()
 
@@ -61,7 +57,7 @@ class ReadingController(QObject):
         self.changed.emit()
 
     def _on_end(self, reading: FilmReading) -> None:
-        self.reading, self._is_done = reading, True
+        self.reading, self.is_done = reading, True
         self.changed.emit()
 
     def _on_failure(self, sentence: str) -> None:

@@ -32,7 +32,7 @@ class RecordingForm(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._recording = Recording()
+        self.recording = Recording()
         self.count = CountEdit(FRAMES)
         self.count.setValue(FRAMES.default)
         self.count.setAccessibleName(FRAMES.label)
@@ -69,11 +69,7 @@ class RecordingForm(QWidget):
             line.addWidget(part)
         line.addStretch()
         form.addRow(line)
-        self.show_recording(self._recording)
-
-    @property
-    def recording(self) -> Recording:
-        return self._recording
+        self.show_recording(self.recording)
 
     @property
     def frames(self) -> int:
@@ -81,7 +77,7 @@ class RecordingForm(QWidget):
 
     def show_recording(self, recording: Recording) -> None:
         """Show this recording in place of the previous one, without a signal."""
-        self._recording = recording
+        self.recording = recording
         for name, field in self.fields.items():
             field.set_value(getattr(recording, name))
 
@@ -94,11 +90,11 @@ class RecordingForm(QWidget):
     def show_scene(self, scene: Scene) -> None:
         """Show what a film of this scene misses between two frames, or why there is none."""
         try:
-            self._recording.check(scene)
+            self.recording.check(scene)
         except OccError as error:
             self.gap.setText(labelled(error))
             return
-        gap, share = self._recording.gap(scene), 100.0 * self._recording.gap_ratio(scene)
+        gap, share = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
         self.gap.setText(
             f"Between two frames no column is read for {SECOND.format(gap, 4)}, "
 f"{share:.1f} % of a frame."
@@ -107,9 +103,9 @@ f"{share:.1f} % of a frame."
 
     def _take(self, name: str, value: float) -> None:
         try:
-            self._recording = self._recording.replace(**{name: value})
+            self.recording = self.recording.replace(**{name: value})
         except OccError as error:
-            self.show_recording(self._recording)
+            self.show_recording(self.recording)
             self.refused.emit(refusal_of(error))
             return
         self.changed.emit()

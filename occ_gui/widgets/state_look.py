@@ -127,23 +127,17 @@ _SIGNS: dict[State, Callable[[QPainter], None]] = {
 class StateIcon(QWidget):
     def __init__(self, side: int, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._state = State.NEUTRAL
+        self.state = State.NEUTRAL
         self._side = side
         self.setFixedSize(QSize(side, side))
 
-    @property
-    def state(self) -> State:
-        return self._state
-
     def show_state(self, state: State) -> None:
-        if state is not self._state:
-            self._state = state
+        if state is not self.state:
+            self.state = state
             self.update()
 
     @guarded
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         painter = QPainter(self)
-        draw_state(
-            painter, QRectF(self.rect()), self._state, colours_of(self._state, self.palette())
-        )
+        draw_state(painter, QRectF(self.rect()), self.state, colours_of(self.state, self.palette()))
         painter.end()

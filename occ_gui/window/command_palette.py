@@ -55,7 +55,7 @@ class CommandPalette(QDialog):
         self.setWindowTitle("Find a command")
         self._commands = commands
         self._matching: list[Command] = []
-        self._chosen: Command | None = None
+        self.chosen: Command | None = None
         self.line = QLineEdit(placeholderText="A few letters of a command or parameter")
         self.line.setAccessibleName("Words to look for")
         self.line.setToolTip("Up and down choose, Enter does it, Escape leaves.")
@@ -100,12 +100,8 @@ class CommandPalette(QDialog):
     def _accept_chosen(self) -> None:
         row = self.list.currentRow()
         if row >= 0:
-            self._chosen = self._matching[row]
+            self.chosen = self._matching[row]
             self.accept()
-
-    @property
-    def chosen(self) -> Command | None:
-        return self._chosen
 
 
 def entries(menu: QMenu | QMenuBar, path: str = "") -> Iterator[tuple[str, QAction]]:

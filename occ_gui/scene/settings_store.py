@@ -49,9 +49,5 @@ class SettingsStore(QObject):
     def set_noise(self, noise: NoiseSource) -> None:
         self._put(replace(self.settings, noise=noise))
 
-    def restore(self, settings: SimulationSettings) -> None:
-        """Change all settings but the forced effects to these."""
-        self._put(replace(settings, force=self.settings.force))
-
     def _put(self, settings: SimulationSettings) -> None:
         self._store.put(replace(self._store.workspace, settings=settings))

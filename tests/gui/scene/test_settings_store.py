@@ -68,9 +68,3 @@ def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
     assert sentence.startswith("Tolerance cannot be ")
     assert sentence.endswith(".")
     assert told.changes == []
-
-
-def test_settings_are_restored_without_the_forced_effects(told: Told) -> None:
-    told.switch({"jpeg": True})
-    told.store.restore(SimulationSettings(2.0, "profile", {"flicker": False}, "exact"))
-    assert told.store.settings == SimulationSettings(2.0, "profile", {"jpeg": True}, "exact")

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 EXIT_FAILURE = 1  # the command is valid, but no code could be read, or it could not be finished
 EXIT_MISUSE = 2  # the command is not valid
-EXIT_INTERRUPTED = 130  # ctrl-C ended the program: 128 plus the signal's number, as in shells
+EXIT_INTERRUPTED = 130  # Ctrl-C ended the program: 128 plus the signal's number, as in shells
 INTERRUPTED = "interrupted."  # the message of a program that Ctrl-C ended
 _LONGEST_SENTENCE = 4000  # characters of a sentence on the terminal
 _IMPORT = "<frozen importlib"  # start of the file name of Python's own import code

@@ -24,7 +24,7 @@ _MAX_LINES = 12
 _MAX_ROUNDS = 3  # of making a page higher, after which its axes are placed anew
 
 _UNKNOWN_LETTER = "□"
-_POINTS = 72.0  # points of an inch
+_POINTS = 72.0  # points to an inch
 
 
 def lines_within(text: str, inches: float, font: FontProperties, most: int) -> list[str]:

@@ -16,7 +16,7 @@ from occ_model.scene.scene import Camera
 
 _ROUNDS = 12  # rounds of the refinement; it ends sooner where a step is negligible
 _MIN_DEPTH = 1e-6  # metres before the camera from which a corner is seen
-_STEP = 1e-6  # of each number, for its slope
+_DIFFERENCE = 1e-6  # step of each coordinate, in metres or radians, for its numerical derivative
 _MAX_CONDITION_NUMBER = 1e14  # condition number from which some parameters are undetermined
 
 
@@ -98,11 +98,13 @@ class LampEdges:
             sides = self._sides(numbers)
             if sides is None:
                 return None
-            moved = numbers + np.vstack([np.zeros_like(numbers), _STEP * np.eye(len(numbers))])
+            moved = numbers + np.vstack(
+                [np.zeros_like(numbers), _DIFFERENCE * np.eye(len(numbers))]
+            )
             found = self._deviations(moved, sides)
             if found is None:
                 return None
-            slope = (found[1:] - found[0]).T / _STEP
+            slope = (found[1:] - found[0]).T / _DIFFERENCE
             normal = slope.T @ slope
             if not np.isfinite(normal).all() or np.linalg.cond(normal) > _MAX_CONDITION_NUMBER:
                 return None

@@ -35,7 +35,7 @@ _MIN_NOISE = 1e-6
 squared."""
 
 _MAX_LOG_LIKELIHOOD_RATIO = 50.0  # largest log-likelihood ratio of a chip: no model is surer
-_MAX_RIM = 8  # fraction of the columns, as a divisor, that are left out at either end at most
+_MIN_COLUMNS_PER_RIM = 8  # at either end at most one of so many columns is left out
 _SINGULAR = 1e-9  # fraction of the largest singular value below which one is rounding error
 
 
@@ -134,7 +134,9 @@ def _timed(
     """
     if lattice.values.min() == lattice.values.max():
         return None
-    rim = min(int(np.ceil((1.0 + lattice.exposure) / lattice.step)), len(light) // _MAX_RIM)
+    rim = min(
+        int(np.ceil((1.0 + lattice.exposure) / lattice.step)), len(light) // _MIN_COLUMNS_PER_RIM
+    )
     inner = light[rim : len(light) - rim]
     moved = replace(lattice, phase=lattice.phase + lattice.step * rim)
     fitted = _improved(inner, moved, freedom)

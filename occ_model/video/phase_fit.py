@@ -18,7 +18,7 @@ _MAX_JUMPS = 8
 
 _MIN_TO_COMPARE = 16  # minimum frames for a correlation of neighbouring residuals
 _CORRELATED_DEVIATIONS = 2.5  # standard deviations from which that correlation is significant
-_MIN_PHASE = 1e-5  # least standard deviation of a phase in chips that is believed
+_MIN_DEVIATION = 1e-5  # least standard deviation of a phase in chips that is believed
 
 
 def fit_parabola(phases: Phases, counted: FloatArray) -> ClockFit | None:
@@ -53,7 +53,7 @@ class _Solution:
     def as_fit(self, phases: Phases, kept: BoolArray, jumps: list[int]) -> ClockFit:
         step, step_error = mean_step(phases)
         errors = np.sqrt(np.diag(self.covariance))
-        chi = self.residuals[kept] / np.maximum(phases.errors[kept], _MIN_PHASE)
+        chi = self.residuals[kept] / np.maximum(phases.errors[kept], _MIN_DEVIATION)
         heights = self.found[3:] if self.has_drift else self.found[2:]
         return ClockFit(
             frequency=float(self.found[1]),
@@ -89,7 +89,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
     parts += [(np.arange(len(times)) >= frame).astype(np.float64) for frame in jumps]
     design = np.column_stack(parts)
     scale = np.array([1.0, extent, extent**2][: 2 + has_drift] + [1.0] * len(jumps))
-    errors = np.maximum(phases.errors, _MIN_PHASE)
+    errors = np.maximum(phases.errors, _MIN_DEVIATION)
     jitter = 0.0
     for _ in range(8):
         weights = np.where(kept, 1.0 / (errors**2 + jitter**2), 0.0)
@@ -104,7 +104,7 @@ def _solve(phases: Phases, counted: FloatArray, kept: BoolArray, jumps: list[int
         jitter = float(
             np.sqrt(max(0.0, float((residuals[kept] ** 2 - errors[kept] ** 2).sum()) / free))
         )
-        if abs(jitter - before) <= 1e-3 * max(jitter, _MIN_PHASE):
+        if abs(jitter - before) <= 1e-3 * max(jitter, _MIN_DEVIATION):
             break
     # Frames agree better than each by itself is sure where they share a part of their errors, such
     # as the sensor's fixed pattern; that part moves the fit all the same.
@@ -142,9 +142,9 @@ def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
     """Return the deviation of phases from that of the frame before: it knows of no slow change."""
     least = float(np.median(errors))
     if len(residuals) < 3:
-        return max(least, _MIN_PHASE)
+        return max(least, _MIN_DEVIATION)
     steps = np.abs(np.diff(residuals))
-    return max(1.4826 / math.sqrt(2.0) * float(np.median(steps)), least, _MIN_PHASE)
+    return max(1.4826 / math.sqrt(2.0) * float(np.median(steps)), least, _MIN_DEVIATION)
 
 
 def _largest_jump(

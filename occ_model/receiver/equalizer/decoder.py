@@ -29,7 +29,7 @@ _CURVE_UNKNOWN = (
 )
 
 _MAX_VOTES = 15  # packets that are compared; more take time and change nothing
-_MAX_COLUMNS = 0.25  # longest exposure that is undone, as a fraction of the picture
+_MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that is undone
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -44,7 +44,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
         return result
     camera = scene.camera
     exposure = camera.exposure_time / camera.readout_time
-    if exposure > _MAX_COLUMNS * len(signal):
+    if exposure > _MAX_EXPOSURE_FRACTION * len(signal):
         return replace(
             result,
             failure=f"An exposure lasts {exposure:.3g} columns of the {len(signal)} in the panel's "

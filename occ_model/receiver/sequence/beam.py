@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.sequence.exposures import ChipStatistics
-from occ_model.receiver.sequence.max_log import SURVIVAL, Chips
+from occ_model.receiver.sequence.max_log import TRUNCATION_DEPTH, Chips
 from occ_model.receiver.sequence.trellis import NO_STATE, Word, places_of
 
 _BEAM_WIDTH = 256  # paths kept at each chip
@@ -25,7 +25,7 @@ def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics)
     """
     chip_after, place_after = _steps(words)
     reach = memory + 1
-    kept = max(SURVIVAL * reach, reach)
+    kept = max(TRUNCATION_DEPTH * reach, reach)
     places = np.arange(len(chip_after))
     chips = np.zeros((len(places), kept), dtype=np.uint8)
     distance = np.zeros(len(places))

@@ -17,7 +17,7 @@ from occ_model.receiver.sequence.exposures import ChipStatistics, features_of
 from occ_model.receiver.sequence.trellis import NO_STATE, Trellis
 
 _UNREACHABLE_COST = 1e30  # distance of a state that cannot be reached
-SURVIVAL = 5  # memories of a trellis after which the paths that survive have one beginning
+TRUNCATION_DEPTH = 5  # memories of a trellis after which surviving paths have one beginning
 _LONGEST_PART = 128  # chips of a part of a sequence, without what overlaps
 
 
@@ -72,7 +72,7 @@ class _Parts:
 
     @classmethod
     def of(cls, count: int, memory: int) -> Self:
-        overlap = SURVIVAL * (memory + 1)
+        overlap = TRUNCATION_DEPTH * (memory + 1)
         parts = -(-count // _LONGEST_PART)
         if parts == 1 or count <= 2 * overlap:
             return cls(count, count, 0, np.arange(count)[:, None])

@@ -6,7 +6,7 @@ from uuid import UUID
 
 _MARK = UUID("6f63635f-6d6f-4465-8c5f-66696c6d6e74").bytes  # before a note in MP4 and MKV files
 _MAX_NOTE_BYTES = 1_000_000  # bytes of a note
-_VOID = b"\xec"  # matroska's element for bytes without a meaning to players
+_VOID = b"\xec"  # Matroska's element for bytes without a meaning to players
 
 
 def mp4_note(note: str) -> bytes:

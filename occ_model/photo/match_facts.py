@@ -125,7 +125,7 @@ def _duty(match: Match) -> tuple[str, str]:
         text = f"lit for {100.0 * match.duty:.3g} % of a period"
         if (match.pattern + match.pattern[0]).count("01") != 1:
             return text, ""
-        return text, "given" if match.exposure_verdict == "sure" else "assumed"
+        return text, "assumed" if match.exposure_reasons else "given"
     percent = Unit("%").format_estimate(100.0 * match.duty, 100.0 * deviation)
     note = "doubtful" if match.only_exposure_is_doubtful else ""
     return f"lit for {percent} of a period", note

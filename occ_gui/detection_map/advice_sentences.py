@@ -30,93 +30,84 @@ class AdviceLine:
     is_common: bool = False  # whether it is the same for every decoder of a scene
 
 
-class AdviceSentences:
-    frames_a_second = FRAMES_A_SECOND  # pictures a second by which bits a second are counted
-
-    def lines(self, advice: Advice) -> list[AdviceLine]:
-        """Write a title and a few lines on what was found."""
-        ends = {
-            ("switching_frequency", "lowest"): "The lowest frequency that it reads is {value}",
-            ("switching_frequency", "highest"): "The highest frequency that it reads is {value}",
-            ("exposure_time", "lowest"): "The shortest exposure that it reads is {value}",
-            ("exposure_time", "highest"): "The longest exposure that it reads is {value}",
-        }
-        lines = [AdviceLine(self._title(advice.limits), is_title=True)]
-        for facts in (advice.frequency, advice.exposure):
-            if not facts.ends:
-                lines.append(AdviceLine(self._nowhere(advice.limits, facts.found)))
-            lines.extend(
-                self._line(ends[end.parameter, end.side], end)
-                for end in facts.ends
-                if (end.parameter, end.side) in ends
-            )
-            if facts.found.gaps:
-                lines.append(AdviceLine(gaps_text(facts.found)))
-            if facts.found.most_chips is not None:
-                lines.append(AdviceLine(searched_to(facts.found)))
-            if facts.theory.two_packets is not None:
-                lines.append(AdviceLine(two_packets_text(facts.theory.two_packets)))
-            text = theory_text(facts.found.parameter, facts.theory)
-            lines.append(AdviceLine(text, is_common=True))
-        lines.append(AdviceLine(self.bits_a_second(advice.limits)))
-        lines += [AdviceLine(text, is_common=True) for text in how_tried(advice.limits)]
-        return lines
-
-    def bits_a_second(self, found: Limits) -> str:
-        """Write how many bits a second arrive at the scene's own values."""
-        return own_text(found, self.frames_a_second)
-
-    def on_highest_frequency(self, advice: Advice) -> AdviceLine:
-        end = highest_frequency(advice)
-        if end is None:
-            return AdviceLine(self._nowhere(advice.limits, advice.frequency.found))
-        return self._line("The highest frequency that it reads is {value}", end)
-
-    def common_title(self) -> str:
-        """Write the title of the lines that are the same for every decoder."""
-        return "For every decoder"
-
-    def still_holds(self, parameters: frozenset[str]) -> str:
-        """Say that the advice is of an earlier scene, and which of its limits hold all the same."""
-        text = "This advice is on the scene before the change."
-        if not parameters:
-            return text
-        names = " and ".join(sorted(quantity(name).label.lower() for name in parameters))
-        return f"{text} Its limits of the {names} still hold."
-
-    def left_out(self, effects: tuple[str, ...]) -> str:
-        return "This advice leaves out: {effects}.".format(effects=", ".join(effects))
-
-    def _nowhere(self, limits: Limits, found: WorkingRange) -> str:
-        if found.best is None:
-            return found.failure or ""
-        low, high, place = (
-            written(found.parameter, value) for value in (*found.searched, found.best.value)
+def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
+    """Write a title and a few lines on what was found."""
+    ends = {
+        ("switching_frequency", "lowest"): "The lowest frequency that it reads is {value}",
+        ("switching_frequency", "highest"): "The highest frequency that it reads is {value}",
+        ("exposure_time", "lowest"): "The shortest exposure that it reads is {value}",
+        ("exposure_time", "highest"): "The longest exposure that it reads is {value}",
+    }
+    lines = [AdviceLine(_title(advice.limits), is_title=True)]
+    for facts in (advice.frequency, advice.exposure):
+        if not facts.ends:
+            lines.append(AdviceLine(_nowhere(advice.limits, facts.found)))
+        lines.extend(
+            _line(ends[end.parameter, end.side], end)
+            for end in facts.ends
+            if (end.parameter, end.side) in ends
         )
-        name, best = quantity(found.parameter).label.lower(), found.best
-        return (
-            f"It reads {limits.rate:g} % of the bits at no {name} from {low} to {high}; the most "
-            f"it reads is {best.right} of {best.sent} bits, at {place}."
-        )
+        if facts.found.gaps:
+            lines.append(AdviceLine(gaps_text(facts.found)))
+        if facts.found.most_chips is not None:
+            lines.append(AdviceLine(searched_to(facts.found)))
+        if facts.theory.two_packets is not None:
+            lines.append(AdviceLine(two_packets_text(facts.theory.two_packets)))
+        text = theory_text(facts.found.parameter, facts.theory)
+        lines.append(AdviceLine(text, is_common=True))
+    lines.append(AdviceLine(own_text(advice.limits, frames_a_second)))
+    lines += [AdviceLine(text, is_common=True) for text in how_tried(advice.limits)]
+    return lines
 
-    def _title(self, found: Limits) -> str:
-        scene = found.scene
-        values = (
-            written(name, float(scene.value(name)))
-            for name in ("switching_frequency", "exposure_time", "distance")
-        )
-        return (
-            f"The {found.decoder} decoder, {found.rate:g} % of the bits of "
-            f"{sent_text(found.scene)}, at {', '.join(values)}"
-        )
 
-    def _line(self, text: str, end: EndFacts) -> AdviceLine:
-        sentence = f"{text.format(value=written(end.parameter, end.value))}: "
-        sentence += end_text(end.parameter, end)
-        if end.inside is None:
-            return AdviceLine(f"{sentence} No value inside is surely read.")
-        place = written(end.parameter, end.inside.value)
-        return AdviceLine(sentence, (end.parameter, end.inside.value, place))
+def line_on_highest_frequency(advice: Advice) -> AdviceLine:
+    end = highest_frequency(advice)
+    if end is None:
+        return AdviceLine(_nowhere(advice.limits, advice.frequency.found))
+    return _line("The highest frequency that it reads is {value}", end)
+
+
+def still_holds(parameters: frozenset[str]) -> str:
+    """Say that the advice is of an earlier scene, and which of its limits hold all the same."""
+    text = "This advice is on the scene before the change."
+    if not parameters:
+        return text
+    names = " and ".join(sorted(quantity(name).label.lower() for name in parameters))
+    return f"{text} Its limits of the {names} still hold."
+
+
+def _nowhere(limits: Limits, found: WorkingRange) -> str:
+    if found.best is None:
+        return found.failure or ""
+    low, high, place = (
+        written(found.parameter, value) for value in (*found.searched, found.best.value)
+    )
+    name, best = quantity(found.parameter).label.lower(), found.best
+    return (
+        f"It reads {limits.rate:g} % of the bits at no {name} from {low} to {high}; the most "
+        f"it reads is {best.right} of {best.sent} bits, at {place}."
+    )
+
+
+def _title(found: Limits) -> str:
+    scene = found.scene
+    values = (
+        written(name, float(scene.value(name)))
+        for name in ("switching_frequency", "exposure_time", "distance")
+    )
+    return (
+        f"The {found.decoder} decoder, {found.rate:g} % of the bits of "
+        f"{sent_text(found.scene)}, at {', '.join(values)}"
+    )
+
+
+def _line(text: str, end: EndFacts) -> AdviceLine:
+    sentence = f"{text.format(value=written(end.parameter, end.value))}: "
+    sentence += end_text(end.parameter, end)
+    if end.inside is None:
+        return AdviceLine(f"{sentence} No value inside is surely read.")
+    place = written(end.parameter, end.inside.value)
+    return AdviceLine(sentence, (end.parameter, end.inside.value, place))
 
 
 def highest_frequency(advice: Advice) -> EndFacts | None:

@@ -13,11 +13,12 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.detection_map.advice_sentences import AdviceLine, AdviceSentences
+from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, still_holds
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.advice import Advice
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 
 _LEAST = QSize(200, 60)
 
@@ -38,7 +39,7 @@ class AdviceView(QWidget):
         self.cards = LimitCards(decoders)
         """The highest frequencies in short, for another place than this page."""
         self.cards.destination_chosen.connect(self.destination_chosen)
-        self._sentences = AdviceSentences()
+        self._frames_a_second = FRAMES_A_SECOND
         self._lines: list[QWidget] = []
         self.destinations: list[QPushButton] = []
         self._parameters: list[str] = []
@@ -88,7 +89,7 @@ class AdviceView(QWidget):
 
     def use_frame_rate(self, frames_a_second: float) -> None:
         """Count bits a second at so many pictures a second in the advice that comes."""
-        self._sentences.frames_a_second = frames_a_second
+        self._frames_a_second = self.cards.frames_a_second = frames_a_second
 
     def show_advice_begun(self, left_out: tuple[str, ...]) -> None:
         """Remove the previous advice, and show that a search is running and what it leaves out."""
@@ -101,7 +102,7 @@ class AdviceView(QWidget):
         self._show_running(True)
         self.cards.show_begun()
         if left_out:
-            self._add(AdviceLine(self._sentences.left_out(left_out), is_title=True))
+            self._add(AdviceLine(f"This advice leaves out: {', '.join(left_out)}.", is_title=True))
 
     def show_advice_progress(self, share: float) -> None:
         """Show the fraction of the search that is done, from 0 to 1."""
@@ -109,12 +110,12 @@ class AdviceView(QWidget):
 
     def show_advice(self, advice: Advice) -> None:
         self.cards.show_advice(advice)
-        for line in self._sentences.lines(advice):
+        for line in advice_lines(advice, self._frames_a_second):
             if not line.is_common:
                 self._add(line, advice.limits.decoder)
             elif line.text not in self._common:
                 if not self._common:
-                    self._add_common(AdviceLine(self._sentences.common_title(), is_title=True))
+                    self._add_common(AdviceLine("For every decoder", is_title=True))
                 self._add_common(line)
 
     def show_advice_ended(self, sentence: str) -> None:
@@ -128,7 +129,7 @@ class AdviceView(QWidget):
         self.cards.show_outdated(outdated and "switching_frequency" not in reachable)
         if not self._lines:
             return
-        text = self._sentences.still_holds(reachable)
+        text = still_holds(reachable)
         self.state.set_full_text(text if outdated else self._ended)
         for line in self._lines:
             for label in line.findChildren(QLabel):

@@ -7,13 +7,14 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from occ_gui.detection_map.advice_sentences import (
-    AdviceSentences,
     highest_frequency,
+    line_on_highest_frequency,
 )
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.advice import Advice, EndFacts
-from occ_model.results.advice_text import gaps_text, searched_to, written
+from occ_model.results.advice_text import gaps_text, own_text, searched_to, written
+from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import WorkingRange
 
 _PARAMETER = "switching_frequency"
@@ -42,7 +43,7 @@ class LimitCards(QWidget):
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
-        self._sentences = AdviceSentences()
+        self.frames_a_second = FRAMES_A_SECOND  # by which bits a second are counted
         self._is_complete = self._is_running = self._is_outdated = False
         self._waiting = QTimer(self, singleShot=True, interval=_REST_MS)
         self._waiting.timeout.connect(self._ask)
@@ -83,9 +84,9 @@ class LimitCards(QWidget):
     def show_advice(self, advice: Advice) -> None:
         card = self.cards.get(advice.limits.decoder)
         if card is not None:
-            line = self._sentences.on_highest_frequency(advice)
+            line = line_on_highest_frequency(advice)
             found = advice.limits.frequency
-            bits = self._sentences.bits_a_second(advice.limits)
+            bits = own_text(advice.limits, self.frames_a_second)
             to = "" if found.most_chips is None else searched_to(found)
             tip = "\n".join(text for text in (line.text, gaps_text(found), to, bits) if text)
             card.show_limit(highest_frequency(advice), tip, advice.limits.rate)

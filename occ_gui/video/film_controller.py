@@ -68,7 +68,7 @@ class FilmController(QObject):
         # The last one to be sent: at rest, the exact picture follows the draft.
         self.player.playing_changed.connect(self._on_playing)
         for store in (scenes, scenes.settings):
-            store.changed.connect(self._on_scene)
+            store.changed.connect(self.show)
 
     @property
     def choice(self) -> FilmChoice:
@@ -171,9 +171,6 @@ class FilmController(QObject):
     def _on_playing(self, playing: bool) -> None:
         if not playing:
             self.show()
-
-    def _on_scene(self) -> None:
-        self.show()
 
     def take_recording(self) -> None:
         if self.film is None:

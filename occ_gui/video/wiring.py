@@ -73,7 +73,7 @@ class VideoWiring(Pane[FilmChoice]):
         films.failed.connect(self.status_message)
         films.frame_shown.connect(self._show_frame)
         films.frame_failed.connect(self._on_frame_failure)
-        player.wanted.connect(self._show_index)
+        player.wanted.connect(view.timeline.show_index)
         player.playing_changed.connect(view.transport.show_playing)
         view.timeline.sought.connect(player.seek)
         view.transport.step_asked.connect(player.step)
@@ -233,9 +233,6 @@ class VideoWiring(Pane[FilmChoice]):
             is_turned = getattr(film, "turned", False)
             self.view.bar.axis.show_key("lines" if is_turned else "columns")
         self.view.transport.set_usable(not self.films.is_live)
-
-    def _show_index(self, index: int) -> None:
-        self.view.timeline.show_index(index)
 
     def _on_frame_failure(self, sentence: str) -> None:
         self._is_frame_missing = True

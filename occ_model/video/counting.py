@@ -83,23 +83,6 @@ def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -
     return counts
 
 
-def packets_received(
-    timing: ShutterTiming, frame_period: Fraction, length: int, start: Fraction = Fraction(0)
-) -> Fraction:
-    """Return the fraction of packets that a film without end shows whole, exactly.
-
-    The starts of frames within a packet repeat after b frames, with f T / length = a / b.
-
-    ``frame_period``: t in seconds. ``start``: when the first frame starts, in seconds.
-    """
-    packets_a_frame = timing.frequency * frame_period / length
-    frames = packets_a_frame.denominator
-    whole = sum(
-        timing.whole_packets(start + number * frame_period, length) for number in range(frames)
-    )
-    return Fraction(whole) / (frames * packets_a_frame)
-
-
 def packets_received_on_average(
     timing: ShutterTiming, frame_period: Fraction, length: int
 ) -> Fraction:

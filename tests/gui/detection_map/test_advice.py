@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map import advice_controller as module
 from occ_gui.detection_map import advice_worker, map_schedule
-from occ_gui.detection_map.advice_sentences import AdviceSentences
+from occ_gui.detection_map.advice_sentences import advice_lines
 from occ_gui.detection_map.advice_view import AdviceView
 from occ_model.commands.limits import row, sentences
 from occ_model.parallel.job import Job, JobResult, Stages
@@ -93,7 +93,7 @@ def advised(
 
 
 def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) -> None:
-    lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
+    lines = [line.text for line in advice_lines(advice_on(small_scene))]
     assert lines[1].startswith("The lowest frequency that it reads is 14.7 kHz: ")
     assert lines[2] == (
         "The highest frequency that it reads is 14.7 kHz: there it read 100 % in 20 images "
@@ -110,17 +110,28 @@ def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) ->
     )
 
 
+def test_cards_and_page_count_bits_at_the_same_frame_rate(qtbot: QtBot, small_scene: Scene) -> None:
+    view = AdviceView(["threshold"])
+    qtbot.addWidget(view)
+    qtbot.addWidget(view.cards)
+    view.use_frame_rate(12.0)
+    view.show_advice(advice_on(small_scene))
+    said = next(line for line in view.sentences() if "bits a second" in line)
+    assert "120 bits a second" in said
+    assert said in view.cards.cards["threshold"].value.toolTip()
+
+
 def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
     ends = tuple(replace(end, inside=None) for end in advice.frequency.ends)
     doubtful = replace(advice, frequency=replace(advice.frequency, ends=ends))
-    line = AdviceSentences().lines(doubtful)[2]
+    line = advice_lines(doubtful)[2]
     assert line.text.endswith("No value inside is surely read.")
     assert line.destination is None
 
 
 def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
-    lines = [line.text for line in AdviceSentences().lines(advice_on(small_scene))]
+    lines = [line.text for line in advice_lines(advice_on(small_scene))]
     assert "Below 3.468 kHz the picture does not hold" in lines[3]
     assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
     assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
@@ -134,7 +145,7 @@ def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) 
         for name, searched in (("switching_frequency", (500.0, 100e3)), ("exposure_time", (1, 3)))
     ]
     limits = Limits(small_scene, "threshold", 99.0, 20, 1, *ranges)
-    lines = AdviceSentences().lines(advice_of(limits))
+    lines = advice_lines(advice_of(limits))
     assert lines[1].text == (
         "It reads 99 % of the bits at no switching frequency from 500 Hz to 100 kHz; the most it "
         "reads is 120 of 200 bits, at 2 kHz."
@@ -146,14 +157,14 @@ def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) 
 def test_window_and_shell_state_the_same_numbers(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
     shell = " ".join([row(advice.limits), *sentences([advice.limits])])
-    for line in AdviceSentences().lines(advice):
+    for line in advice_lines(advice):
         if line.destination is not None:
             assert line.destination[2] in shell
             assert all(
                 counted in shell for counted in re.findall(r"\d+ % in \d+ images", line.text)
             )
     (bits,) = re.findall(r"%\): (\S+) bits a second", " ".join(
-        line.text for line in AdviceSentences().lines(advice)))  # fmt: skip
+        line.text for line in advice_lines(advice)))  # fmt: skip
     assert row(advice.limits).split()[-1] == bits
 
 

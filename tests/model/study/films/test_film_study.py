@@ -17,12 +17,28 @@ from occ_model.study.films.study import FilmRequest, film_study, scene_of_films
 from occ_model.video.counting import (
     ShutterTiming,
     chips_seen,
-    packets_received,
     packets_received_on_average,
 )
 
 TIMING = ShutterTiming(Fraction(8000), Fraction(0), Fraction(1, 40_000), 0, 1000)
 """A view of 25 ms: 200 chips."""
+
+
+def packets_received(
+    timing: ShutterTiming, frame_period: Fraction, length: int, start: Fraction
+) -> Fraction:
+    """Return the fraction of packets that a film without end shows whole, exactly.
+
+    The starts of frames within a packet repeat after b frames, with f T / length = a / b.
+
+    ``frame_period``: t in seconds. ``start``: when the first frame starts, in seconds.
+    """
+    packets_a_frame = timing.frequency * frame_period / length
+    frames = packets_a_frame.denominator
+    whole = sum(
+        timing.whole_packets(start + number * frame_period, length) for number in range(frames)
+    )
+    return Fraction(whole) / (frames * packets_a_frame)
 
 
 def test_a_view_of_whole_chips_shows_them_all_and_no_more() -> None:

@@ -144,29 +144,23 @@ def test_the_first_picture_is_shown_without_slow_imports(tmp_path: Path) -> None
         assert image.size == (1280, 800)
 
 
-def test_a_photo_that_is_missing_is_answered_in_a_sentence(tmp_path: Path, starts: Starts) -> None:
-    ended = starts.run("--screenshot", tmp_path / "w.png", "--photo", tmp_path / "missing.jpg")
+@pytest.mark.parametrize(
+    ("picture", "more", "named"),
+    [
+        ("w.png", ["--photo", "missing.jpg"], "missing.jpg"),
+        ("w.png", ["--preset", "fone-68us"], "phone-68us"),
+        ("", [], "{folder}"),  # a folder is no file to write to
+    ],
+)
+def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_file(
+    tmp_path: Path, starts: Starts, picture: str, more: list[str], named: str
+) -> None:
+    ended = starts.run("--screenshot", tmp_path / picture, *more, SMALL)
     assert ended.returncode == 2
     assert is_one_sentence(ended.stderr)
-    assert "missing.jpg" in ended.stderr
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_picture_that_cannot_be_written_gives_a_sentence(tmp_path: Path, starts: Starts) -> None:
-    ended = starts.run("--screenshot", tmp_path)
-    assert ended.returncode == 2
-    assert is_one_sentence(ended.stderr)
-    assert str(tmp_path) in ended.stderr
+    assert named.format(folder=tmp_path) in ended.stderr
     assert list(tmp_path.iterdir()) == []
     assert list(tmp_path.parent.glob(f".{tmp_path.name}*")) == []
-
-
-def test_an_unknown_preset_is_answered_in_a_sentence(tmp_path: Path, starts: Starts) -> None:
-    ended = starts.run("--screenshot", tmp_path / "window.png", "--preset", "fone-68us")
-    assert ended.returncode == 2
-    assert is_one_sentence(ended.stderr)
-    assert "phone-68us" in ended.stderr
-    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(

@@ -53,19 +53,16 @@ def full(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Ite
     monkeypatch.undo()
 
 
+@pytest.mark.parametrize("before", [None, b"something longer than what comes"])
 @pytest.mark.parametrize("content", [b"", b"x", bytes(range(256)) * 1000])
-def test_a_file_holds_exactly_what_was_to_be_written(tmp_path: Path, content: bytes) -> None:
+def test_a_file_holds_exactly_what_was_to_be_written(
+    tmp_path: Path, before: bytes | None, content: bytes
+) -> None:
     path = tmp_path / "file.bin"
+    if before is not None:
+        path.write_bytes(before)
     write_whole(path, content)
     assert path.read_bytes() == content
-    assert list(tmp_path.iterdir()) == [path]
-
-
-def test_a_file_that_was_there_is_replaced(tmp_path: Path) -> None:
-    path = tmp_path / "file.bin"
-    path.write_bytes(b"something longer than what comes")
-    write_whole(path, b"new")
-    assert path.read_bytes() == b"new"
     assert list(tmp_path.iterdir()) == [path]
 
 

@@ -117,19 +117,18 @@ def test_a_door_that_is_open_is_seen(tmp_path: Path) -> None:
         assert {f"tcp 00000000:{port}", f"unix @{tmp_path.name}"} <= {*doors(here)}
 
 
-def test_a_sweep_and_a_film_listen_nowhere(tmp_path: Path) -> None:
-    with at_work(tmp_path, WORK, str(tmp_path / "film.mkv")) as (session, said):
-        assert said == "at work"
+@pytest.mark.parametrize(
+    ("program", "processes"),
+    [
         # The program, its decoder, its two workers and the server that they are forked from.
-        assert len(processes_of(session)) >= 5
-        assert open_doors(session) == []
-
-
-@pytest.mark.whole
-def test_the_window_listens_nowhere(tmp_path: Path) -> None:
-    with at_work(tmp_path, WINDOW) as (session, said):
+        pytest.param(WORK, 5, id="a sweep and a film"),
+        pytest.param(WINDOW, 3, id="the window", marks=pytest.mark.whole),
+    ],
+)
+def test_what_is_at_work_listens_nowhere(tmp_path: Path, program: str, processes: int) -> None:
+    with at_work(tmp_path, program, str(tmp_path / "film.mkv")) as (session, said):
         assert said == "at work"
-        assert len(processes_of(session)) >= 3
+        assert len(processes_of(session)) >= processes
         assert open_doors(session) == []
 
 

@@ -93,9 +93,6 @@ def test_the_longest_payload_has_4096_bits() -> None:
     longest = "bits:" + "1" * MAX_PAYLOAD_BITS
     assert len(occ.Scene().replace(payload=longest).transmitter.payload_bits) == 4096
     assert occ.Scene().replace(payload="text:" + "x" * 512).transmitter.payload_length == 4096
-    for too_long in (longest + "1", "text:" + "x" * 513, "bits:" + "1" * 10**6):
-        with pytest.raises(occ.ParameterError, match="payload"):
-            occ.Scene().replace(payload=too_long)
 
 
 @pytest.mark.parametrize(("code", "bits"), [(0, 2), (718, 10), (65535, 16)])

@@ -150,8 +150,8 @@ def _is_cached(node: ast.AST) -> bool:
 
 
 def _lines(data: bytes, first: int, last: int) -> str:
-    """Return lines without their indentation, as one."""
-    lines = data.decode().splitlines()[first - 1 : last]
+    """Return lines without their indentation and comments, as one."""
+    lines = [line.partition("  #")[0] for line in data.decode().splitlines()[first - 1 : last]]
     return " ".join(" ".join(lines).split())
 
 

@@ -115,6 +115,7 @@ def test_a_mutant_says_where_it_is_and_whether_it_runs_at_import() -> None:
 
 def test_a_mutant_is_known_by_its_key_where_its_line_moves() -> None:
     moved = SOURCE.replace("\n\nclass", "\n\nOTHER = 1\n\n\nclass")
+    moved = moved.replace("low: float = -1.0) -> float:", "low: float = -1.0) -> float:  # of one")
     keys = [one.key for one in mutants("a.py", SOURCE)]
     assert len(set(keys)) == len(keys)
     assert set(keys) < {one.key for one in mutants("a.py", moved)}

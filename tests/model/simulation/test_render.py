@@ -99,12 +99,15 @@ def test_a_plan_takes_one_exposure_and_one_projection(scene: Scene) -> None:
     assert calls == {"lit_fraction": 1, "panel_corners": 1}
 
 
-@pytest.mark.parametrize(("path", "projections"), [("profile", 1), ("image", 0)])
-def test_five_images_take_five_exposures(scene: Scene, path: str, projections: int) -> None:
+@pytest.mark.parametrize(("path", "planned", "projections"), [("profile", 0, 2), ("image", 1, 1)])
+def test_five_images_take_five_exposures(
+    scene: Scene, path: str, planned: int, projections: int
+) -> None:
     with counted() as calls:
         occ.success_rate(scene, images=5, path=path)  # type: ignore[arg-type]
-    # One more for the plan of all; the profile path looks once whether the panel is level.
-    assert calls == {"lit_fraction": 1 + 5, "panel_corners": 1 + 5 + projections}
+    # One more for the plan of all, which needs none where columns alone are studied; the profile
+    # path looks once whether the panel is level.
+    assert calls == {"lit_fraction": planned + 5, "panel_corners": projections + 5}
 
 
 def test_settings_as_one_value_give_the_same_picture(scene: Scene) -> None:

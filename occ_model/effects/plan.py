@@ -129,6 +129,21 @@ def _take_in(effect: Effect, scene: Scene, by_hand: bool | None) -> Decision:
     )  # fmt: skip
 
 
+def signal_plan(
+    scenes: Sequence[Scene], settings: SimulationSettings, *, needs_pixels: bool
+) -> Plan:
+    """Decide which effects decoders read pictures with that differ in phase and code alone.
+
+    Where pixels are simulated, those that the signal of any of them calls for. Without pixels all
+    effects take less time than estimating what they change.
+    """
+    own = replace(settings, observable="signal").checked(NAMES)
+    complete = complete_plan(scenes[0], own)
+    if needs_pixels or "image" in complete.kinds or own.tolerance == math.inf:
+        return plan_of_any([paper_view_of(scene) for scene in scenes], own)
+    return complete
+
+
 def plan_of_any(views: Sequence[PaperView], settings: SimulationSettings) -> Plan:
     """Decide which effects are simulated in several pictures: those that any of them calls for."""
     present = {e.name for e in EFFECTS if any(e.is_present(view.scene) for view in views)}

@@ -15,7 +15,7 @@ from occ_model.scene.argument_checks import check_count
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.confidence import wilson_interval
-from occ_model.study.success_rate import check_rate, right_bits_of_images, signal_plan_of_any
+from occ_model.study.success_rate import check_rate, plan_of_images, right_bits_of_images
 from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.packet import code_of, sent_chips
 
@@ -101,7 +101,7 @@ def _shared_plan(
     (random,) = root.spawn(1)
     length, count = transmitter.payload_length, min(pictures, _PLANNED_PAYLOADS)
     payloads = [random.integers(0, 2, length).tolist() for _ in range(count)]
-    return signal_plan_of_any([with_payload(scene, bits) for bits in payloads], settings)
+    return plan_of_images([with_payload(scene, bits) for bits in payloads], settings)
 
 
 def with_payload(scene: Scene, bits: Sequence[int]) -> Scene:

@@ -6,7 +6,7 @@ picture; the picture itself confirms them later.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,8 +14,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, to_bytes
 from occ_model.camera.projection import check_size
 from occ_model.effects.paper_view import PaperView, paper_view_of
-from occ_model.effects.plan import plan_of
-from occ_model.effects.registry import NAMES
+from occ_model.effects.plan import signal_plan
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
@@ -44,11 +43,6 @@ class ProfileReading:
     results: tuple[DecodeResult, ...]
 
 
-def signal_plan(view: PaperView, settings: SimulationSettings) -> Plan:
-    """Plan a scene for what a decoder reads, whatever its picture is planned for."""
-    return plan_of(view, replace(settings, observable="signal").checked(NAMES))
-
-
 def read_profile(
     scene: Scene,
     settings: SimulationSettings,
@@ -65,10 +59,10 @@ def read_profile(
     span = panel_span(scene)
     if span is None:
         return None
-    view = view or paper_view_of(scene)
-    chosen = signal_plan(view, settings)
+    chosen = signal_plan([scene], settings, needs_pixels=False)
     if "image" in chosen.kinds:
         return None
+    view = view or paper_view_of(scene)
     columns = expose_columns(view, chosen)
     random = np.random.default_rng(settings.seed)
     profile, signal, observed = _column_means(scene, columns, chosen, span, random)

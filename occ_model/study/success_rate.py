@@ -9,7 +9,7 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.plan import complete_plan, plan_of_any
+from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
@@ -119,14 +119,10 @@ def right_and_whole(
     return tuple(correct), tuple(whole)
 
 
-def signal_plan_of_any(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
-    """Choose the effects that the signal of any of some scenes calls for, which differ in code."""
-    own = SimulationSettings(settings.tolerance, "signal", settings.force).checked(NAMES)
-    complete, span = complete_plan(scenes[0], own), _span(scenes[0], settings)
-    # Without pixels all effects take less time than estimating what they change.
-    if span is None or "image" in complete.kinds or own.tolerance == math.inf:
-        return plan_of_any([paper_view_of(scene) for scene in scenes], own)
-    return complete
+def plan_of_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
+    """Choose the effects of images that differ in phase and code alone."""
+    own = SimulationSettings(settings.tolerance, "signal", settings.force)
+    return signal_plan(scenes, own, needs_pixels=_span(scenes[0], settings) is None)
 
 
 def _span(scene: Scene, settings: RateSettings) -> Region | None:
@@ -150,8 +146,7 @@ def right_bits_of_images(
     sent = np.array(transmitter.payload_bits, dtype=np.uint8)
     duration = len(sent_chips(transmitter)) * transmitter.switching_period
     span = _span(scene, settings)
-    # The images differ in phase alone: all are planned alike.
-    chosen = chosen or signal_plan_of_any([scene], settings)
+    chosen = chosen or plan_of_images([scene], settings)
     for image in range(settings.images):
         heartbeat()
         stream = np.random.default_rng(_seed_of(settings.seed, image))

@@ -75,13 +75,13 @@ def test_a_panel_out_of_the_picture_is_not_read() -> None:
     assert all(result.failure for result in reading.results)
 
 
-def test_the_plan_is_the_signals_whatever_the_picture_is_planned_for() -> None:
+@pytest.mark.parametrize("tolerance", [0.0, 1.0, 20.0])
+def test_a_reading_simulates_all_that_the_scene_has_as_a_study_does(tolerance: float) -> None:
     scene = small("phone-136us", switching_frequency=14.6e3)
-    of_profile = SimulationSettings(1.0, observable="profile")
-    reading = read_profile(scene, of_profile)
+    reading = read_profile(scene, SimulationSettings(tolerance, observable="profile"))
     assert reading is not None
-    assert reading.plan.included == occ.plan(scene, 1.0, "signal").included
-    assert occ.plan(scene, 1.0, "profile").included != reading.plan.included
+    assert reading.plan.included == occ.plan(scene, 0.0).included
+    assert occ.plan(scene, 20.0, "profile").included != reading.plan.included
 
 
 def test_a_picture_too_large_to_be_made_is_not_read_by_its_profile() -> None:

@@ -140,9 +140,7 @@ def test_study_without_pixels_simulates_all_that_the_scene_has(
     def refuse(*_: object) -> object:
         raise AssertionError("estimated")
 
-    from occ_model.study import success_rate as module
-
-    monkeypatch.setattr(module, "plan_of_any", refuse)
+    monkeypatch.setattr("occ_model.effects.plan.estimates_of", refuse)
     scene = occ.load_preset("phone-136us")
     rates = {
         occ.success_rate(scene, 3, seed=4, tolerance=tolerance, path="profile")

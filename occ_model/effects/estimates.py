@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -92,15 +92,6 @@ class Estimates:
     factors: Mapping[str, float]
     """By what an effect's change counts more than by its size."""
 
-    def with_others_of(self, other: "Estimates") -> "Estimates":
-        """Return the same with the sizes of effects that are missing here."""
-        sizes, limits = {**other.sizes, **self.sizes}, {**other.limits, **self.limits}
-        return Estimates(sizes, limits, self.seen, self.stretch, self.factors)
-
-    def unknown(self) -> "Estimates":
-        """Return the same where no set of effects is known to be small enough together."""
-        return Estimates(self.sizes, self.limits, None, self.stretch, self.factors)
-
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
         """Return what leaving out sets of effects together changes at most, in levels."""
         if self.seen is None:
@@ -120,9 +111,11 @@ def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
     force = settings.force
     if any(not on and name in found.sizes for name, on in force.items()):
         kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
-        found = _estimates_of(view, settings.observable, kept).with_others_of(found)
+        own = _estimates_of(view, settings.observable, kept)
+        sizes, limits = {**found.sizes, **own.sizes}, {**found.limits, **own.limits}
+        found = replace(own, sizes=sizes, limits=limits)
     # Far above the tolerance, or hidden to a sample: it cannot tell.
-    return found.unknown() if view.swing <= FLAT else found
+    return replace(found, seen=None) if view.swing <= FLAT else found
 
 
 def _estimates_of(
@@ -141,7 +134,7 @@ def _estimates_of(
                 factors[name] = _NOISE_PEAK / _PEAK * max(margin / step, 1.0)
     sizes, limits = {}, {}
     names = [effect.name for effect in pixels.effects]
-    most = np.sqrt(seen.of_each(names)).tolist() if names else []
+    most = np.sqrt(seen.of_subsets(names, np.eye(len(names)))).tolist() if names else []
     for name, of_sample in zip(names, most, strict=True):
         unit = stretch * factors[name]
         allowance = 1.0 if name in seen.known else ALLOWANCE

@@ -52,12 +52,7 @@ class NoiseSpread:
     def scale(self, normal: Pixels, rows: Rows, each_row: Rows) -> None:
         """Multiply numbers by the deviations of the pixels of some rows.
 
-        Parameters
-        ----------
-        normal : ndarray of float32, shape (rows, columns)
-            The numbers.
-        rows, each_row
-            The mean values, as they are known and without weights.
+        ``rows``, ``each_row``: the mean values, as they are known and without weights.
         """
         known, spread = self._known
         if rows.nodes is not known:  # most rows are like the previous rows
@@ -72,14 +67,3 @@ class NoiseSpread:
     def _exact(self, values: FloatArray) -> FloatArray:
         squares = sum(effect.spread(self._scene, values) ** 2 for effect in self._effects)
         return np.asarray(np.sqrt(squares))
-
-
-def pixel_spread(effects: Sequence[NoiseEffect], scene: Scene, values: Pixels) -> Pixels:
-    """Return the standard deviation in grey levels of all noise together, shape as ``values``.
-
-    Parameters
-    ----------
-    values : ndarray of float32, shape (rows, columns)
-        Mean pixel values before saturation.
-    """
-    return NoiseSpread(effects, scene)(values)

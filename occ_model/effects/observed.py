@@ -97,12 +97,6 @@ class Observed:
         squares = ((moved @ self._products[np.ix_(places, places)]) * moved).sum(axis=1)
         return self._most(names, members, squares)
 
-    def of_each(self, names: Sequence[str]) -> FloatArray:
-        """Return the same for each of some effects."""
-        places = [self._place.get(name, -1) for name in names]
-        squares = [float(self._products[at, at]) if at >= 0 else 0.0 for at in places]
-        return self._most(names, np.eye(len(names)), np.array(squares))
-
     def _most(self, names: Sequence[str], members: FloatArray, squares: FloatArray) -> FloatArray:
         """Add to mean squares what is independent and in doubt, with the allowances."""
         alone = np.array([self.alone.get(name, 0.0) for name in names])

@@ -41,7 +41,7 @@ def observed_image(pixels: SampledPixels) -> Observed:
         )
     for name, variance in pixels.variances.items():
         found.alone[name] = (
-            float(pixels.mean_at_whole(variance * unclipped))
+            pixels.mean_at_whole(variance * unclipped)
             if file is None
             else pixels.noise_read_back[name][0]
         )
@@ -86,7 +86,7 @@ def observed_profile(pixels: SampledPixels) -> Observed:
             {n: doubt + square * pixels.rims.crossed(n) for n in pixels.sample.outline}
         )
     if file is None:
-        variances = {n: float(pixels.mean_at_whole(v)) for n, v in pixels.variances.items()}
+        variances = {n: pixels.mean_at_whole(v) for n, v in pixels.variances.items()}
         found.add_noise({n: v / rows for n, v in variances.items()}, region.columns)
     else:
         found.alone.update({n: of_mean for n, (_, of_mean) in pixels.noise_read_back.items()})

@@ -2,18 +2,18 @@
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
-from occ_model.camera.enhancement import Enhancement, PassedSteps
+from occ_model.camera.enhancement import Enhancement
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
 from occ_model.effects.simulated_columns import Names
+from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
@@ -31,12 +31,6 @@ _MOST_GAIN = 8.0
 _CLIPPED_NOISE = 8.0
 """Noise in grey levels that black and white cut off noticeably."""
 
-_LEAST_SMOOTHING_NOISE = 0.5
-"""Noise in grey levels below which the enhancement's steps show between the levels."""
-
-_LEAST_TABULATED_NOISE = 1.5
-"""Noise in steps of the table from which a curve that it smooths is interpolated closely."""
-
 
 def signal_swing(pixels: SampledPixels) -> float:
     """Largest less smallest value of the enhanced profile without effects, at least 1."""
@@ -45,72 +39,11 @@ def signal_swing(pixels: SampledPixels) -> float:
     return max(float(enhanced.max()) - float(enhanced.min()), FLAT)
 
 
-class _Noise(NamedTuple):
-    """The deviation at each level, as a file has it, its least, and the steps that pixels pass."""
-
-    spread: FloatArray
-    least: float
-    passed: PassedSteps
-
-
-class _Curves:
-    """The enhancement's curves, smoothed by the noise that some effects leave, over the levels."""
-
-    def __init__(self, pixels: SampledPixels) -> None:
-        self._pixels = pixels
-        self._levels = np.clip(pixels.levels, 0.0, WHITE)
-        self._moving = frozenset(pixels.moving)
-        self._lenses = frozenset(effect.name for effect in pixels.lenses)
-        self._files = frozenset(effect.name for effect in pixels.files)
-        self._noises: dict[Names, _Noise] = {}
-        self._curves: dict[Names, FloatArray] = {}
-
-    def noise(self, included: Names) -> _Noise:
-        """Return the noise that some effects leave."""
-        key = included - self._moving
-        if key not in self._noises:
-            spread, file = self._pixels.spread(included), self._pixels.file
-            if file is not None and self._files & included:
-                spread = file.spread(spread)
-            passed = PassedSteps.of(self._levels, spread)
-            self._noises[key] = _Noise(spread, float(spread.min()), passed)
-        return self._noises[key]
-
-    def curve(self, included: Names) -> FloatArray:
-        """Return the mean of enhanced pixels at each level."""
-        key = included - self._lenses
-        if key not in self._curves:
-            enhancement = self._pixels.columns.enhancement(included)
-            self._curves[key] = enhancement.mean(self.noise(included).passed)
-        return self._curves[key]
-
-    def enhanced(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
-        """Return the means of enhanced pixels of some mean values, shape as ``values``."""
-        pixels = self._pixels
-        found = pixels.table.look_each(np.stack([self.curve(one) for one in sets]), values)
-        tabulated = max(_LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
-        for included, own, of_own in zip(sets, values, found, strict=True):
-            noise = self.noise(included)
-            if noise.least < tabulated:
-                flat = np.clip(own, 0.0, WHITE)
-                filed = self._files & included
-                own_noise = (
-                    pixels.table.look(noise.spread, flat)
-                    if filed
-                    else pixels.noise_at(included, flat)
-                )
-                sharp = own_noise < tabulated
-                if sharp.any():
-                    steps = PassedSteps.of(flat[sharp], own_noise[sharp])
-                    of_own[sharp] = pixels.columns.enhancement(included).mean(steps)
-        return found
-
-
 def observed_signal(pixels: SampledPixels) -> Observed:
     """Return the means of the columns after the receiver's enhancement."""
     sample = pixels.sample
     weights = np.sqrt(sample.weights)
-    curves = _Curves(pixels)
+    curves = SmoothedCurves(pixels)
 
     def seen(sets: Sequence[Names]) -> FloatArray:
         values = pixels.read_back(sets)
@@ -147,7 +80,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
 def _beside(pixels: SampledPixels, included: Names, values: FloatArray) -> FloatArray:
     """Return the mean of pixels of some mean values that are rounded and not enhanced."""
     spread = pixels.spread(included)
-    if float(spread.max()) < _LEAST_SMOOTHING_NOISE:
+    if float(spread.max()) < LEAST_SMOOTHING_NOISE:
         return np.rint(np.clip(values, 0.0, WHITE))
     return pixels.table.look(clipped_mean(pixels.levels, spread, WHITE), values)
 
@@ -159,10 +92,10 @@ def _doubt_sharp_steps(pixels: SampledPixels, found: Observed) -> None:
     whatever its own error reaches, since that is alike in blocks of equal rows.
     """
     spread = pixels.spread(pixels.names)
-    if float(spread.min()) >= _LEAST_SMOOTHING_NOISE:
+    if float(spread.min()) >= LEAST_SMOOTHING_NOISE:
         return
     whole = np.clip(pixels.whole, 0.0, WHITE)
-    sharp = pixels.table.look(spread, whole) < _LEAST_SMOOTHING_NOISE
+    sharp = pixels.table.look(spread, whole) < LEAST_SMOOTHING_NOISE
     if not sharp.any():
         return
     enhancement = pixels.columns.enhancement(pixels.names)
@@ -216,7 +149,7 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
     for name, own in zip(pixels.moving, moved, strict=True):
         doubt(name, away < max(own, _ROUNDING_MARGIN), 0.4 * own / least)
-        if least.min() < _LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
+        if least.min() < LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
             error = found.sampling_error(name, region.columns)
             found.add_doubt([name], SURE_DEVIATIONS * error)
 
@@ -231,7 +164,7 @@ def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:
     lost = np.where(
         spread > _CLIPPED_NOISE, 1.0 - share_unclipped(pixels.levels, spread, WHITE), 0.0
     )
-    cut = float(pixels.mean_at_whole(lost))
+    cut = pixels.mean_at_whole(lost)
     gain = float(np.ptp(found.complete / np.sqrt(pixels.sample.weights))) / pixels.view.swing
     doubt = cut * pixels.file.own_change * min(gain, _MOST_GAIN) ** 2 / 4.0
     found.add_doubt((effect.name for effect in (*pixels.noises, *pixels.files)), doubt)

@@ -6,20 +6,10 @@ from occ_model.arrays import FloatArray, IndexArray
 
 
 def clipped(polygon: FloatArray, window: FloatArray) -> FloatArray:
-    """Clip a polygon by a convex one whose corners are in counter-clockwise order.
+    """Clip a polygon by a convex one whose corners, (corners, 2), are in counter-clockwise order.
 
     Edge by edge of the window, the part outside is removed (I. E. Sutherland and
     G. W. Hodgman, "Reentrant polygon clipping", Comm. ACM 17, 1974).
-
-    Parameters
-    ----------
-    polygon, window : ndarray of float64, shape (corners, 2)
-        In order.
-
-    Returns
-    -------
-    ndarray of float64, shape (corners, 2)
-        Empty where nothing is left.
     """
     for start, end in zip(window, np.roll(window, -1, axis=0), strict=True):
         if len(polygon) == 0:
@@ -46,19 +36,7 @@ def _inside(polygon: FloatArray, side: FloatArray) -> FloatArray:
 
 
 def subdivided(polygon: FloatArray, parts: IndexArray) -> FloatArray:
-    """Divide the edges of a polygon into equal parts.
-
-    Parameters
-    ----------
-    polygon : ndarray of float64, shape (corners, 2)
-        In order.
-    parts : ndarray of int64, shape (corners,)
-        Number of parts of the edge from each corner to the next.
-
-    Returns
-    -------
-    ndarray of float64, shape (sum of ``parts``, 2)
-    """
+    """Divide the edge of a polygon from each corner to the next into so many equal parts."""
     edge = np.repeat(np.arange(len(polygon)), parts)
     before = np.cumsum(parts) - parts
     share = ((np.arange(len(edge)) - before[edge]) / parts[edge])[:, None]

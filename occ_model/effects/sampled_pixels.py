@@ -198,20 +198,9 @@ class SampledPixels:
         """Interpolate a table at the pixels with all effects."""
         return self.table.at(table, self._places)
 
-    def mean_at_whole(self, tables: FloatArray, of: FloatArray | None = None) -> FloatArray:
-        """Return the means of tables at the pixels with all effects.
-
-        Parameters
-        ----------
-        tables : ndarray of float64, shape (..., levels)
-            Over the levels.
-        of : ndarray, shape (columns, nodes)
-            A weight of each pixel besides its own.
-        """
-        weights = self._weights_of_levels
-        if of is not None:
-            weights = self.table.divided(self.sample.pixel_weights * of, self._places)
-        return np.asarray(tables @ weights)
+    def mean_at_whole(self, table: FloatArray) -> float:
+        """Return the mean of a table at the pixels with all effects."""
+        return float(table @ self._weights_of_levels)
 
     @cached_property
     def _weights_of_levels(self) -> FloatArray:

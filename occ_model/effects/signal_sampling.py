@@ -34,9 +34,9 @@ class SignalSampling:
         self._beside = 0.0 if inside is None else pixels.mean_of_rows(~inside[0])
         self._gain = pixels.mean_of_columns(self._of_panel(self._even) + self._beside)
         one = 1.0 / (self._rows**2 * pixels.view.region.columns)
-        self._pixel = float(pixels.mean_at_whole(self._even + self._uneven)) * one
+        self._pixel = pixels.mean_at_whole(self._even + self._uneven) * one
         # One pixel whose noise is drawn otherwise.
-        self._drawn = float(pixels.mean_at_whole(self._even * spread**2)) * one
+        self._drawn = pixels.mean_at_whole(self._even * spread**2) * one
         self._of_columns = {**self._of_noise(), **self._of_file(), **self._of_changes()}
 
     def _of_panel(self, table: FloatArray) -> FloatArray:

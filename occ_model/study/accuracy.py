@@ -17,7 +17,7 @@ from occ_model.camera.exposure import forget_exposures, lit_fraction
 from occ_model.camera.photometry import ColumnLight, panel_values, saturate
 from occ_model.camera.projection import check_size
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.noise_spread import pixel_spread
+from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.plan import plan
 from occ_model.effects.registry import planned
@@ -213,7 +213,7 @@ def _noise_sources(
     names = frozenset(effect.name for effect in noises)
     noisy = plan_of_effects(scene, "image", names)
     still = observe(scene, plan_of_effects(scene, "image", ()), seed=settings.seed)
-    wanted = rms(pixel_spread(noises, scene, still))
+    wanted = rms(NoiseSpread(noises, scene)(still))
     for source in NOISE_SOURCES:
         own = SimulationSettings(seed=settings.seed, noise=source)
         size = rms(_observed(scene, noisy, own) - still)

@@ -136,25 +136,6 @@ def complete_memory() -> Row:
     return Row("its peak memory, in bytes of the frame", f"{frames:.1f}", "at most 7")
 
 
-def planning_cost() -> Row:
-    """Time planning: alone, and with every effect in the scene."""
-    bare, real = occ.load_preset("phone-136us"), occ.load_preset("phone-136us-real")
-    start = count()
-    a, b, signal, profile = side_by_side(
-        lambda: occ.plan(bare.replace(start_time=1e-7 * next(start))),
-        lambda: occ.plan(real.replace(start_time=1e-7 * next(start))),
-        lambda: occ.plan(bare.replace(start_time=1e-7 * next(start)), observable="signal"),
-        lambda: occ.column_profile(bare.replace(start_time=1e-7 * next(start))),
-        rounds=401,
-    )
-    return Row(
-        "planning, against the column profile alone",
-        f"{a / profile:.1f} ({1e3 * a:.2f} ms; with every effect in the scene {1e3 * b:.2f} ms; "
-        f"for the signal {1e3 * signal:.2f} ms)",
-        "under 0.25 ms, 0.5 ms for the signal",
-    )
-
-
 def decode_cost() -> Row:
     """Compare the decoding of a full phone frame with a plain copy of it."""
     scene = occ.load_preset("phone-136us")
@@ -273,7 +254,6 @@ _ALL = (
     complete_cost,
     complete_memory,
     draft_cost,
-    planning_cost,
     decode_cost,
     profile_cost_with_reading,
     profile_path_cost,

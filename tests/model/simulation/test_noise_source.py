@@ -8,7 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.effect import NoiseEffect
-from occ_model.effects.noise_spread import pixel_spread
+from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
 from occ_model.simulation.noise_source import ExactNoise, Noise, ReusedNoise, stream
@@ -36,7 +36,7 @@ def reused(scene: Scene, seed: int, rows: int, level: float = 80.0) -> np.ndarra
     noise: Noise = ReusedNoise(SHOT, scene, seed)
     values = np.full((1, scene.camera.columns), level, dtype=np.float32)
     parts = [drawn(noise, end - start) for start, end in blocks(rows)]
-    return np.concatenate(parts).astype(float) * pixel_spread(SHOT, scene, values)
+    return np.concatenate(parts).astype(float) * NoiseSpread(SHOT, scene)(values)
 
 
 def drawn(noise: Noise, rows: int) -> np.ndarray:
@@ -91,13 +91,13 @@ def test_deviations_from_the_table_are_those_of_the_formula(gamma: float, iso: f
     scene = Scene().replace(gamma=gamma, iso=iso)
     effects = (SensorNoise(), FixedPattern())
     values = np.linspace(0.0, 260.0, 5201, dtype=np.float32)[None, :]
-    exact = pixel_spread(effects, scene, values)
-    tabulated = pixel_spread(effects, scene, np.concatenate([values, values]))
+    exact = NoiseSpread(effects, scene)(values)
+    tabulated = NoiseSpread(effects, scene)(np.concatenate([values, values]))
     np.testing.assert_allclose(tabulated[0], exact[0], rtol=0, atol=0.06)
 
 
 def test_reused_noise_has_the_mean_and_variance_of_the_exact(scene: Scene) -> None:
-    sigma = float(pixel_spread(SHOT, scene, np.full((1, 1), 80.0, dtype=np.float32))[0, 0])
+    sigma = float(NoiseSpread(SHOT, scene)(np.full((1, 1), 80.0, dtype=np.float32))[0, 0])
     rows = 3000
     deviation = reused(scene, 1, rows)
     samples = rows * COLUMNS
@@ -107,7 +107,7 @@ def test_reused_noise_has_the_mean_and_variance_of_the_exact(scene: Scene) -> No
 
 def test_means_of_columns_vary_by_the_variance_over_the_rows() -> None:
     scene = Scene().replace(columns=4000)
-    sigma = float(pixel_spread(SHOT, scene, np.full((1, 1), 80.0, dtype=np.float32))[0, 0])
+    sigma = float(NoiseSpread(SHOT, scene)(np.full((1, 1), 80.0, dtype=np.float32))[0, 0])
     for seed in (1, 2, 3):
         rows = 500
         means = reused(scene, seed, rows).mean(axis=0)

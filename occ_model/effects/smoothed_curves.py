@@ -1,0 +1,79 @@
+"""The receiver's enhancement as a noisy pixel passes it in the mean: a curve that noise smooths."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from occ_model.arrays import FloatArray
+from occ_model.camera.enhancement import PassedSteps
+from occ_model.camera.photometry import WHITE
+from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.simulated_columns import Names
+
+LEAST_SMOOTHING_NOISE = 0.5
+"""Noise in grey levels below which the enhancement's steps show between the levels."""
+
+_LEAST_TABULATED_NOISE = 1.5
+"""Noise in steps of the table from which a curve that it smooths is interpolated closely."""
+
+
+class _Noise(NamedTuple):
+    """The deviation at each level, as a file has it, its least, and the steps that pixels pass."""
+
+    spread: FloatArray
+    least: float
+    passed: PassedSteps
+
+
+class SmoothedCurves:
+    """The enhancement's curves, smoothed by the noise that some effects leave, over the levels."""
+
+    def __init__(self, pixels: SampledPixels) -> None:
+        self._pixels = pixels
+        self._levels = np.clip(pixels.levels, 0.0, WHITE)
+        self._moving = frozenset(pixels.moving)
+        self._lenses = frozenset(effect.name for effect in pixels.lenses)
+        self._files = frozenset(effect.name for effect in pixels.files)
+        self._noises: dict[Names, _Noise] = {}
+        self._curves: dict[Names, FloatArray] = {}
+
+    def noise(self, included: Names) -> _Noise:
+        """Return the noise that some effects leave."""
+        key = included - self._moving
+        if key not in self._noises:
+            spread, file = self._pixels.spread(included), self._pixels.file
+            if file is not None and self._files & included:
+                spread = file.spread(spread)
+            passed = PassedSteps.of(self._levels, spread)
+            self._noises[key] = _Noise(spread, float(spread.min()), passed)
+        return self._noises[key]
+
+    def curve(self, included: Names) -> FloatArray:
+        """Return the mean of enhanced pixels at each level."""
+        key = included - self._lenses
+        if key not in self._curves:
+            enhancement = self._pixels.columns.enhancement(included)
+            self._curves[key] = enhancement.mean(self.noise(included).passed)
+        return self._curves[key]
+
+    def enhanced(self, sets: Sequence[Names], values: FloatArray) -> FloatArray:
+        """Return the means of enhanced pixels of some mean values, shape as ``values``."""
+        pixels = self._pixels
+        found = pixels.table.look_each(np.stack([self.curve(one) for one in sets]), values)
+        tabulated = max(LEAST_SMOOTHING_NOISE, _LEAST_TABULATED_NOISE * pixels.table.step)
+        for included, own, of_own in zip(sets, values, found, strict=True):
+            noise = self.noise(included)
+            if noise.least < tabulated:
+                flat = np.clip(own, 0.0, WHITE)
+                filed = self._files & included
+                own_noise = (
+                    pixels.table.look(noise.spread, flat)
+                    if filed
+                    else pixels.noise_at(included, flat)
+                )
+                sharp = own_noise < tabulated
+                if sharp.any():
+                    steps = PassedSteps.of(flat[sharp], own_noise[sharp])
+                    of_own[sharp] = pixels.columns.enhancement(included).mean(steps)
+        return found

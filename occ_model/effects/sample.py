@@ -14,7 +14,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.camera.optics import Gain, Optics
-from occ_model.effects.normal import normal_share
+from occ_model.effects.cover import UNSEEN, Spans, between, covers_of, sets_of, spans_of
 from occ_model.results.decoding import Region
 
 COLUMNS = 192
@@ -42,15 +42,6 @@ _SIDE_NODES = 10
 
 _RIM_COLUMNS = 33
 """Columns in which a panel is to reach beyond the picture for no rim to be seen."""
-
-_UNSEEN = 0.1
-"""Blur in pixels below which a pixel receives nothing of its neighbours."""
-
-_STEEP = 1.5
-"""Slope from which a rim is steep."""
-
-_FAR_RIM = 1e6
-"""Pixels from a rim, where it does not matter."""
 
 _GAIN_ROWS = 9
 """Rows in which a gain is computed; between them it is interpolated."""
@@ -114,37 +105,6 @@ class Sample:
         return self.weights[:, None] * self.row_weights
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class _Spans:
-    """Where an outline begins and ends along lines, with its slope there: shape (lines,).
-
-    A line that it does not meet has the place where it comes nearest, and ``missed`` is True.
-    """
-
-    first: FloatArray
-    last: FloatArray
-    first_slope: FloatArray
-    last_slope: FloatArray
-    missed: BoolArray
-
-
-def _spans(outline: FloatArray, lines: FloatArray, axis: int) -> _Spans:
-    """Find the spans of an outline along lines of constant coordinate ``axis``."""
-    along = np.roll(outline[:, axis], -int(np.argmin(outline[:, axis])))
-    across = np.roll(outline[:, 1 - axis], -int(np.argmin(outline[:, axis])))
-    turn = int(np.argmax(along))
-    near = np.maximum.accumulate(along[: turn + 1]), across[: turn + 1]
-    far_along, far = np.append(along[turn:], along[0])[::-1], np.append(across[turn:], across[0])
-    chains = (near, (np.maximum.accumulate(far_along), far[::-1]))
-    ends = [[np.interp(lines + step, *chain) for step in (0.0, -0.5, 0.5)] for chain in chains]
-    if ends[0][0].sum() > ends[1][0].sum():
-        ends.reverse()
-    # The smaller slope of either side: beyond a corner begins another edge.
-    slopes = [2.0 * np.minimum(abs(at - before), abs(after - at)) for at, before, after in ends]
-    missed = (lines < along[0]) | (lines > along[turn])
-    return _Spans(ends[0][0], ends[1][0], slopes[0], slopes[1], missed)
-
-
 def sample_of(
     region: Region, level: bool, optics: Mapping[str, Optics], plain: Optics, in_blocks: bool
 ) -> Sample:
@@ -154,7 +114,7 @@ def sample_of(
     by whole blocks of a file.
     """
     moved = {name: own.outline for name, own in optics.items() if own.outline is not plain.outline}
-    blurs = {name: own.blur for name, own in optics.items() if own.blur > _UNSEEN}
+    blurs = {name: own.blur for name, own in optics.items() if own.blur > UNSEEN}
     few = region.columns <= _ALL_COLUMNS
     step = 1 if few else -(-region.columns // COLUMNS)
     main = np.arange(region.first_column + step // 2, region.last_column, step)
@@ -178,11 +138,11 @@ def sample_of(
         rows = low[:, None] + (high - low)[:, None] * _GAUSS
         row_weights = np.broadcast_to(_GAUSS_WEIGHTS, rows.shape).copy()
         first = 0
-        covers = dict.fromkeys(_sets_of([*moved, *blurs]))
+        covers = dict.fromkeys(sets_of([*moved, *blurs]))
     else:
-        spans = [_spans(outline, columns, 0) for outline in outlines]
+        spans = [spans_of(outline, columns, 0) for outline in outlines]
         rows, row_weights, first = _row_nodes(region, spans, bool(moved or blur), blur)
-        covers = _covers(columns, rows, moved, blurs, plain)
+        covers = covers_of(columns, rows, moved, blurs, plain)
     places = np.clip(np.rint(columns), region.first_column, region.last_column - 1).astype(np.int64)
     along = slice(int(main[0]), int(main[-1]) + 1, step)
     nearest = np.clip((places - along.start + step // 2) // step, 0, len(main) - 1)
@@ -210,7 +170,7 @@ def _is_covered(region: Region, outlines: list[FloatArray], blur: float) -> bool
     low, high = region.first_row - reach, region.last_row + reach
     lines = np.linspace(region.first_column - reach, region.last_column + reach, _RIM_COLUMNS)
     for outline in outlines:
-        found = _spans(outline, lines, 0)
+        found = spans_of(outline, lines, 0)
         if found.missed.any() or (found.first > low).any() or (found.last < high).any():
             return False
     return True
@@ -221,12 +181,12 @@ def _with_side_rims(
 ) -> tuple[FloatArray, FloatArray]:
     """Add columns across the left and the right rim, where these are upright."""
     row = np.linspace(region.first_row, region.last_row - 1, 9)
-    spans = [_spans(outline, row, 1) for outline in outlines]
+    spans = [spans_of(outline, row, 1) for outline in outlines]
     low, high = region.first_column - 0.5, region.last_column - 0.5
     kept, parts = np.ones(len(columns), dtype=bool), []
     for side in ("first", "last"):
         places = np.concatenate([getattr(span, side) for span in spans])
-        places = _between(places)
+        places = between(places)
         reach = math.ceil(_REACH * blur)
         left = min(max(float(places.min()) - reach, low), high)
         right = min(max(float(places.max()) + reach, low), high)
@@ -245,7 +205,7 @@ def _with_side_rims(
 
 
 def _row_nodes(
-    region: Region, spans: list[_Spans], rims: bool, blur: float
+    region: Region, spans: list[Spans], rims: bool, blur: float
 ) -> tuple[FloatArray, FloatArray, int]:
     """Choose the rows in each column: beside the panel, across its rims and, from a place, within.
 
@@ -254,7 +214,7 @@ def _row_nodes(
     low, high = region.first_row - 0.5, region.last_row - 0.5
     edges: list[FloatArray] = []
     for side in ("first", "last"):
-        places = _between(np.stack([getattr(span, side) for span in spans]))
+        places = between(np.stack([getattr(span, side) for span in spans]))
         slopes = np.stack([getattr(span, side + "_slope") for span in spans]).max(axis=0)
         reach = np.ceil(_REACH * blur * np.sqrt(1.0 + np.minimum(slopes, 1e3) ** 2))
         least, most = places.min(axis=0), places.max(axis=0)
@@ -286,88 +246,6 @@ def _row_nodes(
 def _evenly(count: int) -> tuple[FloatArray, FloatArray]:
     """Return places from 0 to 1 and their weights."""
     return (np.arange(count) + 0.5) / max(count, 1), np.full(count, 1.0 / max(count, 1))
-
-
-def _covers(
-    columns: FloatArray,
-    rows: FloatArray,
-    moved: Mapping[str, FloatArray],
-    blurs: Mapping[str, float],
-    plain: Optics,
-) -> dict[frozenset[str], FloatArray | None]:
-    """Return the panel's share of each pixel, with each set of effects on the outline."""
-    found: dict[frozenset[str], FloatArray | None] = {}
-    distances: dict[str, tuple[FloatArray, ...]] = {}
-    for chosen in _sets_of([*moved, *blurs]):
-        bend = next((name for name in moved if name in chosen), "")
-        blur = max((blurs[name] for name in blurs if name in chosen), default=0.0)
-        if bend not in distances:
-            outline = moved.get(bend, plain.outline)
-            distances[bend] = _distances(outline, columns, rows, max(blurs.values(), default=0.0))
-        top, bottom, left, right = distances[bend]
-        if blur:
-            down = _blurred(top, blur) + _blurred(bottom, blur) - 1.0
-            along = _blurred(left, blur) + _blurred(right, blur) - 1.0
-            found[chosen] = np.maximum(np.minimum(down, along), 0.0)
-        else:
-            inside = (top > 0.0) & (bottom > 0.0) & (left > 0.0) & (right > 0.0)
-            found[chosen] = inside.astype(np.float64)
-    return found
-
-
-def _sets_of(names: list[str]) -> list[frozenset[str]]:
-    numbers = range(2 ** len(names))
-    return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
-
-
-def _blurred(distance: FloatArray, blur: float) -> FloatArray:
-    """Return the share of the light at some distance within a blurred rim.
-
-    A narrow blur is one of whole pixels, whose weights are those of a Gaussian at whole distances.
-    """
-    if blur >= 1.0:
-        return normal_share(distance / blur)
-    weights = np.exp(-0.5 * (np.arange(-6.0, 7.0) / blur) ** 2)
-    shares = np.concatenate([[0.0], np.cumsum(weights)]) / weights.sum()
-    return np.asarray(np.interp(distance, np.arange(-6.5, 7.0), shares))
-
-
-def _distances(
-    outline: FloatArray, columns: FloatArray, rows: FloatArray, blur: float
-) -> tuple[FloatArray, ...]:
-    """Return how far pixels lie within the outline's top, bottom, left and right rim."""
-    down = _spans(outline, columns, 0)
-    along = _spans(outline, rows.ravel(), 1)
-    lines = np.broadcast_to(columns[:, None], rows.shape)
-    top, bottom = _within(down, rows.T, blur)
-    left, right = (distance.reshape(rows.shape) for distance in _within(along, lines.ravel(), blur))
-    lost = down.missed[:, None] & along.missed.reshape(rows.shape)
-    return np.where(lost, -_FAR_RIM, top.T), bottom.T, left, right
-
-
-def _within(spans: _Spans, places: FloatArray, blur: float) -> tuple[FloatArray, FloatArray]:
-    """Return how far places on lines lie within the first and the last rim that these meet.
-
-    From a slanting rim it is shorter than along the line; a narrow blur goes along the axes.
-    Within a steep rim the distance along the other axis counts.
-    """
-    found = []
-    for sign, rim, slope in (
-        (1.0, spans.first, spans.first_slope),
-        (-1.0, spans.last, spans.last_slope),
-    ):
-        slant = 1.0 / np.sqrt(1.0 + slope * slope)
-        if blur < 1.0:
-            slant = np.where(slope < _STEEP, 1.0, slant)
-        distance = sign * (places - _between(rim)) * slant
-        beside = spans.missed | ((slope > _STEEP) & (distance > 0.0))
-        found.append(np.where(beside, _FAR_RIM, distance))
-    return found[0], found[1]
-
-
-def _between(places: FloatArray) -> FloatArray:
-    """Return the place between two pixels where a rim separates their centres."""
-    return np.asarray(np.ceil(places) - 0.5)
 
 
 def _gain(

@@ -1,0 +1,132 @@
+"""The panel's share of the light of each pixel: its outline, bent and blurred by effects."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from occ_model.arrays import BoolArray, FloatArray
+from occ_model.camera.optics import Optics
+from occ_model.effects.normal import normal_share
+
+UNSEEN = 0.1
+"""Blur in pixels below which a pixel receives nothing of its neighbours."""
+
+_STEEP = 1.5
+"""Slope from which a rim is steep."""
+
+_FAR_RIM = 1e6
+"""Pixels from a rim, where it does not matter."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Spans:
+    """Where an outline begins and ends along lines, with its slope there: shape (lines,).
+
+    A line that it does not meet has the place where it comes nearest, and ``missed`` is True.
+    """
+
+    first: FloatArray
+    last: FloatArray
+    first_slope: FloatArray
+    last_slope: FloatArray
+    missed: BoolArray
+
+
+def spans_of(outline: FloatArray, lines: FloatArray, axis: int) -> Spans:
+    """Find the spans of an outline along lines of constant coordinate ``axis``."""
+    along = np.roll(outline[:, axis], -int(np.argmin(outline[:, axis])))
+    across = np.roll(outline[:, 1 - axis], -int(np.argmin(outline[:, axis])))
+    turn = int(np.argmax(along))
+    near = np.maximum.accumulate(along[: turn + 1]), across[: turn + 1]
+    far_along, far = np.append(along[turn:], along[0])[::-1], np.append(across[turn:], across[0])
+    chains = (near, (np.maximum.accumulate(far_along), far[::-1]))
+    ends = [[np.interp(lines + step, *chain) for step in (0.0, -0.5, 0.5)] for chain in chains]
+    if ends[0][0].sum() > ends[1][0].sum():
+        ends.reverse()
+    # The smaller slope of either side: beyond a corner begins another edge.
+    slopes = [2.0 * np.minimum(abs(at - before), abs(after - at)) for at, before, after in ends]
+    missed = (lines < along[0]) | (lines > along[turn])
+    return Spans(ends[0][0], ends[1][0], slopes[0], slopes[1], missed)
+
+
+def covers_of(
+    columns: FloatArray,
+    rows: FloatArray,
+    moved: Mapping[str, FloatArray],
+    blurs: Mapping[str, float],
+    plain: Optics,
+) -> dict[frozenset[str], FloatArray | None]:
+    """Return the panel's share of each pixel, with each set of effects on the outline."""
+    found: dict[frozenset[str], FloatArray | None] = {}
+    distances: dict[str, tuple[FloatArray, ...]] = {}
+    for chosen in sets_of([*moved, *blurs]):
+        bend = next((name for name in moved if name in chosen), "")
+        blur = max((blurs[name] for name in blurs if name in chosen), default=0.0)
+        if bend not in distances:
+            outline = moved.get(bend, plain.outline)
+            distances[bend] = _distances(outline, columns, rows, max(blurs.values(), default=0.0))
+        top, bottom, left, right = distances[bend]
+        if blur:
+            down = _blurred(top, blur) + _blurred(bottom, blur) - 1.0
+            along = _blurred(left, blur) + _blurred(right, blur) - 1.0
+            found[chosen] = np.maximum(np.minimum(down, along), 0.0)
+        else:
+            inside = (top > 0.0) & (bottom > 0.0) & (left > 0.0) & (right > 0.0)
+            found[chosen] = inside.astype(np.float64)
+    return found
+
+
+def sets_of(names: list[str]) -> list[frozenset[str]]:
+    numbers = range(2 ** len(names))
+    return [frozenset(n for place, n in enumerate(names) if k >> place & 1) for k in numbers]
+
+
+def _blurred(distance: FloatArray, blur: float) -> FloatArray:
+    """Return the share of the light at some distance within a blurred rim.
+
+    A narrow blur is one of whole pixels, whose weights are those of a Gaussian at whole distances.
+    """
+    if blur >= 1.0:
+        return normal_share(distance / blur)
+    weights = np.exp(-0.5 * (np.arange(-6.0, 7.0) / blur) ** 2)
+    shares = np.concatenate([[0.0], np.cumsum(weights)]) / weights.sum()
+    return np.asarray(np.interp(distance, np.arange(-6.5, 7.0), shares))
+
+
+def _distances(
+    outline: FloatArray, columns: FloatArray, rows: FloatArray, blur: float
+) -> tuple[FloatArray, ...]:
+    """Return how far pixels lie within the outline's top, bottom, left and right rim."""
+    down = spans_of(outline, columns, 0)
+    along = spans_of(outline, rows.ravel(), 1)
+    lines = np.broadcast_to(columns[:, None], rows.shape)
+    top, bottom = _within(down, rows.T, blur)
+    left, right = (distance.reshape(rows.shape) for distance in _within(along, lines.ravel(), blur))
+    lost = down.missed[:, None] & along.missed.reshape(rows.shape)
+    return np.where(lost, -_FAR_RIM, top.T), bottom.T, left, right
+
+
+def _within(spans: Spans, places: FloatArray, blur: float) -> tuple[FloatArray, FloatArray]:
+    """Return how far places on lines lie within the first and the last rim that these meet.
+
+    From a slanting rim it is shorter than along the line; a narrow blur goes along the axes.
+    Within a steep rim the distance along the other axis counts.
+    """
+    found = []
+    for sign, rim, slope in (
+        (1.0, spans.first, spans.first_slope),
+        (-1.0, spans.last, spans.last_slope),
+    ):
+        slant = 1.0 / np.sqrt(1.0 + slope * slope)
+        if blur < 1.0:
+            slant = np.where(slope < _STEEP, 1.0, slant)
+        distance = sign * (places - between(rim)) * slant
+        beside = spans.missed | ((slope > _STEEP) & (distance > 0.0))
+        found.append(np.where(beside, _FAR_RIM, distance))
+    return found[0], found[1]
+
+
+def between(places: FloatArray) -> FloatArray:
+    """Return the place between two pixels where a rim separates their centres."""
+    return np.asarray(np.ceil(places) - 0.5)

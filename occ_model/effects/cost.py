@@ -26,13 +26,7 @@ _NOISY_FILE = 6e-3
 def seconds_of(
     effects: Sequence[Effect], sets: FloatArray, pixels: int, noise: NoiseSource
 ) -> FloatArray:
-    """Return what sets of effects take.
-
-    Parameters
-    ----------
-    sets : ndarray of float64, shape (sets, effects)
-        1 where a set simulates an effect.
-    """
+    """Return what sets of effects take, (sets, effects), 1 where a set simulates an effect."""
     millions = pixels * 1e-6
     each = np.array([effect.cost.picture + effect.cost.pixels * millions for effect in effects])
     by_pixel = np.array([effect.kind != "column" for effect in effects], dtype=bool)

@@ -44,12 +44,7 @@ def seen_depth(scene: Scene) -> float:
 
 @lru_cache(maxsize=4)
 def ambient_shares(scene: Scene) -> FloatArray:
-    """Return the mean external illuminance in each column's exposure, as a multiple of E_v.
-
-    Returns
-    -------
-    ndarray of float64, shape (columns,); read-only
-    """
+    """Return the mean external illuminance in each column's exposure, as a multiple of E_v."""
     surroundings, exposure = scene.surroundings, Fraction(scene.camera.exposure_time)
     cycles = cycle_phases(scene, surroundings.flicker_frequency, exposure / 2)
     swing = np.cos(2.0 * math.pi * cycles + surroundings.flicker_phase)

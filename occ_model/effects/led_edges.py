@@ -42,12 +42,7 @@ class LedEdges(LightEffect):
 
 @lru_cache(maxsize=4)
 def edged_lit_fraction(scene: Scene) -> FloatArray:
-    """Return the mean light in each column's exposure, 1 being the panel fully lit.
-
-    Returns
-    -------
-    ndarray of float64, shape (columns,), from 0 to 1; read-only
-    """
+    """Return the mean light in each column's exposure, 1 being the panel fully lit."""
     frequency = Fraction(scene.transmitter.switching_frequency)
     exposure = Fraction(scene.camera.exposure_time) * frequency
     edge = Fraction(scene.transmitter.edge_time) * frequency

@@ -55,10 +55,7 @@ def paper_view_of(
 ) -> PaperView:
     """Compute the paper's view of a scene: one projection and one exposure.
 
-    Parameters
-    ----------
-    stage_ended
-        Called with the name of each stage that has just ended.
+    ``stage_ended`` is called with the name of each stage that has just ended.
     """
     corners = panel_corners(scene)
     corner_bytes = corners.tobytes()
@@ -110,13 +107,7 @@ def _sides(corners: FloatArray) -> tuple[float, float, float, float] | None:
 
 
 def region_of(corners: FloatArray, rows: int, columns: int) -> Region | None:
-    """Return the panel's bounding rectangle in the image, None where there is none.
-
-    Parameters
-    ----------
-    corners : ndarray of float64, shape (corners, 2)
-        (column, row) of each corner of the outline.
-    """
+    """Return the bounding rectangle in the image of (column, row) corners, None without one."""
     across, down = corners.T.tolist()
     left, right = (_first_from(end(across), columns) for end in (min, max))
     top, bottom = (_first_from(end(down), rows) for end in (min, max))

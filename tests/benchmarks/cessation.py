@@ -12,7 +12,7 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
-from occ_model.effects.noise_spread import pixel_spread
+from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.registry import NOISES
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
@@ -33,7 +33,7 @@ def with_noise(scene: Scene, levels: float) -> Scene:
     low, high = 1e-7, 1e-4  # much noise, and little
     for _ in range(40):
         middle = (low * high) ** 0.5
-        found = float(pixel_spread(NOISES, of_pitch(middle), lit)[0, 0])
+        found = float(NoiseSpread(NOISES, of_pitch(middle))(lit)[0, 0])
         low, high = (middle, high) if found > levels else (low, middle)
     return of_pitch(high)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.effects.noise_spread import pixel_spread
+from occ_model.effects.noise_spread import NoiseSpread
 from occ_model.effects.sensor_effects import FixedPattern, SensorNoise
 from occ_model.scene.scene import Scene
 
@@ -54,7 +54,7 @@ def counted(scene: Scene, electrons: float, seed: int = 1) -> np.ndarray:
 def applied(scene: Scene, values: np.ndarray, rows: int = 4000) -> np.ndarray:
     """The deviations of columns with some mean values, shape (rows, columns)."""
     normal = np.random.default_rng(3).standard_normal((rows, len(values)), dtype=np.float32)
-    return normal * pixel_spread([SensorNoise()], scene, values.astype(np.float32)[None, :])
+    return normal * NoiseSpread([SensorNoise()], scene)(values.astype(np.float32)[None, :])
 
 
 @pytest.mark.parametrize(("read_noise", "bits"), [(0.0, 24), (12.0, 24), (3.0, 4)])
@@ -141,7 +141,7 @@ def test_the_fixed_pattern_is_a_share_of_the_light(share: float, gamma: float) -
     values = np.linspace(20.0, 150.0, 40)
     scene = steady(100.0, gamma=gamma, gain_variation=share)
     normal = np.random.default_rng(4).standard_normal((4000, 40), dtype=np.float32)
-    spread = pixel_spread([FixedPattern()], scene, values.astype(np.float32)[None, :])
+    spread = NoiseSpread([FixedPattern()], scene)(values.astype(np.float32)[None, :])
     deviation = normal * spread
     # To the first order, in which the curve of the gamma encoding is a line.
     relative = gamma * deviation.std(axis=0) / values

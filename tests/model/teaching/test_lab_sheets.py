@@ -12,7 +12,7 @@ from occ_model.errors import OutputError
 from occ_model.figures.lesson_report import write_lesson_report
 from occ_model.figures.lesson_steps import draw_page, match_lines, steps_of_pages
 from occ_model.files.resources import resource_path
-from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson, Step
+from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.teaching.answers import check_answer
@@ -52,15 +52,18 @@ def test_a_pattern_has_no_code(match: Match) -> None:
     assert "no code" in check_answer(step, "345", match).sentence
 
 
-def few_rows(step: Step) -> Scene:
-    return step.scene.replace(rows=200)
+def few_rows(sheet: Lesson, place: int) -> Scene:
+    """Of each step others."""
+    return sheet.steps[place].scene.replace(rows=200 + place)
 
 
 def answered(sheet: Lesson, match: Match) -> list[AnsweredStep]:
     given = CheckedAnswer("about 12.8 µs *exactly*", "right", "Right.")
     return [
-        AnsweredStep(step, given, few_rows(step), match if step.own_photo else None, "mine.jpg")
-        for step in sheet.steps
+        AnsweredStep(
+            step, given, few_rows(sheet, place), match if step.own_photo else None, "mine.jpg"
+        )
+        for place, step in enumerate(sheet.steps)
     ]
 
 
@@ -101,7 +104,7 @@ def test_a_report_as_text_has_the_measurement_and_its_figures(match: Match, tmp_
         with Image.open(figure) as drawn:
             assert drawn.width > 300
     toml = text.partition("```toml\n")[2].rpartition("\n```")[0]
-    assert Scene.from_toml(toml) == few_rows(SHEETS[1].steps[-1])
+    assert Scene.from_toml(toml) == few_rows(SHEETS[1], len(SHEETS[1].steps) - 1)
 
 
 def test_a_match_is_told_with_verdict_errors_and_reasons(match: Match) -> None:

@@ -17,6 +17,7 @@ import occ_model as occ
 from occ_gui.app.start import DefaultOption, Start, start_of
 from occ_gui.app.system_libraries import missing_libraries, sentence_about
 from occ_gui.core.workspace import Workspace
+from occ_gui.values.placement import MODES as OVERLAYS
 from occ_model.commands.options import (
     Parser,
     add_scene_options,
@@ -47,9 +48,6 @@ PANES = (
 )  # fmt: skip
 
 MODES = ("explore", "photo", "limits", "effects", "lessons", "video", "room")
-
-OVERLAYS = ("beside", "blend", "split", "difference")
-"""Ways to show a photo with the simulated picture."""
 
 THEMES = ("system", "light", "dark")
 

@@ -10,9 +10,8 @@ import pytest
 from gui.starts import PROJECT, Starts
 from PIL import Image
 
-from occ_gui.app.command_line import OVERLAYS, main
+from occ_gui.app.command_line import main
 from occ_gui.app.system_libraries import missing_libraries
-from occ_gui.values.placement import MODES
 
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
 
@@ -29,8 +28,7 @@ NOISE = (0xCC, 0x79, 0xA7)
 
 COLD_START = """
 import sys
-from occ_gui.app.command_line import OVERLAYS, main
-from occ_gui.values.placement import MODES
+from occ_gui.app.command_line import main
 code = main(["--screenshot", sys.argv[1], "--set=rows=200"])
 heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
          "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",
@@ -130,10 +128,6 @@ def test_a_screenshot_is_not_written_over_the_photo(
 def test_a_match_without_a_photo_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["--match"]) == 2
     assert is_one_sentence(capsys.readouterr().err)
-
-
-def test_the_ways_of_showing_a_photo_are_those_of_the_window() -> None:
-    assert OVERLAYS == MODES
 
 
 def test_the_first_picture_is_shown_without_slow_imports(tmp_path: Path) -> None:

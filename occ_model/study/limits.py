@@ -1,14 +1,16 @@
 """The limits between which decoders read a scene: of switching frequency and exposure time.
 
 Each is searched by itself, see :mod:`occ_model.study.working_range`, and does not depend on the
-other: two processes find the same answer in half of the time.
+other: two processes find the same answer in half of the time. All decoders read the same pictures,
+so that one process searches along one parameter for all of them.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import wait
+from concurrent.futures import BrokenExecutor, CancelledError, wait
 from contextlib import ExitStack, suppress
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from itertools import cycle, islice
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from occ_model.errors import ParameterError, shown
 from occ_model.parallel.job import NO_PROCESSES, Heartbeat, Job, JobResult
@@ -20,11 +22,13 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.success_rate import check_rate
-from occ_model.study.sure_ends import images_about_an_end, with_sure_ends
+from occ_model.study.sure_ends import images_about_an_end, pairs_of, sure_end, with_ends
 from occ_model.study.working_range import READ_RATE, expected_images, working_range
 
 if TYPE_CHECKING:
     from occ_model.parallel.process_pool import ProcessPool
+
+_Answer = TypeVar("_Answer")
 
 
 def limits(  # noqa: PLR0913 - a study's settings, most of them optional
@@ -113,21 +117,29 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
         asked += [(scene, name, wanted, settings) for name in SEARCHED]
     usual = len(asked) * usual_images(images, wanted)
     with ExitStack() as stack:
-        ways = _Ways(_workers(stack) if jobs > 1 else None, usual, heartbeat, progress)
+        ways = _Ways(stack, jobs, usual, heartbeat, progress)
         searched: list[WorkingRange] = []
-        for working_range in ways.ranges(search_along, asked):
+        for working_range in ways.answers(search_along, asked, (1,) * len(SEARCHED)):
             searched.append(working_range)
             if len(searched) % len(SEARCHED) == 0:
                 found(_answers(scene, decoders, (wanted, images, seed), searched)[-1])
+        pairs = [(one, pairs_of(each)) for one, each in zip(asked, searched, strict=True)]
         # The slowest decoder, which is the last, first: nothing else waits for it then.
-        again = [(*one, each) for one, each in zip(asked, searched, strict=True)][::-1]
-        ranges = list(ways.ranges(make_sure, again))[::-1]
+        again = [(*one, pair) for one, several in pairs for pair in several][::-1]
+        ends = iter(list(ways.answers(sure_end, again, (MOST_PROCESSES,)))[::-1])
+        ranges = [
+            with_ends(each, list(islice(ends, len(several))))
+            for each, (_, several) in zip(searched, pairs, strict=True)
+        ]
     progress(1.0, "")
     return tuple(_answers(scene, decoders, (wanted, images, seed), ranges))
 
 
 SEARCHED = ("switching_frequency", "exposure_time")
 """The parameters whose limits are searched."""
+
+MOST_PROCESSES = 2
+"""Processes that search: one along each parameter."""
 
 _POLL_SECONDS = 0.1
 """Seconds between two polls of other processes."""
@@ -156,59 +168,55 @@ def search_along(
     return working_range(scene, name, rate, settings, heartbeat)
 
 
-def make_sure(
-    scene: Scene,
-    _name: str,
-    rate: float,
-    settings: RateSettings,
-    found: WorkingRange,
-    heartbeat: Heartbeat,
-) -> WorkingRange:
-    """Find how surely the ends of a range are known, as the job of a process."""
-    return with_sure_ends(scene, found, rate, settings, heartbeat)
-
-
-def _workers(stack: ExitStack) -> "ProcessPool | None":
-    """Return two processes, which end with the stack; None where none can be had."""
-    from occ_model.parallel.process_pool import ProcessPool
-
-    with suppress(*NO_PROCESSES):
-        workers = ProcessPool(2, __name__)
-        stack.callback(workers.close)
-        return workers
-    return None
-
-
 class _Ways:
-    """Ranges are searched in other processes, or here where these cannot be had or are lost."""
+    """Work is done in other processes, or here where these cannot be had or are lost."""
 
     def __init__(
         self,
-        workers: "ProcessPool | None",
+        stack: ExitStack,
+        jobs: int,
         usual: int,
         heartbeat: Heartbeat,
         progress: Callable[[float, str], object],
     ) -> None:
-        self._workers, self._usual = workers, usual
+        self._stack, self._jobs, self._usual = stack, jobs, usual
         self._heartbeat, self._progress = heartbeat, progress
+        self._pools: list[ProcessPool] = []
         self._read = 0
 
-    def ranges(
-        self, work: Callable[..., WorkingRange], asked: Sequence[tuple[Any, ...]]
-    ) -> Iterator[WorkingRange]:
-        """Do some work on each of several requests, and give the answers in their order."""
+    def answers(
+        self, work: Callable[..., _Answer], asked: Sequence[tuple[Any, ...]], counts: Sequence[int]
+    ) -> Iterator[_Answer]:
+        """Do some work on each of several requests, and yield the answers in their order.
+
+        ``counts``: the processes of each pool; the pools take the requests in turn.
+        """
         done = 0
-        if self._workers is not None:
-            with suppress(*NO_PROCESSES, *self._workers.lost_by):
-                futures = [self._workers.submit(Job(work, each), 0, 1) for each in asked]
-                for each, future in zip(asked, futures, strict=True):
-                    while not future.done():
-                        wait([future], timeout=_POLL_SECONDS)
-                        self._look(self._workers.counted(0), each)
-                    yield _value_of(future.result())
-                    done += 1
+        with suppress(*NO_PROCESSES, BrokenExecutor, CancelledError):
+            pools = self._start(counts) if self._jobs > 1 and asked else []
+            futures = [
+                pool.submit(Job(work, each), 0, 1)
+                for pool, each in zip(cycle(pools), asked, strict=False)
+            ]
+            for each, future in zip(asked, futures, strict=False):
+                while not future.done():
+                    wait([future], timeout=_POLL_SECONDS)
+                    self._look(self._read + sum(pool.counted(0) for pool in self._pools), each)
+                yield _value_of(future.result())
+                done += 1
         for each in asked[done:]:
             yield work(*each, partial(self._on_image, each))
+
+    def _start(self, counts: Sequence[int]) -> "list[ProcessPool]":
+        from occ_model.parallel.process_pool import ProcessPool
+
+        pools = []
+        for count in counts:
+            pool = ProcessPool(count, __name__)
+            self._stack.callback(pool.close)
+            pools.append(pool)
+        self._pools += pools
+        return pools
 
     def _on_image(self, asked: tuple[Any, ...]) -> None:
         self._read += 1
@@ -219,11 +227,10 @@ class _Ways:
         self._progress(min(read / self._usual, 0.99), _what(asked))
 
 
-def _value_of(result: JobResult) -> WorkingRange:
+def _value_of(result: JobResult) -> Any:
     if result.error is not None:
         raise result.error
-    found: WorkingRange = result.value
-    return found
+    return result.value
 
 
 def _what(asked: tuple[Any, ...]) -> str:

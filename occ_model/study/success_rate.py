@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -13,8 +13,9 @@ from occ_model.effects.plan import signal_plan
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError
 from occ_model.parallel.job import Heartbeat
-from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
+from occ_model.receiver.locate import locate
+from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.results.plan import Plan
 from occ_model.results.sweep_request import MOST_IMAGES, SIGNAL_PATHS, RateSettings, SignalPath
@@ -34,7 +35,10 @@ from occ_model.transmitter.packet import sent_chips
 
 _SEEDS = 2**32
 
-_NO_PANEL = "No panel found: the rows that were simulated have one grey level."
+_KEPT = 512
+"""Pictures of which what decoders read is kept: those of a search, for the next decoder."""
+
+_NO_PANEL = "No panel found: the picture has one grey level."
 
 
 def success_rate(
@@ -122,12 +126,12 @@ def right_and_whole(
 def plan_of_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
     """Choose the effects of images that differ in phase and code alone."""
     own = SimulationSettings(settings.tolerance, "signal", settings.force)
-    return signal_plan(scenes, own, needs_pixels=_span(scenes[0], settings) is None)
+    return signal_plan(scenes, own, needs_pixels=_span(scenes[0], settings.path) is None)
 
 
-def _span(scene: Scene, settings: RateSettings) -> Region | None:
+def _span(scene: Scene, path: SignalPath) -> Region | None:
     """Return the rectangle that the panel fills, None where pixels are simulated in any case."""
-    return panel_span(scene) if settings.path in ("auto", "profile") else None
+    return panel_span(scene) if path in ("auto", "profile") else None
 
 
 def right_bits_of_images(
@@ -142,19 +146,40 @@ def right_bits_of_images(
     follow it. ``chosen``: the effects that are simulated, by default those that the scene's own
     signal calls for.
     """
-    transmitter = scene.transmitter
-    sent = np.array(transmitter.payload_bits, dtype=np.uint8)
-    duration = len(sent_chips(transmitter)) * transmitter.switching_period
-    span = _span(scene, settings)
-    chosen = chosen or plan_of_images([scene], settings)
+    sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
+    force = tuple(sorted(settings.force.items()))
+    pictures = _Pictures(scene, settings.seed, settings.tolerance, force, settings.path)
     for image in range(settings.images):
         heartbeat()
-        stream = np.random.default_rng(_seed_of(settings.seed, image))
-        changes = {"start_time": float(stream.uniform(0.0, duration))}
-        if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
-            changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
-        read = _read(scene.replace(**changes), settings, chosen, span, stream)
+        observed = _kept(pictures, image) if chosen is None else _observe(pictures, chosen, image)
+        read = _read(scene, observed, settings.decoders)
         yield tuple(_right_bits(seen, sent) for seen in read)
+
+
+@dataclass(frozen=True, slots=True)
+class _Pictures:
+    """What the pictures of a study depend on; the decoders that read them are not among it."""
+
+    scene: Scene
+    seed: int
+    tolerance: float
+    force: tuple[tuple[str, bool], ...]
+    path: SignalPath
+
+    @property
+    def settings(self) -> RateSettings:
+        return RateSettings(1, (), self.seed, self.tolerance, dict(self.force), self.path)
+
+
+@lru_cache(maxsize=4)
+def _plan(pictures: _Pictures) -> Plan:
+    """Choose the effects; the pictures differ in phase and noise alone: all are planned alike."""
+    return plan_of_images([pictures.scene], pictures.settings)
+
+
+@lru_cache(maxsize=_KEPT)
+def _kept(pictures: _Pictures, image: int) -> Observation | None:
+    return _observe(pictures, _plan(pictures), image)
 
 
 def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:
@@ -175,34 +200,39 @@ def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
 
 
 def _read(
-    scene: Scene,
-    settings: RateSettings,
-    chosen: Plan,
-    span: Region | None,
-    random: np.random.Generator,
+    scene: Scene, observed: Observation | None, decoders: Sequence[str]
 ) -> list[DecodeResult]:
-    """Simulate one image, or its profile, and decode it with every decoder."""
-    view = paper_view_of(scene)
+    """Read a picture with every decoder."""
+    if observed is None:
+        return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in decoders]
+    return [observed.read(scene, decoder) for decoder in decoders]
+
+
+def _observe(pictures: _Pictures, chosen: Plan, image: int) -> Observation | None:
+    """Simulate what a decoder reads of one picture; None where no panel is found in it."""
+    scene, path = pictures.scene, pictures.path
+    stream = np.random.default_rng(_seed_of(pictures.seed, image))
+    transmitter = scene.transmitter
+    duration = len(sent_chips(transmitter)) * transmitter.switching_period
+    changes = {"start_time": float(stream.uniform(0.0, duration))}
+    if scene.surroundings.flicker_depth:  # the mains keep no time with the packets
+        changes["flicker_phase"] = float(stream.uniform(-math.pi, math.pi))
+    view, span = paper_view_of(scene.replace(**changes)), _span(scene, path)
     if span is not None and "image" not in chosen.kinds:
-        observed = observe_profile(view, span, chosen, random)
-        return [observed.read(scene, decoder) for decoder in settings.decoders]
-    if settings.path == "profile":
+        return observe_profile(view, span, chosen, stream)
+    if path == "profile":
         raise ParameterError(
             "path is 'profile'; a panel that is not level, or an image effect, needs 'image'."
         )
-    seed = int(random.integers(_SEEDS))
-    sample = None if settings.path == "image" else sample_picture(view, chosen, seed)
+    seed = int(stream.integers(_SEEDS))
+    sample = None if path == "image" else sample_picture(view, chosen, seed)
     if sample is not None and shows_region(sample, view):
-        seen = observe_sample(sample, scene, chosen, random)
-        if seen is None:
-            return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in settings.decoders]
-        return [seen.read(scene, decoder) for decoder in settings.decoders]
-    image = render_plan(view, chosen, seed=seed).image
-    first = decode(image, scene, settings.decoders[0])
-    if first.signal is None:  # no panel was found, which other decoders find no more
-        return [replace(first, decoder=decoder) for decoder in settings.decoders]
-    observed = Observation(first.signal, first.region)
-    return [first, *(observed.read(scene, decoder) for decoder in settings.decoders[1:])]
+        return observe_sample(sample, scene, chosen, stream)
+    picture = render_plan(view, chosen, seed=seed).image
+    found = locate(picture, scene.receiver.bright_fraction)
+    if found is None:
+        return None
+    return Observation(column_means(picture, found.region), found.region)
 
 
 def check_rate(scene: Scene, settings: RateSettings) -> None:

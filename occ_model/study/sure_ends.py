@@ -11,9 +11,9 @@ is refuted that the rate is reached there. More pictures in between narrow the e
 
 import math
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from itertools import islice, takewhile
+from itertools import islice, starmap, takewhile
 
 import numpy as np
 
@@ -71,29 +71,47 @@ def with_sure_ends(
 
     ``heartbeat``: called before each image; what it raises ends the search.
     """
+    name = found.parameter
+    ends = [sure_end(scene, name, rate, settings, pair, heartbeat) for pair in pairs_of(found)]
+    return with_ends(found, ends)
+
+
+def pairs_of(found: WorkingRange) -> list[tuple[RangeEnd, RangeEnd]]:
+    """Return each end of a range's intervals, with the other end of its interval."""
+    return [
+        pair
+        for each in found.intervals
+        for pair in ((each.lowest, each.highest), (each.highest, each.lowest))
+    ]
+
+
+def with_ends(found: WorkingRange, ends: Sequence[RangeEnd]) -> WorkingRange:
+    """Return a range with other ends, in the order of :func:`pairs_of`."""
+    intervals = starmap(ReadInterval, zip(ends[::2], ends[1::2], strict=True))
+    return replace(found, intervals=tuple(intervals))
+
+
+def sure_end(
+    scene: Scene,
+    name: str,
+    rate: float,
+    settings: RateSettings,
+    ends: tuple[RangeEnd, RangeEnd],
+    heartbeat: Heartbeat,
+) -> RangeEnd:
+    """Find values on both sides of the first end that are sure, and its interval."""
+    end, other = ends
     images = images_to_be_sure(rate)
-    if not images or not found.intervals:
-        return found
+    if not images or end.fails is None or not end.is_bisected:
+        return end
     own = replace(settings, images=max(images, settings.images))
-
-    def sure(end: RangeEnd, other: RangeEnd) -> RangeEnd:
-        if end.fails is None or not end.is_bisected:
-            return end
-        taken = _Pictures(scene, found.parameter, own, heartbeat)
-        inside = _inside(taken, end.value, other.value)
-        fails = _outside(taken, end.value, end.fails, rate)
-        known = replace(end, inside=inside, fails=fails)
-        if inside is None:
-            return known
-        return replace(known, interval=_interval(taken, rate, inside.value, fails.value))
-
-    return replace(
-        found,
-        intervals=tuple(
-            ReadInterval(sure(each.lowest, each.highest), sure(each.highest, each.lowest))
-            for each in found.intervals
-        ),
-    )
+    taken = _Pictures(scene, name, own, heartbeat)
+    inside = _inside(taken, end.value, other.value)
+    fails = _outside(taken, end.value, end.fails, rate)
+    known = replace(end, inside=inside, fails=fails)
+    if inside is None:
+        return known
+    return replace(known, interval=_interval(taken, rate, inside.value, fails.value))
 
 
 class _Pictures:

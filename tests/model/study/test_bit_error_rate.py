@@ -53,13 +53,13 @@ def test_same_seed_same_errors() -> None:
 def plans_of(scene: Scene, bits: int, monkeypatch: pytest.MonkeyPatch) -> list[Plan]:
     """Return the plans that each picture of a measurement is simulated with."""
     used: list[Plan] = []
-    whole = success_rate._read
+    whole = success_rate._observe
 
     def reading(*arguments: Any) -> Any:
-        used.append(arguments[2])
+        used.append(arguments[1])
         return whole(*arguments)
 
-    monkeypatch.setattr(success_rate, "_read", reading)
+    monkeypatch.setattr(success_rate, "_observe", reading)
     occ.bit_error_rate(scene, bits=bits, seed=2)
     return used
 

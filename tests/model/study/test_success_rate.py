@@ -1,6 +1,7 @@
 """Laws of the success rate, and of the two ways to measure it."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -151,3 +152,27 @@ def test_study_without_pixels_simulates_all_that_the_scene_has(
         occ.success_rate(scene, 3, path="rows")
     with pytest.raises(AssertionError, match="estimated"):
         occ.success_rate(scene, 3, tolerance=math.inf)
+
+
+def test_another_decoder_reads_the_same_pictures_without_simulating_them_again(
+    scene: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from occ_model.study import observation
+    from occ_model.study import success_rate as module
+
+    simulated: list[object] = []
+
+    def simulate(*arguments: Any) -> observation.Observation:
+        simulated.append(arguments)
+        return observation.observe_profile(*arguments)
+
+    monkeypatch.setattr(module, "observe_profile", simulate)
+    at = scene.replace(distance=1.0371)
+    rates = [occ.success_rate(at, 3, decoder, seed=81) for decoder in ("threshold", "matched")]
+    assert len(simulated) == 3
+    module._kept.cache_clear()
+    settings = RateSettings(3, ("threshold", "matched"), 81)
+    right = module.right_bits(at, settings)
+    assert rates == [100.0 * each / 30 for each in right]
+    occ.success_rate(at, 3, seed=82)
+    assert len(simulated) == 9

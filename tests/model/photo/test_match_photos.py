@@ -49,7 +49,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def table(folder: Path) -> PhotoTable:
-    return occ.match_photos(sorted(folder.iterdir()), SCENE)
+    return occ.match_photos(sorted(folder.iterdir()), SCENE, sent="scene")
 
 
 def row(
@@ -92,7 +92,7 @@ def test_every_photo_has_a_row_in_the_order_given(table: PhotoTable, folder: Pat
 @pytest.mark.whole
 def test_a_row_says_what_the_match_of_its_photo_says(table: PhotoTable, folder: Path) -> None:
     for one in table.rows[:3]:
-        match = occ.match_photo(occ.load_photo(one.path), SCENE)
+        match = occ.match_photo(occ.load_photo(one.path), SCENE, sent="scene")
         assert (one.readout_time, one.exposure_time) == (match.readout_time, match.exposure_time)
         for name, deviation in match.uncertainties.items():
             assert one.uncertainty(name) == deviation
@@ -109,7 +109,11 @@ def test_the_mean_is_the_truth_within_its_error(table: PhotoTable) -> None:
 def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
     reports: list[tuple[int, int]] = []
     parallel = occ.match_photos(
-        sorted(folder.iterdir()), SCENE, jobs=2, progress=lambda *report: reports.append(report)
+        sorted(folder.iterdir()),
+        SCENE,
+        sent="scene",
+        jobs=2,
+        progress=lambda *report: reports.append(report),
     )
     assert parallel.rows == table.rows
     assert csv_text(parallel) == csv_text(table)
@@ -121,7 +125,7 @@ def test_processes_give_the_same_table(table: PhotoTable, folder: Path) -> None:
 @pytest.mark.whole
 def test_photos_that_were_read_give_the_same_rows(folder: Path, table: PhotoTable) -> None:
     photos = [occ.load_photo(folder / f"{seed}.png") for seed in range(3)]
-    again = occ.match_photos(photos, SCENE).rows
+    again = occ.match_photos(photos, SCENE, sent="scene").rows
     assert again == table.rows[:3]
     assert [one.readout_time for one in again] == [one.readout_time for one in table.rows[:3]]
 

@@ -12,7 +12,7 @@ from occ_model.effects.normal import normal_share
 UNSEEN = 0.1
 """Blur in pixels below which a pixel receives nothing of its neighbours."""
 
-_STEEP = 1.5
+STEEP = 1.5
 """Slope from which a rim is steep."""
 
 _FAR_RIM = 1e6
@@ -120,9 +120,9 @@ def _within(spans: Spans, places: FloatArray, blur: float) -> tuple[FloatArray, 
     ):
         slant = 1.0 / np.sqrt(1.0 + slope * slope)
         if blur < 1.0:
-            slant = np.where(slope < _STEEP, 1.0, slant)
+            slant = np.where(slope < STEEP, 1.0, slant)
         distance = sign * (places - between(rim)) * slant
-        beside = spans.missed | ((slope > _STEEP) & (distance > 0.0))
+        beside = spans.missed | ((slope > STEEP) & (distance > 0.0))
         found.append(np.where(beside, _FAR_RIM, distance))
     return found[0], found[1]
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.camera.optics import Gain, Optics
-from occ_model.effects.cover import UNSEEN, Spans, between, covers_of, sets_of, spans_of
+from occ_model.effects.cover import STEEP, UNSEEN, Spans, between, covers_of, sets_of, spans_of
 from occ_model.results.decoding import Region
 
 COLUMNS = 192
@@ -185,8 +185,11 @@ def _with_side_rims(
     low, high = region.first_column - 0.5, region.last_column - 0.5
     kept, parts = np.ones(len(columns), dtype=bool), []
     for side in ("first", "last"):
-        places = np.concatenate([getattr(span, side) for span in spans])
-        places = between(places)
+        upright = [getattr(span, side + "_slope") < STEEP for span in spans]
+        ends = [getattr(span, side)[own] for span, own in zip(spans, upright, strict=True)]
+        places = between(np.concatenate(ends))
+        if not len(places):
+            continue
         reach = math.ceil(_REACH * blur)
         left = min(max(float(places.min()) - reach, low), high)
         right = min(max(float(places.max()) + reach, low), high)

@@ -107,6 +107,7 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
         pytest.param(182322, "signal", id="a file changes pixels by several levels"),
         pytest.param(410148, "signal", id="a rim moves into a block that is observed in part"),
         pytest.param(410128, "profile", id="an upright rim crosses a column"),
+        pytest.param(420346, "profile", id="an upright rim of a turned panel in the last columns"),
         pytest.param(410406, "signal", id="full pixels beside a step, some of them sampled"),
     ],
 )

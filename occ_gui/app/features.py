@@ -69,7 +69,7 @@ def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
         lessons(store, parts.board, parts.controls, preferences),
         video(store, parts.board),
         room(workspace),
-        bench(store, lambda: parts.measuring.for_bench, window.say),
+        bench(store, lambda: parts.measuring.channel("bench"), window.say),
         export(window, shell, parts.present, preferences, current_pane, store),
         animation(window, store, preferences, window.filming),
         transmitter(window, store, preferences),

@@ -24,10 +24,11 @@ class MapPane(Pane[None]):
         super().__init__(view)
         self.view = view
         store, settings, queue = scenes.store, scenes.settings, measuring.queue
-        self.map = DetectionMapController(scenes, settings, measuring.for_map, view)
-        self.advisor = AdvisorController(scenes, settings, queue, measuring.for_advice, view.advice)
-        self.most_bits = MostBitsController(scenes, queue, measuring.for_most, view.most_bits)
-        self.measures = (measuring.for_map, measuring.for_advice, measuring.for_most)
+        of_map, of_advice, of_most = map(measuring.channel, ("map", "advice", "most bits"))
+        self.map = DetectionMapController(scenes, settings, of_map, view)
+        self.advisor = AdvisorController(scenes, settings, queue, of_advice, view.advice)
+        self.most_bits = MostBitsController(scenes, queue, of_most, view.most_bits)
+        self.measures = (of_map, of_advice, of_most)
         view.axes_chosen.connect(self.map.choose_axes)
         view.picked.connect(self.map.go_to)
         view.pointed.connect(self.map.point_at)

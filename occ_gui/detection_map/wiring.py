@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 PROCESSES = 2
 
+CHANNELS = ("map", "advice", "bench", "most bits", "strips", "own rate")
+"""Those that measure in the processes, each with a channel of its own."""
+
 NICENESS = 10  # how far the processes yield to the window
 
 START_MS = 400
@@ -55,37 +58,25 @@ class Measuring(QObject):
         from occ_gui.background.signals import WorkQueue
 
         # Looked up when it is called, so that another one can be put in its place.
-        return WorkQueue(6, lambda: new_workers())
+        return WorkQueue(len(CHANNELS), lambda: new_workers())
 
-    @property
-    def for_map(self) -> "JobChannel":
-        return self.queue.channels[0]
-
-    @property
-    def for_advice(self) -> "JobChannel":
-        return self.queue.channels[1]
-
-    @property
-    def for_bench(self) -> "JobChannel":
-        return self.queue.channels[2]
-
-    @property
-    def for_most(self) -> "JobChannel":
-        return self.queue.channels[3]
+    def channel(self, of: str) -> "JobChannel":
+        """Return the channel of one of those that measure, by its name in CHANNELS."""
+        return self.queue.channels[CHANNELS.index(of)]
 
     @cached_property
     def slider_strips(self) -> "SliderStripController":
         from occ_gui.detection_map.slider_strip_controller import SliderStripController
 
         scenes, strips = self._scenes, self._strips
-        channel = self.queue.channels[4]
+        channel = self.channel("strips")
         return SliderStripController(scenes, scenes.settings, channel, strips, strips.strips)
 
     @cached_property
     def own_rate(self) -> "OwnRateController":
         from occ_gui.detection_map.own_rate_controller import OwnRateController
 
-        own = OwnRateController(self._scenes, self._scenes.settings, self.queue.channels[5])
+        own = OwnRateController(self._scenes, self._scenes.settings, self.channel("own rate"))
         own.changed.connect(self._strips.show_present)
         own.changed.connect(self.rate_changed)
         return own

@@ -79,8 +79,7 @@ def compare(
     height /= np.sqrt(np.mean(height**2))
     under = simulated[first : last + 1]
     of_mean = int(np.clip(_edges(seen) // _EDGES_PER_SHAPE, 1, MEAN_SHAPES))
-    of_swing = -(-2 * of_mean // 3)
-    (mean, deviation), (own, spread) = (trend_of(one, of_mean, of_swing) for one in (under, seen))
+    (mean, deviation), (own, spread) = (trend_of(one, of_mean) for one in (under, seen))
     evened = (seen - own) / spread
     correlation = 0.0
     if min(seen.std(), under.std()) > _LEAST_DEVIATION:

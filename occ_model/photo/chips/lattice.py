@@ -29,8 +29,6 @@ _STEPS_PER_CHIP = 6.0
 _RIM_DISTANCE = 0.2
 """Distance from the lattice, in chips, beyond which an outermost edge is the rim of the panel."""
 
-_LEAST_DEVIATION = 0.02  # minimum standard deviation of an edge in chips
-
 
 @dataclass(frozen=True, slots=True)
 class Lattice:
@@ -136,6 +134,6 @@ def certainty(edges: Edges, lattice: Lattice) -> float:
     )
     tried = max(1.0, float(np.ptp(edges.places)) * lattice.frequency)
     by_chance = min(1.0, tried * math.exp(-strength))
-    deviation = max(float(np.sqrt((both**2).sum() / (len(both) - 3))), _LEAST_DEVIATION)
+    deviation = max(float(np.sqrt((both**2).sum() / (len(both) - 3))), 1e-9)
     misplaced = math.erfc(0.5 / deviation / math.sqrt(2.0))
     return (1.0 - by_chance) * (1.0 - misplaced) ** len(both)

@@ -5,8 +5,8 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-MEAN_SHAPES, _SWING_SHAPES = 6, 4
-"""Numbers of polynomials that describe the trends of a profile's mean and swing."""
+MEAN_SHAPES = 6
+"""Number of polynomials that describe the trend of a profile's mean; of its swing two thirds."""
 
 LEAST_SWING = 0.05
 """Minimum of a local swing relative to the largest one, or of a power to its mean: it divides."""
@@ -42,15 +42,15 @@ def smooth_shapes(count: int, freedom: int) -> FloatArray:
 
 def without_trend(profile: FloatArray) -> FloatArray:
     """Remove slow changes of a profile's mean and swing, whatever its stripes."""
-    mean, deviation = trend_of(profile, MEAN_SHAPES, _SWING_SHAPES)
+    mean, deviation = trend_of(profile, MEAN_SHAPES)
     return np.asarray((profile - mean) / deviation)
 
 
-def trend_of(profile: FloatArray, of_mean: int, of_swing: int) -> tuple[FloatArray, FloatArray]:
+def trend_of(profile: FloatArray, of_mean: int) -> tuple[FloatArray, FloatArray]:
     """Return a profile's mean and standard deviation around each column, by so many polynomials."""
     mean = _smooth(profile, of_mean)
     square = (profile - mean) ** 2
-    power = np.maximum(_smooth(square, of_swing), LEAST_SWING * float(np.mean(square)))
+    power = np.maximum(_smooth(square, -(-2 * of_mean // 3)), LEAST_SWING * float(np.mean(square)))
     return mean, np.sqrt(np.maximum(power, 1e-300))
 
 

@@ -14,9 +14,7 @@ _RIM = 6
 """Columns at either end of a photo's stripes where blur mixes the lamp with what is beside it: in
 the two sample photos residuals of up to 140 grey levels end within five."""
 
-_EDGES_PER_SHAPE = 4
-"""Edges in view for each polynomial that describes uneven light: with fewer, the stripes themselves
-would count as uneven light."""
+_EDGES_PER_SHAPE = 4  # edges in view for each polynomial of uneven light; fewer would be stripes
 
 
 def compare(

@@ -26,17 +26,13 @@ ESTIMATES = ("readout_time", "switching_frequency")
 """Parameters of which one is estimated and the other is known."""
 
 _MOST_DEVIATIONS = 3.0  # standard deviations above which two exposure times contradict each other
-
-_NOTE_ERROR = 0.012
-"""Relative standard deviation of a noted exposure time: 1/500 stands for 1/512 s."""
+_NOTE_ERROR = 0.012  # relative deviation of a noted exposure time: 1/500 stands for 1/512 s
 
 _MOST_UNSURE, _MOST_UNKNOWN = 0.03, 0.1
 """Relative standard deviations of the readout time, or the frequency, above which a match is
 doubtful, and above which it is refused."""
 
-_MOST_EDGE_ERROR = 0.25
-"""Maximum error of the first and the last edge relative to the shortest pulse, if the chips are
-right."""
+_MOST_EDGE_ERROR = 0.25  # maximum error of the outermost edges in shortest pulses
 
 
 def exposure_time(fit: StripeFit, scene: Scene, estimate: str) -> float:

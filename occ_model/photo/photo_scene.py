@@ -18,11 +18,8 @@ from occ_model.scene.scene import Lens, Scene
 from occ_model.transmitter.packet import code_of, sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
-_ITERATIONS = 40
-"""Fixed-point iterations of the inverse distortion; each leaves a few percent of the error."""
-
-_NOTED = ("iso", "f_number")
-"""Parameters that are taken from a photo's EXIF data; the exposure time is fitted."""
+_ITERATIONS = 40  # of the inverse distortion; each leaves a few percent of the error
+_NOTED = ("iso", "f_number")  # taken from a photo's EXIF data; the exposure time is fitted
 
 
 def with_chips(scene: Scene, chips: ByteArray) -> tuple[Scene, int]:

@@ -6,9 +6,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-_HYSTERESIS = 0.15
-"""Distance from the middle level that a profile must pass on both sides of an edge; smaller
-excursions are noise."""
+_HYSTERESIS = 0.15  # height beyond the middle, on both sides of an edge, that is not noise
 
 
 @dataclass(frozen=True, eq=False, slots=True)

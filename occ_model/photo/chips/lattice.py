@@ -16,18 +16,13 @@ from occ_model.photo.chips.edges import Edges
 LEAST_COHERENCE_RATIO = 0.93
 """Minimum coherence of a coarser lattice relative to the most coherent one."""
 
-_SHORTENING = 0.7
-"""Minimum ratio of the mean of the shortest bright and the shortest dark run to a chip: noise and
-uneven light shorten both."""
+_SHORTENING = 0.7  # minimum ratio of the mean shortest run to a chip: noise shortens runs
 
 LEAST_COLUMNS = 2.0
 """Minimum number of columns per chip."""
 
-_STEPS_PER_CHIP = 6.0
-"""Number of lattices tried while the last edge moves by one chip relative to the first."""
-
-_RIM_DISTANCE = 0.2
-"""Distance from the lattice, in chips, beyond which an outermost edge is the rim of the panel."""
+_STEPS_PER_CHIP = 6.0  # lattices tried while the last edge moves by a chip against the first
+_RIM_DISTANCE = 0.2  # chips off the lattice beyond which an outermost edge is the panel's rim
 
 
 @dataclass(frozen=True, slots=True)

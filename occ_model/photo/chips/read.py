@@ -13,8 +13,7 @@ from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import ChipReading
 
-_EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])
-"""Exposures in chips that are tried to explain the profile by its edges."""
+_EXPOSURES = np.array([0.05, 0.2, 0.4, 0.6, 0.8, 1.0])  # in chips, tried to explain the profile
 
 _SURELY_RIGHT, _SURELY_WRONG = 0.02, 0.08
 """Unexplained fractions of the variance below which nearly all readings are right, and above which

@@ -20,17 +20,12 @@ from occ_model.results.match import Stripes
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-_STEP_CHANGES = np.arange(-4, 5) / 8.0
-"""Changes, in chips at the last column, of a known step that are tried."""
-
+_STEP_CHANGES = np.arange(-4, 5) / 8.0  # changes of a known step, in chips at the last column
 _MOST_CORRECTIONS = 6  # maximum number of times that the chips read are replaced by similar ones
 _MOST_POWER_RATIO = 0.9  # ratio of squared residuals below which similar chips replace those read
 _PARTS_OF_A_PERIOD = 50  # number of parts of a period; a pulse lasts a whole number of them
 _DUTY_STEPS = (4, 2, 1)  # successive steps, in parts of a period, of the search for a duty
-
-_MOST_EXCHANGE_RATIO = 1.5
-"""Maximum ratio of squared residuals after a pulse and its exposure are exchanged: both are rounded
-to parts of a period."""
+_MOST_EXCHANGE_RATIO = 1.5  # maximum ratio of squared residuals after an exchange: both are rounded
 
 _NOTE_TOLERANCE = 0.1
 """Maximum logarithm of the ratio of a noted exposure time to a pulse's duration: notes are off by 1

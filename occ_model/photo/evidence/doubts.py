@@ -6,52 +6,32 @@ from occ_model.photo.fit.chip_runs import chips_as_one, is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_share
 from occ_model.results.match import Stripes
 
-_LEAST_PERIODS = 1.5
-"""Minimum number of periods in view of a long pattern that is given, so that some chips are seen
-twice."""
-
-_LEAST_PERIODS_OF_OTHERS = 3.0
-"""Minimum number of periods in view of a short pattern, and of one that was read: two may agree by
-chance."""
-
+_LEAST_PERIODS = 1.5  # minimum periods in view of a long pattern that is given
+_LEAST_PERIODS_OF_OTHERS = 3.0  # the same of a short one, or of one that was read
 _LONG_PATTERN = 8  # number of chips from which a pattern is long
-
-_LONGEST_EXPOSURE = 3.2
-"""Exposure in chips above which different codes make nearly the same stripes."""
-
-_LEAST_CORRELATION = 0.9
-"""Correlation below which something other than the model shapes the stripes, too."""
+_LONGEST_EXPOSURE = 3.2  # exposure in chips above which codes make nearly the same stripes
+_LEAST_CORRELATION = 0.9  # correlation below which something else shapes the stripes, too
 
 LEAST_INFORMATION = {False: 40.0, True: 100.0}
 """Minimum information in bits of given chips, and of chips that were read."""
 
 _MOST_UNEXPLAINED = 0.035  # maximum unexplained fraction of the variance for chips that were read
-
-_MOST_RATIO_TO_WAVE = 2.0
-"""Maximum ratio of that fraction to what the best periodic wave leaves unexplained."""
-
-_WELL_EXPLAINED = 0.02
-"""Unexplained fraction of the variance that is always allowed: cameras differ from the model."""
-
+_MOST_RATIO_TO_WAVE = 2.0  # maximum ratio of it to what the best periodic wave leaves
+_WELL_EXPLAINED = 0.02  # unexplained fraction that is always allowed: cameras differ
 _LEAST_ROW_CORRELATION = 0.85  # minimum correlation between the stripes of different rows
-
-_MOST_SATURATED = 0.5
-"""Saturated fraction of the pixels above which chips that were read are doubtful."""
+_MOST_SATURATED = 0.5  # saturated fraction above which chips that were read are doubtful
 
 _MOST_SATURATED_FOR_EXPOSURE = 0.4
 """Saturated fraction above which the exposure time is doubtful: of 34 exposures of such photographs
 two standard deviations covered 79 % only (seeds 700000 to 700599)."""
 
-_MOST_AMPLITUDE = 0.02
-"""Maximum amplitude of a periodic residual relative to the height of the stripes."""
+_MOST_AMPLITUDE = 0.02  # maximum amplitude of a periodic residual, in heights of the stripes
 
 _LEAST_LINE_RATIO = 50.0
 """Minimum ratio of a line's power to that of the noise: among a thousand bins of noise the
 strongest one exceeds it once in 10^18 times."""
 
-_LEAST_LINE_FRACTION = 0.15
-"""Minimum fraction of the residual's power in a line: sharp edges between columns leave many lines
-of a few percent each."""
+_LEAST_LINE_FRACTION = 0.15  # minimum fraction of the residual's power in one line
 
 
 def doubts(found: Hypothesis, stripes: Stripes, rows_alike: float) -> list[str]:

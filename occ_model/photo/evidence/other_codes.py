@@ -8,10 +8,7 @@ from occ_model.photo.fit.timing import Timing
 from occ_model.scene.scene import Transmitter
 from occ_model.transmitter.packet import packet_length, packets, sends_paper_code
 
-_MOST_BITS = 12
-"""Number of bits up to which all codes are compared; of longer packets those that differ in one
-chip."""
-
+_MOST_BITS = 12  # bits up to which all codes are compared, and not those of one other chip
 _MOST_CHIPS = 512  # number of chips up to which other sequences are compared
 
 

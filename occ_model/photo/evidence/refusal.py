@@ -4,17 +4,13 @@ from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.results.match import PLAIN_STRIPES
 
-_LEAST_GIVEN, _LEAST_READ = 0.8, 0.9
-"""Minimum correlations of given chips, and of chips that were read."""
+_LEAST_GIVEN, _LEAST_READ = 0.8, 0.9  # minimum correlations of chips given and read
 
 _LEAST_OF_OBJECTS = 0.975
 """Minimum correlation of chips that were read where no lamp is known to blink: some chips explain
 the stripes of any regular object about as well."""
 
-_LEAST_INFORMATION = 30.0
-"""Minimum information in bits. The best of the many timings tried reaches 15 to 20 bits in any
-picture."""
-
+_LEAST_INFORMATION = 30.0  # minimum bits: the best of many timings has 15 to 20 in any picture
 _LEAST_ROW_CORRELATION = 0.7  # minimum correlation between the stripes of different rows
 
 

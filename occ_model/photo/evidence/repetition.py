@@ -7,10 +7,7 @@ import numpy as np
 
 from occ_model.arrays import FloatArray
 
-_OWN_HARMONICS = 2
-"""Multiple of the number of chips up to which harmonics belong to the pattern: the model's error
-repeats with it."""
-
+_OWN_HARMONICS = 2  # harmonics of the pattern itself, in numbers of its chips
 _LINE_BINS = 2  # half-width of a spectral line in bins: that of a Hann window
 
 _NEIGHBOURS = (-4, -3, 3, 4)

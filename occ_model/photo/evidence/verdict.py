@@ -12,13 +12,8 @@ from occ_model.photo.evidence.refusal import refusals
 from occ_model.photo.evidence.without_code import likelihood_of_curve, likelihood_of_wave
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
-_DECISIVE = 10.0
-"""Difference of log-likelihoods above which one explanation is decidedly better: a factor of
-22,000."""
-
-_MODEL_ERROR = 0.02
-"""Error of the model relative to the height of the stripes, which every explanation may have."""
-
+_DECISIVE = 10.0  # difference of log-likelihoods that decides: a factor of 22,000
+_MODEL_ERROR = 0.02  # error in heights of the stripes that every explanation may have
 _COSINES_PER_CHIP = 2.0  # maximum number of cosines of a smooth curve per chip in view
 
 

@@ -17,8 +17,7 @@ _MOST_STEP_RATIO = 5.0
 """Maximum ratio of a step's standard deviation to the smallest one: all models have the same
 distances of edges, so that a larger one comes from a degenerate fit."""
 
-_MOST_GAMMA_VARIANCE = 1e3
-"""Variance of gamma's logarithm that only a fit at gamma's bound reaches, where it has no slope."""
+_MOST_GAMMA_VARIANCE = 1e3  # that of gamma's logarithm is larger only at its bound
 
 
 def averaged(fits: Sequence[JointFit]) -> JointFit:

@@ -14,16 +14,9 @@ from occ_model.photo.stripes.envelope import without_trend
 from occ_model.results.match import Stripes
 
 _LEAST_SURE_CORRELATION = 0.9  # correlation above which a candidate is not a coincidence
-
-_LEAST_CORRELATION_RATIO = 0.85
-"""Minimum correlation of further candidates relative to the best one."""
-
-_BEST, _SHORTEST = 4, 4
-"""Numbers of candidates that are fitted: the best ones, and those with the shortest exposures."""
-
-_ROUGH_ROUNDS = 4
-"""Number of iterations after which fits are compared, and only good ones continued."""
-
+_LEAST_CORRELATION_RATIO = 0.85  # minimum correlation of candidates over that of the best
+_BEST, _SHORTEST = 4, 4  # candidates that are fitted: best ones, and shortest exposures
+_ROUGH_ROUNDS = 4  # iterations after which only good fits are continued
 _MOST_RESIDUAL_RATIO = 4.0  # maximum ratio of a rough fit to the best one for it to be continued
 
 _MOST_FINISHED = 6
@@ -32,10 +25,7 @@ _NEAR_EXPOSURES = (0.85, 0.93, 1.07, 1.15)  # factors of an exposure from which 
 _OTHER_EXPOSURES = (0.8, 1.25)  # factors of an exposure from which other chips are fitted
 _LEAST_SPREAD = 1e-3  # difference of exposures in chips below which fits are the same
 _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
-
-_EQUALIZED_RATIO = 0.5
-"""Ratio to the other cameras' residual below which a picture was equalized: cameras do not do
-so."""
+_EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
 EXPLAINED = 0.98
 """Correlation of a fit above which no other chips, and no equalized picture, are tried."""

@@ -22,8 +22,7 @@ box of blur and an exposure look alike, and each shape has several minima: start
 took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
 
 _FIXED_BLUR = (7,)
-_WELL_KNOWN_BLUR = 0.1
-"""Standard deviation of a fitted blur, in columns, below which no other blur is tried."""
+_WELL_KNOWN_BLUR = 0.1  # deviation of a blur in columns below which no other is tried
 
 _LAST_ROUNDS = 10
 _SHORTEST = 0.2  # shortest exposure in columns to start from

@@ -12,9 +12,7 @@ from occ_model.camera.photometry import ColumnLight, level_values, panel_values
 from occ_model.photo.fit.least_squares import Tone
 from occ_model.scene.scene import Scene
 
-_BRIGHT = 1000.0
-"""Luminance in cd/m2 of the lit panel; only its ratio to that of the dark panel matters."""
-
+_BRIGHT = 1000.0  # luminance of the lit panel in cd/m2; only ratios to it matter
 _DARKEST = 0.5  # grey level below which dark columns are black
 
 _STEADY_LIGHT = np.ones(1)

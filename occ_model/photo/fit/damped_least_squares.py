@@ -13,11 +13,8 @@ from occ_model.arrays import FloatArray
 DIFFERENCE = 0.02
 """Finite difference of the scaled parameters."""
 
-_LEAST_GAIN = 0.05
-"""Minimum decrease of the sum of squares, in variances of the noise, for a further iteration."""
-
-_MOST_TRIES = 6
-"""Maximum number of shorter steps after one that does not decrease the sum of squares."""
+_LEAST_GAIN = 0.05  # minimum decrease of the sum of squares for a further iteration
+_MOST_TRIES = 6  # maximum number of shorter steps after one without a gain
 
 
 def minimized(

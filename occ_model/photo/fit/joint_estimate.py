@@ -24,9 +24,7 @@ _CHIPS_LIT = 8
 """Number of chips within which an LED is on at least once; a period where that is shorter, or where
 it is on once only."""
 
-_UNKNOWN_RAMP = 0.002
-"""Relative standard deviation of an exposure due to the shape of its ramps: switching, and
-processing at edges."""
+_UNKNOWN_RAMP = 0.002  # relative deviation of an exposure by its ramps' shape
 
 _UNKNOWN_BLUR = 0.02
 """Relative standard deviation of a blur's variance: no camera's blur has exactly one of the shapes

@@ -46,10 +46,7 @@ fitted, since it would absorb what the model leaves unexplained."""
 
 _KURTOSIS_CHANGE = 0.2  # finite difference of the excess kurtosis
 _ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
-
-_EDGE_SHIFT = 0.4
-"""Standard deviation in columns of the distance of a stripe's edges where pixel values are
-blurred."""
+_EDGE_SHIFT = 0.4  # deviation in columns of edges' distances where pixel values are blurred
 
 _CHIPS_PER_BLOCK = 2
 _LEAST_BLOCK = 16

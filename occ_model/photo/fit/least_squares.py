@@ -30,8 +30,7 @@ Tone = Callable[[FloatArray, float], FloatArray]
 """A camera's response: from lit fractions and gamma to pixel values between any two levels."""
 
 _FULL = WHITE - 0.5
-_LEAST_KEPT = 0.4
-"""Minimum unsaturated fraction of the columns for the saturated ones to be left out."""
+_LEAST_KEPT = 0.4  # minimum unsaturated fraction for saturated columns to be left out
 
 _MOST_ROUNDS = 25
 _LEAST_GAIN = 1e-6  # minimum relative decrease of the sum of squares for a further iteration

@@ -15,10 +15,7 @@ _LONGEST = 4.2  # longest exposure in chips to start from
 
 _MOST_SCANNED = 2
 _MOST_MISFIT_RATIO = 4.0  # maximum misfit ratio of a starting value
-
-_HELD = (0, 3, 4, 5, 6, 7, 8)
-"""Indices of the parameters that are held while exposures are compared: all but the phase."""
-
+_HELD = (0, 3, 4, 5, 6, 7, 8)  # indices of the parameters held while exposures are compared
 _ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
 
 

@@ -27,22 +27,15 @@ MOST_CHIPS = 128
 """Maximum number of chips in a period."""
 
 _LEAST_COHERENCE = 0.6  # minimum coherence of edges with the best lattice of chips
-
-_LONGEST_FOR_EDGES = 1.5
-"""Exposure in chips above which edges may not show the lattice of the chips."""
-
+_LONGEST_FOR_EDGES = 1.5  # exposure in chips above which edges may not show the lattice
 _MOST_COUNTS = 12  # maximum number of lattices that are tried
 _WELL_EXPLAINED = 0.04  # unexplained fraction of the harmonics' power at which the search ends
-
-_MOST_EQUAL_RATIO = 1.5
-"""Maximum ratio of the unexplained power to the least one at which fewer chips are preferred."""
+_MOST_EQUAL_RATIO = 1.5  # ratio to the least unexplained power at which fewer chips do
 
 _LEAST_CROSSINGS = 4
 
 _MOST_UNEXPLAINED = 0.15  # maximum unexplained fraction of the harmonics' power
-
-_MOST_NEIGHBOUR_RATIO = 0.5
-"""Maximum ratio of the unexplained power to that of neighbouring numbers of chips."""
+_MOST_NEIGHBOUR_RATIO = 0.5  # maximum unexplained power over that of neighbouring numbers
 
 _PARTS = (1, 2, 3, 4)
 _LEAST_CHIPS = 5
@@ -51,8 +44,7 @@ _LEAST_HARMONIC_CORRELATION = 0.85
 """Chips that are searched for where those read explain the stripes badly: divisors of the number
 read, minimum number, sequences for each number, and minimum correlation of their harmonics."""
 
-_NEIGHBOURS = (-3, -2, -1, 1, 2, 3)
-"""Differences of the numbers of chips that are compared with one."""
+_NEIGHBOURS = (-3, -2, -1, 1, 2, 3)  # differences of the numbers of chips compared
 
 
 def read_patterns(

@@ -11,9 +11,7 @@ from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.lamp import Lamp
 
 _LEAST_SHARED_ROWS = 0.5  # minimum fraction of rows that two parts of one lamp have in common
-
-_LEAST_LIGHT_RATIO = 0.5
-"""Minimum brightness of a part, and of what lies between two parts, relative to the other part."""
+_LEAST_LIGHT_RATIO = 0.5  # minimum brightness of a part, and between parts, over the other's
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,10 +8,7 @@ from occ_model.arrays import FloatArray, IndexArray
 
 _LEAST_DEVIATIONS = 6.0  # minimum height of a step in standard deviations of the noise
 _LEAST_HEIGHT = 6.0  # minimum height of a step in grey levels
-
-_LEAST_STEP_RATIO = 0.15
-"""Minimum height of a step relative to its neighbours; smaller ones are ringing, scatter or
-texture."""
+_LEAST_STEP_RATIO = 0.15  # minimum height of a step over its neighbours'; less is ringing
 
 
 _CHAIN, _LEAST_CHAIN_RATIO = 5, 0.2
@@ -19,10 +16,7 @@ _CHAIN, _LEAST_CHAIN_RATIO = 5, 0.2
 beside a steep rim: exposures longer than a chip leave faint stripes."""
 
 _EDGE_TOLERANCE = 0.06  # maximum distance of equal edges in chips, besides a column
-
-_LEAST_SWING_RATIO = 0.5
-"""Minimum height of an edge relative to the swing around it for the middle level to be that around
-it."""
+_LEAST_SWING_RATIO = 0.5  # minimum height of an edge over the swing around it, for its level
 
 
 @dataclass(frozen=True, eq=False, slots=True)

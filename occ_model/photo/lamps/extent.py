@@ -8,15 +8,9 @@ from occ_model.photo.lamps.timing import LampTiming
 
 _CELL = 8  # columns over which levels are averaged, about as many as a strip has rows
 _PADDING = 3  # cells around a shape within which its rim may lie
-
-_LEVELS = np.linspace(0.08, 0.92, 15)
-"""Levels between the darkest and the brightest cell at which a rim is searched for."""
-
+_LEVELS = np.linspace(0.08, 0.92, 15)  # between the darkest and the brightest cell
 _DARK = 10.0  # grey levels added before ratios are formed: lower levels are noise
-
-_MOST_FALL = 0.65
-"""Maximum ratio of the levels outside and inside a rim; across two cells a halo falls less."""
-
+_MOST_FALL = 0.65  # maximum ratio of levels outside and inside a rim; a halo falls less
 _LEAST_AREA = 0.2  # minimum area within the rim relative to the shape; less is a hot spot
 
 

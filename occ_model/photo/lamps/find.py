@@ -22,26 +22,15 @@ from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 
-_MOST_REFLECTED = 0.45
-"""Brightness relative to a lamp below which what blinks in time with it is its reflection."""
-
+_MOST_REFLECTED = 0.45  # brightness over a lamp's below which what blinks alike is its reflection
 _FAINT = 0.25  # brightness relative to the brightest lamp below which a lamp may be a reflection
-
-_FAINTEST, _FEW_PERIODS = 0.1, 3.0
-"""Relative brightness and periods in view below which, together, nothing is reported."""
-
+_FAINTEST, _FEW_PERIODS = 0.1, 3.0  # relative brightness and periods of what is not reported
 _GAMMA = 2.2  # exponent that converts grey levels to light for comparison
-
-_MOST_LIT = 0.65
-"""Maximum duty of two stripes; two panes of a window between bars have a larger one."""
-
+_MOST_LIT = 0.65  # maximum duty of two stripes; two panes of a window have a larger one
 _FEW_EDGES = 4  # number of edges of two bright objects side by side
 _LEAST_SPACING = 3.0  # minimum number of columns of a period or a chip
 _LEAST_COLUMNS, _LEAST_PERIODS = 16, 2.0  # minimum width of a lamp in columns, and in periods
-
-_LEAST_STRIP_FRACTION = 0.3
-"""Minimum fraction of a lamp's strips that show its period by themselves."""
-
+_LEAST_STRIP_FRACTION = 0.3  # minimum fraction of strips that show the period by themselves
 _LEAST_OWN = 0.65  # minimum fraction of a segment's edges that are the lamp's
 _CHIP_TOLERANCE = 0.02  # maximum relative difference of a chip between a lamp and its segments
 
@@ -49,14 +38,9 @@ _BLURRED, _HARDLY_STRIPED = 0.15, 0.3
 """Light between the stripes relative to that of the stripes above which the exposure may be longer
 than a chip, and above which it is."""
 
-_PERIOD_TOLERANCE = 0.03
-"""Maximum relative difference of a period from the edges and from the autocorrelation."""
-
+_PERIOD_TOLERANCE = 0.03  # maximum relative difference of periods by edges and autocorrelation
 _MOST_SHARED = 0.5  # fraction of a lamp inside another one above which it is a part of that one
-
-_GLOW, _GLOW_STRIPS = 0.5, 4
-"""Brightness relative to a lamp, and number of strips, below which stripes at its rim are its
-glow."""
+_GLOW, _GLOW_STRIPS = 0.5, 4  # relative brightness, and strips, of a lamp's glow at its rim
 
 
 def find_lamps(photo: Photo, progress: Callable[[float], object] | None = None) -> tuple[Lamp, ...]:

@@ -11,8 +11,7 @@ import numpy as np
 from occ_model.photo.lamps.edges import Edges, equal_within, matches
 from occ_model.photo.lamps.segments import Segment
 
-_MOST_DISTANCE = 2
-"""Maximum distance of neighbouring segments in strips: noise may hide a lamp in one between."""
+_MOST_DISTANCE = 2  # maximum distance of neighbouring segments in strips, for noise
 
 _LEAST_EQUAL_FRACTION = 0.65
 """Minimum fraction of equal edges of two segments, relative to the longer one: in a strip, noise or

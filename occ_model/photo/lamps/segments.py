@@ -18,12 +18,8 @@ from occ_model.photo.lamps.edges import Edges
 _TOLERANCE = 0.04  # maximum distance of an edge from its place, in periods and, besides, in columns
 _COLUMN_TOLERANCE = 0.8  # columns by which an edge may lie off its place: pixels and noise
 _LEAST_EDGES = 4  # minimum number of edges of a lamp: two rising and two falling ones
-
-_LEAST_MORE_EDGES = 4
-"""Minimum number of edges by which a code must exceed a progression: a lamp's rim has two."""
-
-_MOST_GAP_RATIO = 5.0
-"""Ratio to the median distance of edges above which a gap lies between two lamps."""
+_LEAST_MORE_EDGES = 4  # edges by which a code must exceed a progression: a rim has two
+_MOST_GAP_RATIO = 5.0  # ratio to the median distance of edges of a gap between lamps
 
 _LONG_EDGES, _NEARLY_ALL = 6, 0.9
 """Number of edges of a long progression, and fraction of a code's edges above which progressions

@@ -9,14 +9,9 @@ from occ_model.photo.lamps.edges import Edges, matches
 from occ_model.photo.lamps.timing import LampTiming
 from occ_model.results.decoding import Region
 
-_LEAST_SWING = 0.4
-"""Minimum swing relative to the lamp's, or to the edge beside it; less is scattered light."""
-
+_LEAST_SWING = 0.4  # minimum swing over the lamp's, or an edge's; less is scattered light
 _LEAST_OWN = 0.7  # minimum fraction of the edges between a lamp's outermost ones that are its own
-
-_CUT_TOLERANCE = 0.3
-"""Maximum distance of an edge from its place in chips where the rim cuts the stripe beside it."""
-
+_CUT_TOLERANCE = 0.3  # maximum distance in chips of an edge whose stripe the rim cuts
 _MOST_WIDTH = 1.15  # maximum width of a stripe that the rim cuts, relative to a whole one
 _SMOOTH = 2  # strips on either side over which the median of a rim is taken
 

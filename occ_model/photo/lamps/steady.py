@@ -13,9 +13,7 @@ from occ_model.results.lamp import Lamp
 _BRIGHT = 0.6  # fraction of white above which a place is bright
 _ABOVE_MEDIAN = 1.6  # ratio to the picture's median above which a place is bright
 _LEAST_AREA = 3e-4  # minimum area of a lamp relative to the picture
-
-_MOST_COLUMNS = 512
-"""Number of columns to which a picture is reduced: there are no fine stripes to be seen."""
+_MOST_COLUMNS = 512  # to which a picture is reduced: there are no fine stripes
 
 
 def steady_lamps(means: FloatArray, bounds: IndexArray, blinking: Sequence[Lamp]) -> list[Lamp]:

@@ -28,8 +28,7 @@ DIRECTION_NOTE = (
 
 _MILLISECOND = 1e-3
 
-_MOST_SCATTER = 0.01
-"""Maximum relative error of the mean of photos that scatter by more than their errors."""
+_MOST_SCATTER = 0.01  # maximum relative error of the mean of photos that scatter more
 
 
 def frame_readout_time(table: PhotoTable) -> tuple[float, float] | None:

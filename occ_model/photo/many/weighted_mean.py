@@ -19,12 +19,8 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.photo_table import CombinedEstimate
 
-_FALSE_ALARM = 0.01
-"""Probability that one of several estimates with correct errors is taken for an outlier."""
-
-_NORMAL_MAD = 1.4826
-"""Ratio of the standard deviation of a normal distribution to its median absolute deviation."""
-
+_FALSE_ALARM = 0.01  # probability that correct errors make an outlier
+_NORMAL_MAD = 1.4826  # standard deviation over median absolute deviation, if normal
 _LEAST_FOR_OUTLIERS = 3  # minimum number of estimates among which an outlier can be identified
 
 

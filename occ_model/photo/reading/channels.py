@@ -15,8 +15,7 @@ _Take: TypeAlias = Callable[[Samples], Samples]  # extracts a channel from some 
 _COLOURS = ("red", "green", "blue")
 _GREEN = 1
 
-_NEAR_TIE = 0.5
-"""Difference of means, in grey levels, that a lossy format's rounding can cause in a grey photo."""
+_NEAR_TIE = 0.5  # difference of means in grey levels that lossy formats cause in grey
 
 
 def white_of(samples: Samples) -> int:

@@ -31,10 +31,7 @@ _MOST_BYTES = {
 """Largest file in bytes, for formats whose decoders take some seconds for it."""
 
 _MOST_BYTES_OF_TIFF = 150_000_000  # largest file in bytes, for a compressed TIFF
-
-_MOST_BYTES_IN_PYTHON = 3_500_000
-"""Largest file in bytes, for what Pillow decodes in Python: QOI, some BMP and PPM."""
-
+_MOST_BYTES_IN_PYTHON = 3_500_000  # for what Pillow decodes in Python: QOI, some BMP and PPM
 _DEEP_COLOURS = 2  # pictures of 16-bit colours in memory at once: the upper and the lower bytes
 
 _MOST_DEEP_AND_TRANSPARENT = 50_000_000

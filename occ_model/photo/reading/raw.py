@@ -28,8 +28,7 @@ from occ_model.photo.reading.watched_file import Reporter, WatchedFile
 if TYPE_CHECKING:
     from rawpy import RawPy
 
-_BYTES_A_PIXEL = 8
-"""The sensor's samples and those taken of them, each while it is converted and turned."""
+_BYTES_A_PIXEL = 8  # samples and those taken of them, while converted and turned
 
 _TIFF = (b"II*\0", b"MM\0*")
 _OTHERS = (b"IIRO", b"IIRS", b"MMOR", b"IIU\0", b"FUJIFILMCCD-RAW", b"FOVb")
@@ -39,8 +38,7 @@ _CR3 = b"ftypcrx "  # bytes 4 to 11 of Canon's newer files
 
 _MOST_SUB_IFDS = 16
 _PHOTOMETRIC, _SUB_IFDS, _DNG_VERSION = 262, 330, 50706
-_SENSOR_SAMPLES = (32803, 34892)
-"""Photometric interpretations of TIFF/EP and DNG: a colour filter array, and linear samples."""
+_SENSOR_SAMPLES = (32803, 34892)  # TIFF/EP's and DNG's: a colour filter array, linear samples
 
 _GREEN = b"G"[0]
 _ANY = "brightest"

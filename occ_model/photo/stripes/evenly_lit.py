@@ -18,26 +18,13 @@ from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.find import BANDS
 from occ_model.results.decoding import Region
 
-_CLIPPED = 0.98
-"""Fraction of white above which a pixel may have been clipped: compression changes it a little."""
-
-_LEAST_CLIPPED = 0.002
-"""Clipped fraction of the pixels above which a profile is divided into groups."""
-
-_UNCLIPPED, _ALL_CLIPPED = 0.005, 0.9
-"""Clipped fractions of a column's pixels below which it is not clipped, and above which it is."""
-
+_CLIPPED = 0.98  # fraction of white above which a pixel may have been clipped
+_LEAST_CLIPPED = 0.002  # clipped fraction above which a profile is divided into groups
+_UNCLIPPED, _ALL_CLIPPED = 0.005, 0.9  # fractions of a clipped column's pixels
 _BLURRED_COLUMNS = 3  # columns beside a clipped one that blur may have darkened
-
-_LEAST_LIGHT = 0.6
-"""Minimum brightness of a group where no pixel is clipped, relative to the brightest."""
-
-_QUANTILE = 0.75
-"""Quantile that represents the brightness along a row: its ends may not show the lamp."""
-
-_GROUP_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8)
-"""Fractions of white that divide pixels into groups where some are clipped."""
-
+_LEAST_LIGHT = 0.6  # minimum brightness of an unclipped group over the brightest
+_QUANTILE = 0.75  # of the brightness along a row: its ends may not show the lamp
+_GROUP_LEVELS = (0.2, 0.35, 0.5, 0.65, 0.8)  # fractions of white between groups, where some clip
 _CLIPPED_GROUPS = 2  # number of groups of pixels that are clipped while the lamp is on
 
 _MOST_GROUPS = 3

@@ -30,9 +30,7 @@ _LEAST_NEIGHBOUR_RATIO = 0.6  # minimum slope of an outer edge relative to the e
 _NOISE_SLOPE = 0.08  # slope relative to a steep edge below which it is noise or compression
 _SLOPE_COLUMNS = 4  # number of columns over which a slope is measured
 _MOST_GAP_RATIO = 1.6  # ratio to the widest gap between edges above which a gap ends the panel
-
-_STEEP_QUANTILE = 0.98
-"""Quantile of all slopes that represents a steep edge: the panel's rim is steeper."""
+_STEEP_QUANTILE = 0.98  # quantile of slopes of a steep edge: the panel's rim is steeper
 
 _LEAST_COLUMNS = 16
 _LEAST_EDGES = 3

@@ -9,8 +9,7 @@ from occ_model.errors import ParameterError
 from occ_model.photo.reading.load import Photo
 from occ_model.results.lamp import Lamp
 
-_LEAST_STRIPS = 3
-"""Number of strips above which the first and the last, which the lamp's rim cuts, are left out."""
+_LEAST_STRIPS = 3  # above which the outermost ones, cut by the rim, are left out
 
 
 def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:

@@ -7,10 +7,7 @@ from occ_model.photo.stripes.envelope import smooth_shapes
 
 _SHORTEST = 3  # shortest period in columns
 _LEAST_AUTOCORRELATION = 0.5  # minimum autocorrelation after one period
-
-_TOLERANCE = 0.06
-"""Maximum difference of the autocorrelation after the shortest period from the best one."""
-
+_TOLERANCE = 0.06  # maximum difference of the shortest period's autocorrelation from the best
 _LONGEST_FRACTION = 0.67  # longest period relative to the width: part of it must be seen twice
 _MOST_HARMONICS = 24  # maximum number of harmonics
 _MOST_ITERATIONS = 8  # maximum number of Gauss-Newton iterations

@@ -50,9 +50,8 @@ def known_of(match: Match) -> str:
 def match_facts(match: Match, condition: str = "", noted: float | None = None) -> tuple[Fact, ...]:
     """List the facts of a match, in the order of :data:`LABELS`.
 
-    ``condition``: the value that the estimates of time rest on where it is only assumed, as ``"if f
-    = 10 kHz: "``; empty where it is known. ``noted``: the exposure time in seconds that the camera
-    noted in the photo, None if it did not.
+    ``condition``: what the estimates of time rest on where it is only assumed, as ``"if f = 10
+    kHz: "``. ``noted``: the exposure time in seconds that the camera noted in the photo.
     """
     texts = dict[str, tuple[str, str]]()
     for name in ESTIMATES:

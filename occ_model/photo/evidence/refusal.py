@@ -25,8 +25,8 @@ def refusals(
 ) -> list[str]:
     """Say why a hypothesis is refused, in sentences.
 
-    ``curve``, ``wave``, ``likelihood``: log-likelihoods of a smooth curve, of any periodic wave,
-    and of the hypothesis. ``rows_alike``: correlation between the stripes of different rows.
+    ``curve``, ``wave`` and ``likelihood`` are log-likelihoods: of a smooth curve, of any periodic
+    wave, and of the hypothesis.
     """
     least = _LEAST_GIVEN
     if found.was_read:

@@ -50,11 +50,7 @@ class Explanation:
         return max(fit.correlation for fit in self.fits)
 
     def nearest(self, exposure: Callable[[StripeFit], float], wanted: float | None) -> StripeFit:
-        """Choose the fit of the exposure time nearest to a wanted one, or else of the shortest.
-
-        ``exposure``: function that gives a fit's exposure time in seconds. ``wanted``: seconds, or
-        None.
-        """
+        """Choose the fit of the exposure time nearest to a wanted one, or else of the shortest."""
         if wanted is None:
             return self.fits[0]
         return min(self.fits, key=lambda fit: abs(np.log(exposure(fit) / wanted)))
@@ -75,8 +71,7 @@ def explain(
     There are none where the chips never change, or where no fit has the levels of a picture.
 
     ``steps``: chips per column to try, in groups; None stands for all that are possible. A group is
-    tried where none before it surely fits. ``check``: called every few hundredths of a second of
-    the search; what it raises ends it.
+    tried where none before it surely fits. What ``check`` raises ends the search.
     """
     if chips.min() == chips.max():
         return None

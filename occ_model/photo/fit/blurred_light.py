@@ -53,9 +53,8 @@ class BlurredLight:
     ) -> FloatArray:
         """Return the fraction of each column's exposure in which the LED is on, shape (columns,).
 
-        ``blur``: standard deviation of the blur in columns. ``longer``: chips by which each time on
-        is longer than the chips say. ``tails``: excess kurtosis of a blur that is about normal.
-        ``shape``: the blur's distribution.
+        ``blur``: its standard deviation in columns. ``longer``: chips by which each time on is
+        longer than the chips say. ``tails``: excess kurtosis of a blur that is about normal.
         """
         lit = self._sharp(timing, self._edges_of(longer))
         return np.asarray(_blurred(lit[None], blur_kernel(blur, tails, shape))[0])

@@ -38,9 +38,8 @@ def camera_tones(
 ) -> list[CameraTone]:
     """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
-    ``scene``: the scene. Where it equalizes histograms, the response of an equalized picture is
-    given too. ``low``, ``high``: the levels: with gamma they give the luminance of the dark panel
-    relative to the lit one.
+    Where the scene equalizes histograms, the response of an equalized picture is returned too. With
+    gamma the levels give the luminance of the dark panel relative to the lit one.
     """
     tones = []
     for averaging in averagings:

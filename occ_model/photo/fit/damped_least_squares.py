@@ -28,11 +28,10 @@ def minimized(
 
     It ends where a step gains next to nothing: after as many steps as are worth their time.
 
-    ``residual``: from parameters, scaled so that each changes the sum by about 1 over 1, to the
-    residual in standard deviations of the noise. ``first``: shape (parameters,), the first guess.
-    ``share``: where the noise is not known: share of the sum of squares whose decrease does not
-    matter. ``slopes``: from parameters to the residual's slopes, shape (residuals, parameters);
-    without it they are found by finite differences.
+    ``residual`` is in standard deviations of the noise, over parameters scaled so that each changes
+    the sum by about 1 over 1. ``share``: where the noise is not known, the fraction of the sum of
+    squares whose decrease does not matter. ``slopes``: the residual's, shape (residuals,
+    parameters); without it they are found by finite differences.
     """
     here, value = first, residual(first)
     steep = slopes(here) if slopes else _differences(residual, here, value)

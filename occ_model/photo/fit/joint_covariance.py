@@ -24,11 +24,10 @@ def covariance_of(
     blur's tails changes (a parameter that is considered, and not estimated: Jazwinski, Stochastic
     Processes and Filtering Theory, 8.4).
 
-    ``slopes``: shape (residuals, parameters), the residuals' slopes; the first parameter is the
-    step. ``residual``: shape (residuals,), in standard deviations; after the data's come those of
-    what is usual. ``tails``: shape (residuals,), their change by one standard deviation of the
-    blur's tails. ``block``: shape (data,), the block of each of the data. All profiles show the
-    same stripes with the same errors of compression: a block holds the columns of all of them.
+    ``slopes``: shape (residuals, parameters); the first parameter is the step. ``residual``: in
+    standard deviations; after the data's come those of what is usual. ``tails``: its change by one
+    standard deviation of the blur's tails. ``block``: that of each of the data. All profiles show
+    the same stripes with the same errors of compression: a block holds the columns of all of them.
     """
     information = slopes.T @ slopes
     information[np.diag_indices_from(information)] += 1e-9

@@ -65,8 +65,8 @@ def refined(
 ) -> Refined:
     """Refine the fits of an explanation.
 
-    ``gamma``: the gamma that is usual; where the fits hold an estimate of it, it is estimated here
-    too. ``check``: called every few hundredths of a second; what it raises ends the fits.
+    Where the fits hold an estimate of gamma, it is estimated here too. What ``check`` raises ends
+    the work.
     """
     step = explanation.fits[0].timing.step
     chips = explanation.chips

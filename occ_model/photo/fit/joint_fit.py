@@ -98,11 +98,9 @@ class JointFit:
 class JointModel:
     """The model of profiles of one lamp, by one sequence of chips.
 
-    ``profiles``: the profiles of pixels that are lit equally. ``chips``: shape (chips,), one
-    period. ``step``: chips per column, roughly. ``gamma``: the usual gamma; 1 where pixel values
-    are averaged. ``values_blurred``: whether pixel values are blurred (noise reduction, resizing),
-    or light (demosaicing). ``wide``: whether gamma may be any that a scene's may be. ``check``:
-    called whenever the model is evaluated; what it raises ends the fit.
+    ``step``: chips per column, roughly. ``gamma``: usual one; 1 where pixel values are averaged.
+    ``values_blurred``: pixel values are blurred (noise reduction, resizing), else light
+    (demosaicing). ``wide``: gamma may be any that a scene's may be.
     """
 
     def __init__(
@@ -184,9 +182,7 @@ class JointModel:
     ) -> JointFit:
         """Fit from a first guess.
 
-        ``first``: shape (9,), the guess, as the values of a fit. ``fixed``: indices of parameters
-        that are held fixed. ``shape``: the blur's distribution; None: a normal one with tails that
-        are not known.
+        ``fixed``: indices of parameters. ``shape``: the blur's; None: normal, of unknown tails.
         """
         free = self._free.copy()
         free[list(fixed)] = False

@@ -103,8 +103,7 @@ class StripeModel:
     def levels(self, timing: Timing) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Fit the levels for a given timing.
 
-        ``low``, ``swing``, ``profile``: shape (columns,), the profile is the model's, limited to
-        white.
+        ``low``, ``swing`` and the model's profile, limited to white, each of shape (columns,).
         """
         tone = self._tone(timing.lit_fraction(self._waveform, len(self._profile)), timing.gamma)
         kept = LitColumns(self._kept_shapes, tone[self._kept])

@@ -58,13 +58,9 @@ def read_patterns(
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
-    ``profile``: shape (columns,), grey levels. ``flattened``: shape (columns,), the profile without
-    uneven light, from 0 (dark) to 1 (bright). ``period``: columns after which the profile repeats.
-    ``by_edges_only``: whether only the edges are read, which takes far less time than to try each
-    number of chips. ``is_clipped``: whether white pixels may lengthen bright runs by more than an
-    edge's ramp.
-
-    In different ways of reading, by edges first; empty where no sequence explains the stripes.
+    ``by_edges_only`` takes far less time than to try each number of chips. ``is_clipped``: white
+    pixels may lengthen bright runs by more than an edge's ramp. The sequences are those of
+    different ways of reading, by edges first; none where no sequence explains the stripes.
 
     Chips may be misread, or not be read, where the exposure is shorter than a column's readout: the
     position of an edge within a column is then unknown.

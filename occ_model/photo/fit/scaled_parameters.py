@@ -19,11 +19,10 @@ _MOST_LOG_CHANGE = 5.0  # maximum change of that logarithm
 class ScaledParameters:
     """Those parameters that are fitted, as scaled differences from a first guess.
 
-    ``first``: shape (9,), the guess: step, exposure and middle as of a timing, the logarithm of
-    gamma over a usual one, offset, shoulder, contrast, blur, and the chips by which the LED is on
-    longer. ``index``: which of them are fitted. ``scale``: shape (9,), a difference of each that
-    matters about as much; the exposure has its own. ``step``: chips per column, roughly. ``gamma``:
-    bounds of gamma's logarithm.
+    All nine are those of a timing, the logarithm of gamma over a usual one, offset, shoulder,
+    contrast, blur, and the chips by which the LED is on longer. ``index``: which of them are
+    fitted. ``scale``: a difference of each that matters about as much; the exposure has its own.
+    ``step``: chips per column, roughly. ``gamma``: bounds of its logarithm.
     """
 
     def __init__(

@@ -26,11 +26,8 @@ def white_of(samples: Samples) -> int:
 def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:
     """Take one channel of a picture.
 
-    ``channel``: one of :data:`CHANNELS`. Where the brightest nearly ties with green, green is
-    taken: a sensor has the most pixels of it.
-
-    ``samples``: shape (rows, columns). ``name``: the channel: ``"red"``, ``"green"``, ``"blue"``,
-    ``"luma"``; ``"grey"`` if the picture has no colours, also where its file has three equal
+    Where the brightest nearly ties with green, green is taken: a sensor has the most pixels of it.
+    The name is ``"grey"`` if the picture has no colours, also where its file has three equal
     channels.
     """
     first = picture.part((0, 0, 1, 1))

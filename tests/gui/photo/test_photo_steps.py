@@ -21,7 +21,7 @@ def steps(qtbot: QtBot) -> PhotoSteps:
 
 
 def spoken(steps: PhotoSteps) -> list[str]:
-    """Give what a screen reader says of the steps."""
+    """Return what a screen reader says of the steps."""
     faces = [QAccessible.queryAccessibleInterface(button) for button in steps.buttons.values()]
     return [face.text(QAccessible.Text.Name) for face in faces]
 

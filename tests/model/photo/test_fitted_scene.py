@@ -36,7 +36,7 @@ def fit_of(timing: Timing = TIMING, covariance: np.ndarray = COVARIANCE) -> Stri
 
 
 def values(timing: Timing, scene: Scene, estimate: str) -> dict[str, float]:
-    """Give what a timing means: of the first column of the picture, and not of the region."""
+    """Return what a timing means: of the first column of the picture, and not of the region."""
     fit = fit_of(timing)
     readout, frequency = readout_and_frequency(fit, scene, estimate)
     begin = timing.start(COLUMNS) - timing.step * FIRST

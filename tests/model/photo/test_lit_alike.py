@@ -16,7 +16,7 @@ STRIPES = np.tile(np.repeat([0.1, 1.0], 12), 10).astype(np.float32)
 
 
 def cells_of(brightness: np.ndarray) -> Cells:
-    """Give bands of rows that see the same stripes, each as bright as is said; 255 is white."""
+    """Return bands of rows that see the same stripes, each as bright as is said; 255 is white."""
     means = np.minimum(brightness[:, None] * STRIPES, 255.0).astype(np.float32)
     return Cells(means, (means >= 255.0).astype(np.float32), ROWS_A_BAND)
 
@@ -32,7 +32,7 @@ def test_many_rows_are_fitted_before_few_whose_noise_is_not_averaged_out() -> No
 
 
 def fit_of(exposure: float, misfit: float, deviation: float = 0.01) -> JointFit:
-    """Give a fit of an exposure in chips."""
+    """Return a fit of an exposure in chips."""
     values, covariance = np.zeros(9), np.zeros((9, 9))
     values[1], covariance[1, 1] = exposure, deviation**2
     return JointFit(values, covariance, misfit)

@@ -60,7 +60,7 @@ def repeated(line: bytes, times: int) -> bytes:
 
 
 def png(side: int, bits: int, colours: int, interlaced: int = 0) -> bytes:
-    """Give a PNG of one colour: a few hundred kilobytes for as many pixels as are allowed."""
+    """Return a PNG of one colour: a few hundred kilobytes for as many pixels as are allowed."""
     bands = {0: 1, 2: 3, 4: 2, 6: 4}[colours]
     line = b"\0" + b"\x50" * ((side * bands * bits + 7) // 8)
     data = repeated(line, side)

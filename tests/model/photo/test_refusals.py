@@ -32,7 +32,7 @@ def refusal(path: object, **how: int) -> str:
 
 
 def png(width: int, height: int, *, bits: int = 8, colours: int = 0, chunks: bytes = b"") -> bytes:
-    """Give a PNG of this size by its header, and little in it."""
+    """Return a PNG of this size by its header, and little in it."""
 
     def chunk(name: bytes, content: bytes) -> bytes:
         check = zlib.crc32(name + content)

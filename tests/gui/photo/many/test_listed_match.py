@@ -81,7 +81,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
 
 
 def shown_of(application: Application) -> set[str]:
-    """Give the names of the photos that row, title, image, facts and match are of."""
+    """Return the names of the photos that row, title, image, facts and match are of."""
     rows, view = application.view("photo").many.rows, application.view("photo")
     marked = [
         path.name

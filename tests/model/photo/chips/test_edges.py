@@ -53,7 +53,7 @@ def test_the_shortest_runs_are_taken_of_either_kind_without_the_outermost() -> N
 
 
 def edges_at(off: np.ndarray | float = 0.0, longer: float = 0.0) -> Edges:
-    """Give the edges of the chips, each off its place by so much; bright runs are longer."""
+    """Return the edges of the chips, each off its place by so much; bright runs are longer."""
     change = np.diff(CHIPS.astype(int))
     places = COLUMNS * (np.flatnonzero(change) + 1.0) + 4.0 + off
     rises = change[change != 0] > 0

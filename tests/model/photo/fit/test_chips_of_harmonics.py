@@ -24,7 +24,7 @@ STEP = len(CHIPS) / PERIOD
 
 
 def lines_of(exposure: float, longer: float = 0.0) -> np.ndarray:
-    """Give the harmonics of exact stripes whose first column sees the first chip's begin."""
+    """Return the harmonics of exact stripes whose first column sees the first chip's begin."""
     timing = Timing(STEP, exposure, 0.5 * exposure + 0.5 * STEP * (COLUMNS - 1), 1.0)
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, 0.0, longer)
     return harmonics_of(lit - lit.mean(), PERIOD)

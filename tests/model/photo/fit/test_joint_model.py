@@ -20,7 +20,7 @@ NOISE = 0.3 * np.random.default_rng(3).normal(size=COLUMNS)
 
 
 def values_of(true: np.ndarray = TRUE, brightest: float = 0.6) -> np.ndarray:
-    """Give grey levels: a gamma of 2.2 as far off as is said."""
+    """Return grey levels: a gamma of 2.2 as far off as is said."""
     step, exposure, middle, gamma, offset, shoulder, contrast, blur, longer = true.tolist()
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(
         Timing(step, exposure, middle, 2.2), blur, longer

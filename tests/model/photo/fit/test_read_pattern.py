@@ -13,7 +13,7 @@ LINE = np.tile(np.repeat([0.0, 1.0], 10), 12)
 
 
 def turned(chips: np.ndarray) -> list[int]:
-    """Give one and the same turn of chips that go round."""
+    """Return one and the same turn of chips that go round."""
     return min(np.roll(chips, turn).tolist() for turn in range(len(chips)))
 
 

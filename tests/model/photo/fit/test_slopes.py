@@ -24,14 +24,14 @@ Vector = Callable[[np.ndarray], np.ndarray]
 
 
 def central(function: Vector, here: np.ndarray, change: float) -> np.ndarray:
-    """Give central differences of a function, shape (parameters, values)."""
+    """Return central differences of a function, shape (parameters, values)."""
     steps = change * np.eye(len(here))
     sides = [(function(here + step) - function(here - step)) / (2.0 * change) for step in steps]
     return np.stack(sides)
 
 
 def off(slopes: np.ndarray, differences: np.ndarray, share: float = 0.9) -> np.ndarray:
-    """Give the error, over the largest slope, of each parameter that a share of values is within.
+    """Return the error, over the largest slope, of each parameter that a share of values is within.
 
     A difference whose change crosses a corner is no limit there: few of them are.
     """
@@ -48,7 +48,7 @@ def drawn(seed: int) -> np.ndarray:
 
 
 def light_of(parameters: np.ndarray, shape: BlurShape = "normal") -> np.ndarray:
-    """Give the lit fractions of step, exposure, middle, blur and longer."""
+    """Return the lit fractions of step, exposure, middle, blur and longer."""
     step, exposure, middle, blur, longer = parameters.tolist()
     timing = Timing(step, exposure, middle, 2.2)
     return BlurredLight(CHIPS, COLUMNS).lit_fraction(timing, blur, longer, 0.0, shape)
@@ -143,7 +143,7 @@ def model_of(
     values_blurred: bool = False,
     wide: bool = False,
 ) -> JointModel:
-    """Give the model of two profiles under uneven light, one of them half as bright."""
+    """Return the model of two profiles under uneven light, one of them half as bright."""
     step, exposure, middle, *bends, blur, longer = values.tolist()
     table = ToneCurve(2.2 * np.exp(bends[0]), *bends[1:]).table()
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(

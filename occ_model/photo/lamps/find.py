@@ -10,7 +10,12 @@ from occ_model.camera.photometry import WHITE
 from occ_model.photo.lamps.blinking import Blinking, with_codes_joined
 from occ_model.photo.lamps.edges import Edges, edges_of, matches
 from occ_model.photo.lamps.extent import without_halo
-from occ_model.photo.lamps.grouping import LEAST_STRIPS, common_edges, groups_of
+from occ_model.photo.lamps.grouping import (
+    LEAST_EQUAL_FRACTION,
+    LEAST_STRIPS,
+    common_edges,
+    groups_of,
+)
 from occ_model.photo.lamps.segments import Segment, segments_of
 from occ_model.photo.lamps.shape import around, spans_of
 from occ_model.photo.lamps.steady import steady_lamps
@@ -31,7 +36,6 @@ _FEW_EDGES = 4  # number of edges of two bright objects side by side
 _LEAST_SPACING = 3.0  # minimum number of columns of a period or a chip
 _LEAST_COLUMNS, _LEAST_PERIODS = 16, 2.0  # minimum width of a lamp in columns, and in periods
 _LEAST_STRIP_FRACTION = 0.3  # minimum fraction of strips that show the period by themselves
-_LEAST_OWN = 0.65  # minimum fraction of a segment's edges that are the lamp's
 _CHIP_TOLERANCE = 0.02  # maximum relative difference of a chip between a lamp and its segments
 
 _BLURRED, _HARDLY_STRIPED = 0.15, 0.3
@@ -143,7 +147,7 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
     if abs(segment.chip - timing.chip) > _CHIP_TOLERANCE * timing.chip:
         return False
     near = np.count_nonzero(matches(segment.edges, timing.edges, timing.chip))
-    return bool(near > 2 and near >= _LEAST_OWN * len(segment.edges))
+    return bool(near > 2 and near >= LEAST_EQUAL_FRACTION * len(segment.edges))
 
 
 def _columns(spans: IndexArray) -> int:

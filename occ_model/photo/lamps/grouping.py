@@ -13,7 +13,7 @@ from occ_model.photo.lamps.segments import Segment
 
 _MOST_DISTANCE = 2  # maximum distance of neighbouring segments in strips, for noise
 
-_LEAST_EQUAL_FRACTION = 0.65
+LEAST_EQUAL_FRACTION = 0.65
 """Minimum fraction of equal edges of two segments, relative to the longer one: in a strip, noise or
 a rim can join the edges of two lamps, and such a segment must not join the lamps."""
 
@@ -55,12 +55,12 @@ def _agree(one: Segment, other: Segment) -> bool:
     off = equal_within(chip)
     counts = len(one.edges), len(other.edges)
     here, there = one.edges.place, other.edges.place
-    if min(counts) < _LEAST_EQUAL_FRACTION * max(counts) or not (
+    if min(counts) < LEAST_EQUAL_FRACTION * max(counts) or not (
         here[0] <= there[-1] + off and there[0] <= here[-1] + off
     ):
         return False
     near = np.count_nonzero(matches(one.edges, other.edges, chip))
-    return bool(near >= _LEAST_EQUAL_FRACTION * max(counts))
+    return bool(near >= LEAST_EQUAL_FRACTION * max(counts))
 
 
 def common_edges(group: Sequence[Segment]) -> tuple[Edges, np.ndarray]:

@@ -14,6 +14,7 @@ from occ_model.results.match import Match
 def view(qtbot: QtBot) -> PhotoView:
     view = LiveView()
     qtbot.addWidget(view)
+    qtbot.addWidget(view.verdict)  # which stands elsewhere in the window
     view.resize(380, 500)
     view.show()
     view.show_scene(occ.Scene())

@@ -74,10 +74,10 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     settings = RateSettings(1, (decoder,), seed, tolerance, force or {}, path)
     check_rate(scene, settings)
     length = scene.transmitter.payload_length
-    root, pictures = np.random.default_rng(seed), -(-bits // length)
-    chosen = _shared_plan(scene, settings, root, pictures)
+    root = np.random.default_rng(seed)
+    chosen = _shared_plan(scene, settings, root)
     wrong = []
-    for _ in range(pictures):
+    for _ in range(-(-bits // length)):
         sent = with_payload(scene, root.integers(0, 2, length).tolist())
         own = RateSettings(
             1, (decoder,), int(root.integers(2**32)), tolerance, settings.force, path
@@ -87,9 +87,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     return bit_errors_of(scene, decoder, wrong, wrong.count(0))
 
 
-def _shared_plan(
-    scene: Scene, settings: RateSettings, root: np.random.Generator, pictures: int
-) -> Plan | None:
+def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator) -> Plan | None:
     """Return the effects that all pictures are simulated with, None where they are not alike.
 
     A picture of less than a packet can show one run of equal chips or many stripes.
@@ -99,8 +97,8 @@ def _shared_plan(
     if panel_readout_time(scene) < packet:
         return None
     (random,) = root.spawn(1)
-    length, count = transmitter.payload_length, min(pictures, _PLANNED_PAYLOADS)
-    payloads = [random.integers(0, 2, length).tolist() for _ in range(count)]
+    size = _PLANNED_PAYLOADS, transmitter.payload_length
+    payloads = random.integers(0, 2, size).tolist()
     return plan_of_images([with_payload(scene, bits) for bits in payloads], settings)
 
 

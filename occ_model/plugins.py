@@ -92,7 +92,8 @@ def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
         raise PluginError(
             f"{described(group, name)} is a {type(offered).__name__}, not a {kind.__name__}."
         )
-    if (own := getattr(offered, "name", None)) != name:
+    own = getattr(offered, "name", None)
+    if not isinstance(own, str) or own != name:
         raise PluginError(f"{described(group, name)} calls itself {shown(own)}.")
     return offered
 

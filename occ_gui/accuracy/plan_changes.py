@@ -40,7 +40,8 @@ class PlanNews(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._changes = PlanChanges()
-        self._forgetting = QTimer(self, singleShot=True, interval=_NEW_MS)
+        self._forgetting = QTimer(self, singleShot=True)
+        self._forgetting.setInterval(_NEW_MS)
         self._forgetting.timeout.connect(self._forget)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:

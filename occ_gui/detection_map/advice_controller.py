@@ -73,7 +73,8 @@ class AdvisorController(QObject):
         self._with_image_effects = True
         self._advised: AdviceRequest | None = None
         self._counted = 0
-        self._look = QTimer(self, interval=_LOOK_MS)
+        self._look = QTimer(self)
+        self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._show_progress)
         channel.results_ready.connect(self._take)
         channel.finished.connect(self._finish)

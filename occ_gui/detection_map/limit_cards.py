@@ -45,7 +45,8 @@ class LimitCards(QWidget):
             card.chosen.connect(self._go)
         self.frames_a_second = FRAMES_A_SECOND  # by which bits a second are counted
         self._is_complete = self._is_running = self._is_outdated = False
-        self._waiting = QTimer(self, singleShot=True, interval=_REST_MS)
+        self._waiting = QTimer(self, singleShot=True)
+        self._waiting.setInterval(_REST_MS)
         self._waiting.timeout.connect(self._ask)
 
     def _go(self, frequency: float, decoder: str) -> None:

@@ -52,7 +52,8 @@ class MostBitsController(QObject):
         self._scenes, self._queue, self.channel, self._pane = scenes, queue, channel, pane
         self._asked: MostBitsRequest | None = None
         self._done = self._counted = 0
-        self._look = QTimer(self, interval=_LOOK_MS)
+        self._look = QTimer(self)
+        self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._show_tried)
         channel.results_ready.connect(self._take)
         channel.finished.connect(lambda _request: self._end(""))

@@ -41,7 +41,8 @@ class RestingController(QObject):
         self._decoder = PAPER_DECODER
         self._seen = False
         self._asked: RateRequest | None = None
-        self._resting = QTimer(self, singleShot=True, interval=round(1e3 * PAUSE))
+        self._resting = QTimer(self, singleShot=True)
+        self._resting.setInterval(round(1e3 * PAUSE))
         self._resting.timeout.connect(self._measure)
         channel.results_ready.connect(self._take)
         for store in (scenes, settings):

@@ -39,7 +39,8 @@ class SliderStrip(QWidget):
         """The share of bits that are read at the scene's own value."""
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
-        self._fading = QTimer(self, singleShot=True, interval=round(1e3 * DELAY))
+        self._fading = QTimer(self, singleShot=True)
+        self._fading.setInterval(round(1e3 * DELAY))
         self._fading.timeout.connect(self._fade)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self.setAccessibleName(f"Reading along {label.lower()}")

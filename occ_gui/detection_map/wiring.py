@@ -49,7 +49,8 @@ class Measuring(QObject):
         super().__init__()
         self._may_begin, self._was_there = may_begin, False
         self._scenes, self._strips = scenes, strips
-        self._start = QTimer(self, singleShot=True, interval=START_MS)
+        self._start = QTimer(self, singleShot=True)
+        self._start.setInterval(START_MS)
         self._start.timeout.connect(self._begin)
         strips.seen.connect(self._see_strips)
 

@@ -35,7 +35,8 @@ class EquationText(QTextBrowser):
         self.setMinimumHeight(_LEAST_HEIGHT)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.document().setDocumentMargin(4)
-        self._fading = QTimer(self, singleShot=True, interval=HIGHLIGHT_MS)
+        self._fading = QTimer(self, singleShot=True)
+        self._fading.setInterval(HIGHLIGHT_MS)
         self._fading.timeout.connect(lambda: self._write(frozenset()))
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:

@@ -53,7 +53,8 @@ class Session(QObject):
         self._has_failed = False
         # Started by the first change only: if each change restarted it, it would never run out
         # while a slider keeps moving.
-        self._timer = QTimer(self, singleShot=True, interval=LONGEST_WAIT_MS)
+        self._timer = QTimer(self, singleShot=True)
+        self._timer.setInterval(LONGEST_WAIT_MS)
         self._timer.timeout.connect(self.write)
 
     def begin(self, file: SessionFile, *, is_scene_asked: bool) -> None:

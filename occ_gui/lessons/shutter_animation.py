@@ -37,7 +37,8 @@ class ShutterAnimation(QWidget):
         self._shutter: RollingShutter | None = None
         self.moment = 0.0  # share of the animation that has passed, from 0 to 1
         self._is_stopped = False
-        self._turns = QTimer(self, interval=_TURN_MS)
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
         self._turns.timeout.connect(self._advance)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAccessibleName("Animation of a rolling shutter")

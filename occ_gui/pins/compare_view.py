@@ -83,7 +83,8 @@ class CompareView(QWidget):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         # The height of a sentence depends on the width of its column, so rows are fitted after all
         # columns are.
-        self._fitting = QTimer(self, singleShot=True, interval=0)
+        self._fitting = QTimer(self, singleShot=True)
+        self._fitting.setInterval(0)
         self._fitting.timeout.connect(self.table.resizeRowsToContents)
         header.sectionResized.connect(lambda: self._fitting.start())
 

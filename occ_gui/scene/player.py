@@ -39,7 +39,8 @@ class Player(QObject):
         self._fraction = 0.0
         self._set: float | None = None
         self._clock = QElapsedTimer()
-        self._turns = QTimer(self, interval=_TURN_MS)
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
         self._turns.timeout.connect(self._advance)
         for button in buttons.values():
             button.switched.connect(self._switch)

@@ -41,7 +41,8 @@ class StoryPane(Pane[StoryPart]):
         self.verdicts = (view.verdict,)
         self._scenes = scenes
         # Looking for plug-ins takes some 40 ms: not before the first picture is painted.
-        self._plugins = QTimer(self, singleShot=True, interval=_REST_MS)
+        self._plugins = QTimer(self, singleShot=True)
+        self._plugins.setInterval(_REST_MS)
         self._plugins.timeout.connect(self._offer)
         shown = scenes.store.workspace
         self._shown: StoryPart = (None, None, None, shown.decoder, shown.whose)

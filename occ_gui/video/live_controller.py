@@ -44,7 +44,8 @@ class LiveController(QObject):
         )
         self.finder.finished.connect(self.devices_found)
         self.finder.failed.connect(self.ended)
-        self._turns = QTimer(self, interval=_TURN_MS)
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
         self._turns.timeout.connect(self._show)
         self._answered.connect(self._on_answer, Qt.ConnectionType.QueuedConnection)
         self._shown = -1

@@ -20,7 +20,8 @@ class FilmPlayer(QObject):
         self._rate = _USUAL_RATE
         self._began_at = 0
         self._clock = QElapsedTimer()
-        self._turns = QTimer(self, interval=_TURN_MS)
+        self._turns = QTimer(self)
+        self._turns.setInterval(_TURN_MS)
         self._turns.timeout.connect(self.advance)
 
     @property

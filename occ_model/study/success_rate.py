@@ -129,6 +129,7 @@ def plan_of_images(scenes: Sequence[Scene], settings: RateSettings) -> Plan:
     return signal_plan(scenes, own, needs_pixels=_span(scenes[0], settings.path) is None)
 
 
+@lru_cache(maxsize=4)
 def _span(scene: Scene, path: SignalPath) -> Region | None:
     """Return the rectangle that the panel fills, None where pixels are simulated in any case."""
     return panel_span(scene) if path in ("auto", "profile") else None

@@ -29,7 +29,7 @@ MAY_COMPUTE = (
     "column_facts",
     "controller",
     "comparison",
-    "figures",
+    "feature",
     "jobs",
     "known_scene",
     "measurement",

@@ -6,7 +6,7 @@ so that one process searches along one parameter for all of them.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import BrokenExecutor, CancelledError, wait
+from concurrent.futures import wait
 from contextlib import ExitStack, suppress
 from functools import partial
 from itertools import cycle, islice
@@ -191,9 +191,15 @@ class _Ways:
 
         ``counts``: the processes of each pool; the pools take the requests in turn.
         """
+        from occ_model.parallel.process_pool import ProcessPool
+
         done = 0
-        with suppress(*NO_PROCESSES, BrokenExecutor, CancelledError):
-            pools = self._start(counts) if self._jobs > 1 and asked else []
+        with suppress(*NO_PROCESSES, *ProcessPool.lost_by):
+            pools = []
+            for count in counts if self._jobs > 1 and asked else ():
+                pools.append(ProcessPool(count, __name__))
+                self._stack.callback(pools[-1].close)
+            self._pools += pools
             futures = [
                 pool.submit(Job(work, each), 0, 1)
                 for pool, each in zip(cycle(pools), asked, strict=False)
@@ -206,17 +212,6 @@ class _Ways:
                 done += 1
         for each in asked[done:]:
             yield work(*each, partial(self._on_image, each))
-
-    def _start(self, counts: Sequence[int]) -> "list[ProcessPool]":
-        from occ_model.parallel.process_pool import ProcessPool
-
-        pools = []
-        for count in counts:
-            pool = ProcessPool(count, __name__)
-            self._stack.callback(pool.close)
-            pools.append(pool)
-        self._pools += pools
-        return pools
 
     def _on_image(self, asked: tuple[Any, ...]) -> None:
         self._read += 1

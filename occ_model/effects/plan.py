@@ -19,6 +19,9 @@ from occ_model.scene.simulation_settings import (
     SimulationSettings,
 )
 
+_ROUNDING = 1.0 + 1e-9
+"""Factor on an error that is compared with one whose sums were rounded otherwise."""
+
 _CLEARLY = 1.3
 """Times an estimate that a limit is to be for both to be told."""
 
@@ -170,7 +173,7 @@ def ways_of(scene: Scene, settings: SimulationSettings) -> tuple[Way, ...]:
     found: list[Way] = []
     for way, error in zip(sets.ways, sets.errors_of(sets.ways), strict=True):
         if error < (found[-1].error if found else math.inf):
-            found.append(Way(way.effects, way.seconds, error))
+            found.append(Way(way.effects, way.seconds, error * _ROUNDING))
     return tuple(found)
 
 

@@ -173,15 +173,17 @@ def test_what_only_the_signal_calls_for_is_named() -> None:
     assert called_for_by_signal(occ.plan(scene, math.inf), scene) == ()
 
 
-@pytest.mark.parametrize("observable", ["image", "profile", "signal"])
+@pytest.mark.parametrize("observable", ["image", "profile", "signal", "decision"])
+@pytest.mark.parametrize("name", [name for name in occ.presets() if name.endswith("-real")])
 def test_a_plan_changes_at_the_error_of_each_way_and_nowhere_else(
-    scene: Scene, observable: Observable
+    name: str, observable: Observable
 ) -> None:
+    scene = occ.load_preset(name)
     ways = ways_of(scene, SimulationSettings(observable=observable))
-    assert len(ways) > 4
+    assert len(ways) > 15
     for faster, way in pairwise(ways):
         assert way.error < faster.error
-        for tolerance in (way.error, math.nextafter(faster.error, 0.0)):
+        for tolerance in (way.error, faster.error / (1.0 + 1e-8)):
             if tolerance:
                 assert set(occ.plan(scene, tolerance, observable).included) == way.effects
 

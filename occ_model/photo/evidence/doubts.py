@@ -2,7 +2,7 @@
 
 from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.repetition import strongest_line
-from occ_model.photo.fit.chip_runs import chips_as_one, is_single_pulse, runs_of
+from occ_model.photo.fit.chip_runs import chips_as_one, chips_if_longer, is_single_pulse, runs_of
 from occ_model.photo.stripes.period import unrepeated_share
 from occ_model.results.match import Stripes
 
@@ -144,19 +144,27 @@ def _doubts_by_reading(found: Hypothesis, stripes: Stripes) -> list[str]:
             "The chips were found by trying many sequences of them, some of which may explain the "
             "stripes of any object."
         ]
+    reasons = []
+    count, (together, longer) = len(found.chips), chips_if_longer(found.chips)
+    if together > 1 and stripes.saturated > UNCLIPPED:
+        reasons.append(
+            f"{100.0 * stripes.saturated:.0f} % of the pixels are white, which lengthens bright "
+            f"pulses: if each is longer by {longer} of the {count} chips that were read, "
+            f"{count // together} chips that last {together} times as long explain the same edges."
+        )
     if stripes.period is None:
-        return []
+        return reasons
     left = 1.0 - max(found.fit.correlation, 0.0) ** 2
     repeated = unrepeated_share(stripes.flattened, stripes.period)
     most = max(_MOST_RATIO_TO_WAVE * repeated, _WELL_EXPLAINED)
     allowed = min(most, _MOST_UNEXPLAINED)
-    if left <= allowed:
-        return []
-    shown, limit = told_apart(100.0 * left, 100.0 * allowed)
-    return [
-        f"What was read from the stripes leaves {shown} % of them unexplained; at most {limit} % "
-        "are allowed."
-    ]
+    if left > allowed:
+        shown, limit = told_apart(100.0 * left, 100.0 * allowed)
+        reasons.append(
+            f"What was read from the stripes leaves {shown} % of them unexplained; at most "
+            f"{limit} % are allowed."
+        )
+    return reasons
 
 
 def told_apart(value: float, limit: float) -> tuple[str, str]:

@@ -46,3 +46,21 @@ def chips_as_one(chips: ByteArray) -> float:
     square wave of two chips does.
     """
     return 0.5 * len(chips) if len(runs_of(chips)) == 2 else 1.0
+
+
+def chips_if_longer(chips: ByteArray) -> tuple[int, int]:
+    """Return how many chips may be one, and by how many each bright run is too long for that.
+
+    Rising edges lie on a lattice of such chips, and falling edges on another; (1, 0) where they do
+    not. A single pulse is of any such length.
+    """
+    runs = runs_of(canonical(chips))
+    if len(runs) <= 2:
+        return 1, 0
+    bright = runs[::2]  # the longest run of ones comes first
+    rising = np.cumsum([0, *runs])[::2]
+    falling = rising[:-1] + bright
+    together = math.gcd(*np.diff(rising).tolist(), *np.diff(falling).tolist())
+    lengths = [part for part in range(1, together + 1) if together % part == 0]
+    most = max(part for part in lengths if min(bright) > bright[0] % part)
+    return most, bright[0] % most

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from photo_world.trials import hot_trial_of
 from simulated_photos import photo_of, random_scene, take
-from verdicts import Said, said_of_negative, said_of_other_code
+from verdicts import Said, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 import occ_model as occ
 from occ_model.photo.evidence.hypothesis import Hypothesis
@@ -158,6 +158,13 @@ def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:
     match = occ.match_photo(take(scene), scene.replace(pattern="10"))
     assert len(match.pattern) == 24
     assert any("as is given" in why for why in match.reasons)
+
+
+def test_chips_are_never_surely_taken_for_half_chips_where_white_lengthens_them() -> None:
+    """Half of the picture is white, and every bright run is longer by half a chip."""
+    said = said_of_unknown_chips(996029)
+    assert said.verdict == "doubtful"
+    assert "24 chips that last 2 times as long explain the same edges" in said.why
 
 
 @pytest.mark.whole

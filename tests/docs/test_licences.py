@@ -8,13 +8,13 @@ import pytest
 from documents import FOLDER, text_of
 from licences import direct, groups, indirect, installed, licence
 
-PAGE = FOLDER / "licences.md"
+PAGE = FOLDER / "about.md"
 AGAIN = "`python tests/licences.py` prints the tables anew"
 
 
 def table(heading: str) -> dict[str, list[str]]:
     """Read the cells of a table by its first column."""
-    part = text_of(PAGE).partition(f"\n## {heading}\n")[2].partition("\n## ")[0]
+    part = text_of(PAGE).partition(f"\n### {heading}\n")[2].partition("\n### ")[0]
     rows = [line.strip("| ").split(" | ") for line in part.splitlines() if line.startswith("| ")]
     return {cells[0]: cells[1:] for cells in rows[1:]}
 

@@ -37,6 +37,7 @@ def edged(edge: float, exposure: float, **changes: float | str) -> Scene:
 def edge_error(scene: Scene) -> float:
     """The worst column's lit share less that of rational arithmetic."""
     exact, found = ExactTimes(scene), edged_lit_fraction(scene)
+    assert 0.0 <= found.min() <= found.max() <= 1.0
     columns = some_columns(scene)
     return max(
         float(abs(Fraction(float(found[column])) - exact.edged_share(column))) for column in columns

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator
-from itertools import pairwise
 
 import mpmath
 import numpy as np
@@ -86,7 +85,6 @@ def test_half_of_thirty_million_pixels_is_counted_to_the_pixel() -> None:
     image[:half] = 200
     image[half : half + 5] = 190
     found = locate(image.reshape(-1, 673), 0.5)
-    assert found is not None
     assert found.bright_level == 200
 
 
@@ -221,12 +219,3 @@ def test_wilsons_interval_is_that_of_fifty_digits(count: tuple[int, int], tail: 
     assert max(errors) <= 1e-11
     assert (low == 0.0) == (successes == 0)
     assert high == 1.0 or successes < trials
-
-
-def test_intervals_shrink_with_every_tenfold_of_trials() -> None:
-    # A rate of a half: the width falls by the square root of ten, down to 1e-8.
-    widths = [
-        high - low for low, high in (wilson_interval(10**n // 2, 10**n) for n in range(1, 16))
-    ]
-    for wide, narrow in list(pairwise(widths))[4:]:
-        assert wide / narrow == pytest.approx(math.sqrt(10), rel=1e-4)

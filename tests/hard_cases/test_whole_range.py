@@ -117,6 +117,12 @@ SCENES: dict[str, dict[str, float | int | str]] = {
     # Hardly any: 1e-31 times white, of which single precision leaves nothing.
     "hardly any light": {"luminance": 1e-16, "illuminance": 1e-16, "iso": 1.0, "gamma": 1.0,
                          "exposure_time": 1e-9, "f_number": 128.0, "vignetting_exponent": 20.0},
+    # The panel's own light is lost in the last digit of what it reflects.
+    "a panel lost in the sun": {"luminance": 1e-9, "illuminance": 1e9},
+    # Light that has fewer digits than a float has, the smallest number but 0.
+    "the smallest luminance there is": {"luminance": 5e-324, "illuminance": 0.0},
+    # The steepest gamma: next to black one ulp of light is a grey level.
+    "the steepest gamma": {"gamma": 4.0, "luminance": 1e-12, "illuminance": 0.0},
     # The corner sees 1e-27 of the light on the axis.
     "the corner of a fisheye": {"equivalent_focal_length": 1e-3, "vignetting_exponent": 20.0,
                                 "distance": 1e-3, "panel_width": 100.0, "panel_height": 100.0},
@@ -138,5 +144,6 @@ SCENES: dict[str, dict[str, float | int | str]] = {
 def test_a_hard_scene_is_planned_and_pictured(name: str, observable: Observable) -> None:
     scene = Scene().replace(**({"rows": 24, "columns": 48} | SCENES[name]))
     frame = occ.render(scene, tolerance=0, observable=observable, force=dict.fromkeys(NAMES, True))
+    assert np.isfinite(frame.profile).all()
     assert all(0.0 <= one.estimate < math.inf for one in frame.plan.decisions)
     assert 0.0 <= frame.profile.min() <= frame.profile.max() <= 255.0

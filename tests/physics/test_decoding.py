@@ -50,15 +50,6 @@ def test_codes_are_read_whatever_the_enhancement(
     assert occ.decode(occ.render(scene).image, scene).code == code
 
 
-def test_a_picture_at_136_us_is_read_where_the_band_model_fails() -> None:
-    scene = occ.load_preset("phone-136us").replace(switching_frequency=10e3)
-    result = occ.decode(occ.render(scene).image, scene)
-    assert result.failure is None
-    assert result.code == scene.transmitter.code
-    with pytest.raises(occ.BandModelUndefined):
-        occ.band_profile(scene)
-
-
 @pytest.mark.parametrize("bits", [2, 3, 5, 16])
 def test_codes_of_other_lengths_are_read(covered: Scene, bits: int) -> None:
     for code in range(0, 2**bits, max(1, 2**bits // 32)):
@@ -92,10 +83,6 @@ def test_a_packet_without_single_zeros_is_read_from_any_start(covered: Scene, bi
 def test_every_step_stands_on_the_result(covered: Scene) -> None:
     scene = covered.replace(start_time=0.0)
     result = occ.decode(occ.render(scene).image, scene)
-    assert result.region is not None
-    assert result.signal is not None
-    assert result.runs is not None
-    assert result.chip_starts is not None
     assert result.signal.shape == (result.region.columns,)
     assert result.runs.lengths.sum() == result.region.columns
     assert result.chip_length == pytest.approx(100 / 8, rel=0.01)
@@ -110,36 +97,13 @@ def test_chips_read_are_the_chips_sent(covered: Scene) -> None:
     np.testing.assert_array_equal(read, occ.packet(covered))
 
 
-def test_profile_and_image_give_the_same_code(covered: Scene) -> None:
-    frame = occ.render(covered)
-    by_image = occ.decode(frame.image, covered)
-    by_profile = occ.decode(frame.signal, covered)
-    assert by_image.code == by_profile.code == covered.transmitter.code
-
-
-def test_image_types_do_not_change_what_is_read(covered: Scene) -> None:
-    image = occ.render(covered).image
-    for same in (image.astype(np.uint16) * 257, image.astype(np.float32), image.astype(float)):
-        assert occ.decode(same, covered).code == covered.transmitter.code
-
-
 def test_too_few_chips_say_how_many_fit_and_what_helps() -> None:
     scene = occ.load_preset("phone-68us").replace(switching_frequency=4e3, distance=2.0, rows=64)
     # Start behind a header, so that only one whole header lies in the picture.
     failure = occ.decode(occ.render(scene.replace(start_time=2e-3)).image, scene).failure
-    assert failure is not None
     assert "two needed" in failure
     assert "of 48 chips fit" in failure
     assert "come closer" in failure
-
-
-def test_an_exposure_of_two_periods_hides_alternating_stripes() -> None:
-    scene = Scene().replace(
-        pattern="01", exposure_time=2.0**-13, switching_frequency=2.0**14, rows=20, distance=0.1
-    )
-    failure = occ.decode(occ.render(scene, tolerance=np.inf).image, scene).failure
-    assert failure is not None
-    assert "No panel found" in failure or "No stripes" in failure
 
 
 @pytest.mark.parametrize("pattern", ["01", "0011", "0101100", "010100010110001001000"])
@@ -173,34 +137,4 @@ def test_a_raw_pattern_gives_its_chips_and_no_packet(covered: Scene) -> None:
     scene = covered.replace(pattern="010100010110001001000")
     result = occ.decode(occ.render(scene).image, scene)
     assert result.code is None
-    assert result.failure is not None
     assert "raw chip pattern" in result.failure
-
-
-@pytest.mark.parametrize(
-    "image",
-    [
-        np.zeros((20, 30), dtype=np.uint8),
-        np.full((20, 30), 255, dtype=np.uint8),
-        np.full((1, 1), 7, dtype=np.uint8),
-        np.arange(20, dtype=np.uint8)[:, None],
-        np.arange(30, dtype=np.uint8)[None, :],
-        np.full(50, 3.5),
-        np.array([1.0]),
-    ],
-    ids=["black", "white", "pixel", "column", "row", "flat profile", "one value"],
-)
-def test_pictures_without_stripes_give_a_sentence(image: np.ndarray) -> None:
-    result = occ.decode(image, Scene())
-    assert result.code is None
-    assert result.failure is not None
-    assert result.failure.endswith(".")
-
-
-def test_noise_gives_a_sentence_and_never_an_exception() -> None:
-    rng = np.random.default_rng(3)
-    for shape in ((40, 50), (3, 400), (400, 3)):
-        for _ in range(20):
-            image = rng.integers(0, 256, shape, dtype=np.uint8)
-            result = occ.decode(image, Scene())
-            assert (result.code is None) == (result.failure is not None)

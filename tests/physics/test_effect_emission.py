@@ -66,16 +66,6 @@ def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
     assert own == pytest.approx((bright - dark) * math.cos(angle) ** (order - 1), rel=1e-5)
 
 
-def test_a_level_panel_darkens_off_axis_by_the_rays_cosine() -> None:
-    scene = steady()
-    dark, bright = luminance_levels(scene)
-    own = pictured_luminance(scene) - dark
-    focal = scene.camera.focal_length_pixels
-    for row, column in ((50, 0), (0, 150), (0, 0), (100, 300), (20, 290)):
-        ray = math.atan(math.hypot(row - 50, column - 150) / focal)
-        assert own[row, column] == pytest.approx((bright - dark) * math.cos(ray) ** 2, rel=1e-5)
-
-
 @pytest.mark.parametrize("degrees", [15.0, -30.0])
 def test_angles_of_yaw_and_ray_add_up(degrees: float) -> None:
     yaw = math.radians(degrees)

@@ -12,8 +12,6 @@ import occ_model as occ
 from occ_model.effects.jpeg import Jpeg, quantization_steps
 from occ_model.scene.scene import Scene
 
-QUALITIES = [1, 2, 5, 10, 20, 35, 49, 50, 51, 65, 80, 90, 95, 98, 99, 100]
-
 
 def kept_at(quality: int) -> Scene:
     return Scene().replace(jpeg_quality=quality)
@@ -30,19 +28,6 @@ def steps_in_file(quality: int) -> np.ndarray:
         table = list(picture.quantization[0])  # type: ignore[attr-defined]
     assert len(table) == 64
     return np.array(table).reshape(8, 8)
-
-
-def worst_case(quality: int) -> np.ndarray:
-    """Blocks of coefficients half a step off, as far as 8 bits hold them, shape (256, 256)."""
-    rng = np.random.default_rng(quality)
-    steps = quantization_steps(quality)
-    blocks = []
-    for _ in range(32 * 32):
-        whole = rng.integers(-1, 1, (8, 8)) * (rng.random((8, 8)) < rng.uniform(0, 1))
-        coefficients = (whole + 0.5) * steps * rng.choice([-1, 1], (8, 8))
-        blocks.append(cv2.idct(coefficients) + 128.0)
-    tiled = np.array(blocks).reshape(32, 32, 8, 8).swapaxes(1, 2).reshape(256, 256)
-    return np.clip(np.rint(tiled), 0, 255).astype(np.uint8)
 
 
 @pytest.mark.parametrize("quality", range(1, 101))

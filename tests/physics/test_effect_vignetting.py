@@ -51,11 +51,6 @@ def test_pixels_darken_by_the_power_of_their_cosine(exponent: float, gamma: floa
         assert values[pixel] == pytest.approx(unvignetted * factor, rel=1e-5)
 
 
-def test_on_the_axis_nothing_is_lost() -> None:
-    scene = vignetted()
-    assert shown(scene)[50, 150] == pytest.approx(occ.column_profile(scene)[150], rel=1e-6)
-
-
 def test_all_light_is_lost_alike_that_of_the_surroundings_too() -> None:
     scene = vignetted(distance=3.0, illuminance=3000.0)
     image = occ.render(scene, force=ONLY).image

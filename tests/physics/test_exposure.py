@@ -1,7 +1,5 @@
 """Laws of the rolling shutter's exposure, against exact rational arithmetic."""
 
-from fractions import Fraction
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -10,93 +8,6 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.exposure import column_phases, forget_exposures, lit_fraction
 from occ_model.scene.scene import Scene
-
-PATTERNS = st.text(alphabet="01", min_size=1, max_size=40)
-
-
-def exact_on_time(scene: Scene, column: int) -> Fraction:
-    """t_on of one column in exact arithmetic: the chips' overlaps with the window, summed."""
-    chips = [int(chip) for chip in occ.packet(scene)]
-    frequency = Fraction(scene.transmitter.switching_frequency)
-    start = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
-    end = start + Fraction(scene.camera.exposure_time)
-
-    def lit_until(time: Fraction) -> Fraction:
-        position = time * frequency
-        periods, within = divmod(position, len(chips))
-        whole = int(within)
-        return periods * sum(chips) + sum(chips[:whole]) + (within - whole) * chips[whole]
-
-    return (lit_until(end) - lit_until(start)) / frequency
-
-
-def random_scene(rng: np.random.Generator) -> Scene:
-    """A scene with t / t_LED from 0.01 to 1000 and every other time over decades."""
-    frequency = float(10 ** rng.uniform(0, 6))
-    ratio = float(10 ** rng.uniform(-2, 3))
-    return Scene().replace(
-        switching_frequency=frequency,
-        exposure_time=min(max(ratio / frequency, 1e-9), 1e6),
-        readout_time=float(10 ** rng.uniform(-9, -2)),
-        start_time=float(rng.uniform(-1, 1) * 10 ** rng.uniform(-6, 3)),
-        code=int(rng.integers(1024)),
-        columns=int(rng.integers(1, 5000)),
-    )
-
-
-def test_on_time_is_exact_to_1e_12_of_the_exposure() -> None:
-    rng = np.random.default_rng(20)
-    worst = 0.0
-    for _ in range(3000):
-        scene = random_scene(rng)
-        on_time = occ.on_time(scene)
-        last = scene.camera.columns - 1
-        for column in {0, last, int(rng.integers(last + 1))}:
-            error = Fraction(float(on_time[column])) - exact_on_time(scene, column)
-            worst = max(worst, float(abs(error)) / scene.camera.exposure_time)
-    assert worst <= 1e-12
-
-
-@given(
-    pattern=PATTERNS,
-    chips=st.floats(0.01, 1000),
-    start=st.floats(-1.0, 1.0),
-    readout=st.floats(1e-9, 1e-3),
-)
-def test_on_time_is_never_negative_nor_above_the_exposure(
-    pattern: str, chips: float, start: float, readout: float
-) -> None:
-    exposure = chips * 1e-4
-    scene = Scene().replace(
-        pattern=pattern,
-        switching_frequency=1e4,
-        exposure_time=exposure,
-        start_time=start,
-        readout_time=readout,
-        columns=50,
-    )
-    on_time = occ.on_time(scene)
-    assert on_time.min() >= 0.0
-    assert on_time.max() <= exposure
-
-
-@given(pattern=PATTERNS, chips=st.floats(0.01, 1000), start=st.floats(-1.0, 1.0))
-def test_on_and_off_time_fill_the_exposure(pattern: str, chips: float, start: float) -> None:
-    scene = Scene().replace(exposure_time=chips * 1e-4, start_time=start, columns=50)
-    opposite = pattern.translate(str.maketrans("01", "10"))
-    on_time = occ.on_time(scene.replace(pattern=pattern))
-    off_time = occ.on_time(scene.replace(pattern=opposite))
-    # Each rounds a fraction of a chip a few times, by half an ulp of one chip or less.
-    rounding = 4 * 2.0**-53 * 1e-4
-    np.testing.assert_allclose(on_time + off_time, chips * 1e-4, rtol=1e-15, atol=rounding)
-
-
-@given(packets=st.integers(-1000, 1000), code=st.integers(0, 1023))
-def test_a_start_whole_packets_later_changes_nothing(packets: int, code: int) -> None:
-    # 8192 Hz: 24 chips last a binary fraction of a second, so that the shift is exact.
-    scene = Scene().replace(code=code, switching_frequency=8192.0, start_time=0.0, columns=100)
-    later = scene.replace(start_time=packets * 24 / 8192)
-    np.testing.assert_array_equal(occ.on_time(later), occ.on_time(scene))
 
 
 @given(columns=st.integers(0, 500), code=st.integers(0, 1023))
@@ -168,14 +79,6 @@ def test_whole_periods_of_a_square_wave_leave_no_bands(denominator: int) -> None
         pattern="01", switching_frequency=600.0, exposure_time=1 / denominator, columns=3000
     )
     assert np.ptp(lit_fraction(scene)) < 1e-12
-
-
-def test_columns_do_not_drift_over_a_million_of_them() -> None:
-    scene = Scene().replace(columns=1_000_000, readout_time=7.77e-6, exposure_time=1e-7)
-    on_time = occ.on_time(scene)
-    for column in (1, 999, 123_456, 999_999):
-        error = abs(Fraction(float(on_time[column])) - exact_on_time(scene, column))
-        assert float(error) <= 1e-12 * scene.camera.exposure_time
 
 
 @given(start=st.floats(-1e3, 1e3), readout=st.floats(1e-9, 1.0), frequency=st.floats(1.0, 1e6))

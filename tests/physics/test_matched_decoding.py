@@ -39,7 +39,6 @@ def test_it_reads_a_single_packet_and_says_where_none_fits() -> None:
     assert success_rate(scene.replace(switching_frequency=1e3), 5, "matched") == 100.0
     slow = scene.replace(switching_frequency=850.0)
     result = occ.decode(occ.render(slow).image, slow, "matched")
-    assert result.failure is not None
     assert "Less than one packet" in result.failure
 
 
@@ -179,14 +178,12 @@ def test_codes_of_sixteen_bits_take_little_memory() -> None:
 def test_confidence_is_near_1_when_clear_and_near_0_for_noise() -> None:
     scene = occ.load_preset("phone-136us")
     clear = occ.decode(occ.render(scene).image, scene, "matched")
-    assert clear.confidence is not None
     assert clear.confidence > 0.9
     rng = np.random.default_rng(5)
     for _ in range(200):
         noise = occ.decode(rng.normal(100.0, 5.0, 1730), scene, "matched")
         assert noise.code is None
         assert noise.failure is not None
-        assert noise.confidence is not None
         assert noise.confidence < HIGH_CONFIDENCE
 
 
@@ -206,40 +203,6 @@ def test_a_wrong_code_never_comes_with_high_confidence() -> None:
         result = occ.decode(noisy, scene, "matched")
         if result.code is not None and result.code != scene.transmitter.code:
             wrong += 1
-            assert result.confidence is not None
             wrong_and_sure += result.confidence >= HIGH_CONFIDENCE
     assert wrong_and_sure == 0
     assert wrong > 0  # else the trials were too easy to prove anything
-
-
-def test_codes_of_sixteen_bits_are_read_too() -> None:
-    scene = occ.load_preset("phone-136us").replace(bits=16, code=54321, switching_frequency=20e3)
-    result = occ.decode(occ.render(scene.replace(rows=64, distance=0.1)).image, scene, "matched")
-    assert result.code == 54321
-
-
-@pytest.mark.parametrize(
-    "image",
-    [
-        np.zeros((20, 30), dtype=np.uint8),
-        np.full((20, 30), 255, dtype=np.uint8),
-        np.full((20, 1), 9, dtype=np.uint8),
-        np.arange(30, dtype=np.uint8)[None, :],
-        np.tile(np.array([[0, 255]], dtype=np.uint8), (20, 2000)),
-        np.full(4000, 3.5),
-    ],
-    ids=["black", "white", "column", "row", "finest stripes", "flat profile"],
-)
-def test_pictures_without_a_code_give_a_sentence(image: np.ndarray) -> None:
-    result = occ.decode(image, Scene(), "matched")
-    assert result.code is None
-    assert result.failure is not None
-    assert result.failure.endswith(".")
-
-
-@pytest.mark.parametrize("packets", [1, 2, 1000])
-def test_an_exposure_of_whole_packets_differs_from_a_bad_picture(packets: int) -> None:
-    scene = Scene().replace(switching_frequency=8192.0, exposure_time=packets * 24 / 8192)
-    result = occ.decode(np.random.default_rng(1).normal(100, 9, 3000), scene, "matched")
-    assert result.failure is not None
-    assert "whole number of packets" in result.failure

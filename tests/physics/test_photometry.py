@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import occ_model as occ
-from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.photometry import level_values, luminance_levels, pixel_value
 from occ_model.scene.scene import Scene
 
@@ -50,15 +49,6 @@ def test_surroundings_add_their_reflected_light_to_both_states() -> None:
     assert bright - dark == pytest.approx(3600)
 
 
-def test_profile_is_the_weighted_mean_of_equation_3() -> None:
-    scene = occ.load_preset("phone-136us")
-    t = scene.camera.exposure_time
-    on_time = occ.on_time(scene)
-    dark, bright = level_values(scene)
-    expected = (bright * on_time + dark * (t - on_time)) / t
-    np.testing.assert_allclose(occ.column_profile(scene), expected, rtol=1e-14)
-
-
 @given(gamma=st.floats(1.0, 4.0), code=st.integers(0, 1023))
 def test_averaging_light_is_never_darker_than_averaging_values(gamma: float, code: int) -> None:
     scene = Scene().replace(gamma=gamma, code=code, columns=200)
@@ -68,35 +58,3 @@ def test_averaging_light_is_never_darker_than_averaging_values(gamma: float, cod
     assert (by_light >= by_value - 1e-9).all()
     if gamma == 1.0:
         np.testing.assert_allclose(by_light, by_value, rtol=1e-12)
-
-
-def test_both_ways_of_averaging_agree_in_constant_light() -> None:
-    scene = Scene().replace(exposure_time=10e-6, switching_frequency=1e3)
-    steady = (lit_fraction(scene) == 0.0) | (lit_fraction(scene) == 1.0)
-    assert steady.mean() > 0.5
-    np.testing.assert_allclose(
-        occ.column_profile(scene.replace(averaging="light"))[steady],
-        occ.column_profile(scene)[steady],
-        rtol=1e-12,
-    )
-
-
-def test_a_pixel_saturates_when_all_its_light_is_in() -> None:
-    scene = Scene().replace(iso=6400, switching_frequency=14e3)
-    dark, bright = level_values(scene)
-    assert bright > 255.0
-    profile = occ.column_profile(scene)
-    lit = lit_fraction(scene)
-    assert profile.max() == 255.0
-    np.testing.assert_allclose(profile, np.minimum(dark + (bright - dark) * lit, 255.0))
-
-
-@pytest.mark.parametrize("name", ["iso", "exposure_time", "luminance", "illuminance"])
-def test_more_light_is_never_darker(name: str) -> None:
-    scene = Scene().replace(pattern="1", columns=1)
-    values = [
-        float(occ.column_profile(scene.replace(**{name: float(scene.value(name)) * factor}))[0])
-        for factor in np.geomspace(0.01, 1000, 40)
-    ]
-    assert (np.diff(values) >= 0.0).all()
-    assert values[-1] > values[0]

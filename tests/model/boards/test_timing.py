@@ -41,16 +41,6 @@ def test_no_setting_of_the_timer_comes_nearer(board: Board, frequency: float) ->
 @every_board
 @settings(max_examples=25)
 @given(frequency=frequencies)
-def test_the_error_is_at_most_half_a_count(board: Board, frequency: float) -> None:
-    timing = best_timing(board, frequency)
-    wanted = Fraction(board.clock) / Fraction(frequency)
-    fits = [number for number in board.prescalers if number * board.largest_count >= wanted]
-    assert abs(timing.cycles - wanted) <= Fraction(fits[0], 2)
-
-
-@every_board
-@settings(max_examples=25)
-@given(frequency=frequencies)
 def test_frequency_period_and_error_are_one_statement(board: Board, frequency: float) -> None:
     timing = best_timing(board, frequency)
     assert timing.frequency * timing.period == 1
@@ -131,7 +121,6 @@ def test_the_lowest_frequency_is_that_of_the_shortest_repetition(
 ) -> None:
     sent = transmission(PAPER.replace(pattern=pattern, switching_frequency=10e3), UNO)
     assert sent.lowest_frequency == lowest
-    assert sent.longest_run is not None
     assert float(sent.longest_run) == run
     assert sent.is_visible == visible
 
@@ -155,13 +144,3 @@ def test_below_the_lowest_frequency_the_spectrum_is_empty(pattern: str) -> None:
     # It is the frequency of which all are multiples.
     multiples = found / float(sent.lowest_frequency)
     np.testing.assert_allclose(multiples, np.round(multiples), atol=1e-9)
-
-
-@every_board
-def test_both_ends_of_a_board_s_range_are_allowed(board: Board) -> None:
-    exact = [
-        f for f in (board.lowest_frequency, board.highest_frequency) if Fraction(float(f)) == f
-    ]
-    assert exact
-    for frequency in exact:
-        assert best_timing(board, float(frequency)).asked == frequency

@@ -3,17 +3,13 @@
 import cv2
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from occ_model.camera.coverage import Coverage
-from occ_model.camera.projection import row_spans
 
 ROWS, COLUMNS = 90, 120
 STAR = np.array(
     [[60, 4.3], [70.2, 35], [110.7, 38], [75.1, 50], [100, 85.6], [59.5, 60], [20.3, 85], [45, 50]]
 )
-PLACE = st.floats(-200, 300, width=32, allow_subnormal=False)
 
 
 def covered(
@@ -41,47 +37,6 @@ def blurred(outline: np.ndarray, blur: float, size: tuple[int, int]) -> np.ndarr
     mask = counted(outline, np.arange(-margin, rows + margin), np.arange(-margin, columns + margin))
     wide = cv2.GaussianBlur(mask.astype(np.float64), (0, 0), blur)
     return wide[margin:-margin, margin:-margin]
-
-
-def convex_quad(rng: np.random.Generator, reach: float) -> np.ndarray:
-    """Four points in order round an ellipse, turned and moved."""
-    angle = np.sort(rng.uniform(0, 2 * np.pi, 4))
-    circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    stretched = circle @ rng.normal(0, reach, (2, 2))
-    return stretched + rng.uniform(-0.5, 1.5, 2) * (COLUMNS, ROWS)
-
-
-@pytest.mark.parametrize("reach", [1.0, 30.0, 300.0, 1e6])
-def test_sharp_coverage_of_a_convex_outline_is_its_row_spans(reach: float) -> None:
-    rng = np.random.default_rng(5)
-    for _ in range(50):
-        outline = convex_quad(rng, reach)[:: rng.choice([-1, 1])]
-        first, last = row_spans(outline, ROWS, COLUMNS)
-        column = np.arange(COLUMNS)
-        expected = (column >= first[:, None]) & (column < last[:, None])
-        np.testing.assert_array_equal(covered(outline), expected)
-
-
-@pytest.mark.parametrize("turned", [1, -1])
-@pytest.mark.parametrize("scale", [0.3, 1.0, 1.7, 40.0])
-def test_a_concave_outline_covers_just_the_pixels_inside(scale: float, turned: int) -> None:
-    middle = np.array([60.0, 45.0])
-    outline = ((STAR - middle) * scale + middle)[::turned]
-    expected = counted(outline, np.arange(ROWS), np.arange(COLUMNS))
-    assert expected.any()
-    np.testing.assert_array_equal(covered(outline), expected)
-
-
-@given(points=st.lists(st.tuples(PLACE, PLACE), min_size=3, max_size=3, unique=True))
-def test_triangles_cover_just_the_pixels_inside(points: list[tuple[float, float]]) -> None:
-    outline = np.array(points)
-    expected = counted(outline, np.arange(ROWS), np.arange(COLUMNS))
-    found = covered(outline)
-    y, x = np.mgrid[0:ROWS, 0:COLUMNS].astype(float)
-    clear = np.ones((ROWS, COLUMNS), dtype=bool)
-    for (x0, y0), (x1, y1) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
-        clear &= np.abs((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0)) > 1e-6
-    np.testing.assert_array_equal(found[clear], expected[clear])
 
 
 @pytest.mark.parametrize("blur", [0.0, 0.3, 2.0, 15.0, 210.0])

@@ -26,17 +26,6 @@ def test_the_picture_asked_for_is_written_and_named(
         assert picture.info["Description"] == frame.picture_title(whose)
 
 
-def test_by_default_it_is_the_one_that_decode_takes(tmp_path: Path) -> None:
-    path = tmp_path / "picture.png"
-    assert main(["render", *SCENE, "-o", str(path)]) == 0
-    scene = occ.load_preset("phone-68us").replace(rows=300)
-    with Image.open(path) as picture:
-        pixels = np.asarray(picture)
-        assert picture.info["Description"].startswith("Receiver's picture")
-    assert np.array_equal(pixels, occ.render(scene).image)
-    assert main(["decode", str(path), *SCENE]) == 0
-
-
 @pytest.mark.parametrize("ending", ["jpg", "tif", "webp", "bmp"])
 def test_other_formats_say_it_by_exif_where_they_can(tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"picture.{ending}"

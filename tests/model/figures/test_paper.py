@@ -180,12 +180,3 @@ def test_figures_that_were_interrupted_go_on_with_the_rates_kept(
     assert {path.name for path in tmp_path.iterdir()} == written
     table = "figure-5.csv"
     assert (tmp_path / table).read_bytes() == (folder / table).read_bytes()
-
-
-@pytest.mark.whole
-@pytest.mark.usefixtures("only_rates")
-def test_processes_do_not_change_the_figures(tmp_path: Path, folder: Path) -> None:
-    command = ["figures", "--out", str(tmp_path), "--images", "1", "--seed", "3", "--jobs", "2"]
-    assert main(command) == 0
-    for table in ("figure-5.csv", "figure-6.csv"):
-        assert (tmp_path / table).read_bytes() == (folder / table).read_bytes()

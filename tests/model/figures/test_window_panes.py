@@ -70,11 +70,9 @@ def test_the_tables_hold_what_is_drawn(folder: Path) -> None:
     assert np.array_equal(photo[begin:end], PHOTO.photo)
     assert np.isnan(photo[end:]).all()
     signal = READ.signal
-    assert signal is not None
     read = [row["signal (grey level)"] for row in rows(folder / "decoding-threshold.csv")]
     assert [float(value) for value in read if value] == signal.tolist()
     region = READ.region
-    assert region is not None
     for row in rows(folder / "decoding-threshold.csv"):
         for name in ("column", "chip from column"):
             within, whole = row[f"{name} of the region"], row[f"{name} of the picture"]
@@ -120,12 +118,9 @@ def test_a_profile_has_the_threshold_of_its_decoder(enhanced: bool) -> None:
         figure = profile_drawing(FRAME, None, decoded=found, enhanced=enhanced).draw()
     (line,) = [item for item in figure.axes[0].lines if item.get_label() == "threshold"]
     (level,) = set(np.asarray(line.get_ydata(), dtype=float).tolist())
-    assert found.region is not None
-    assert found.threshold is not None
     profile = FRAME.signal if enhanced else FRAME.profile
     inside = profile[found.region.first_column : found.region.last_column]
     # It parts the columns that are drawn as the decoder parts those that it reads.
-    assert found.signal is not None
     ones = (found.signal > found.threshold) == (inside > level)
     assert np.mean(ones) > 0.95
     assert "threshold" in [text.get_text() for text in figure.legends[0].get_texts()]
@@ -147,7 +142,6 @@ def test_an_unknown_ending_is_refused_before_any_writing(tmp_path: Path) -> None
 
 def test_the_lit_chips_of_a_decoder_are_drawn_below_its_signal() -> None:
     found = READ
-    assert found.signal is not None
     with house_style():
         figure = decode_drawing(SCENE, found).draw()
     (bars,) = [

@@ -94,7 +94,6 @@ def at_work(folder: Path, program: str, *words: str) -> Iterator[tuple[int, str]
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True,
     ) as running:  # fmt: skip
         try:
-            assert running.stdout is not None
             yield running.pid, running.stdout.readline().strip()
         finally:
             with suppress(ProcessLookupError):

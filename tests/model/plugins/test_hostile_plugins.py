@@ -277,7 +277,6 @@ def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
 def test_what_cannot_be_read_is_named_in_the_failure(changes: dict[str, str], said: str) -> None:
     scene = SCENE.replace(**changes, enhancement="none")
     result = occ.decode(occ.column_profile(scene), scene)
-    assert result.failure is not None
     assert said in result.failure
 
 

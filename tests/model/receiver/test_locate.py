@@ -200,7 +200,6 @@ def test_stripes_grow_together_over_half_their_gaps() -> None:
     for first in range(100, 300, 40):
         image[30:90, first : first + 10] = 255
     found = locate(image, FRACTION)
-    assert found is not None
     assert found.bright_level == 255
     assert found.contours == 5
     # Gaps of 30 columns close when each side has grown by 15.
@@ -211,7 +210,6 @@ def test_a_panel_without_stripes_is_one_contour_without_growth() -> None:
     image = np.zeros((120, 400), dtype=np.uint8)
     image[30:90, 100:200] = 255
     found = locate(image, FRACTION)
-    assert found is not None
     assert (found.contours, found.growth) == (1, 0)
 
 
@@ -222,5 +220,4 @@ def test_pixels_that_are_exactly_the_bright_share_are_bright() -> None:
     assert bright_level(counts, 0.06) == 200
     # What lies below the split between dark and bright is never bright.
     between = bright_level(counts, 0.5)
-    assert between is not None
     assert 20 < between <= 200

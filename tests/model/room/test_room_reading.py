@@ -63,7 +63,6 @@ def test_the_place_lies_within_its_stated_error_and_no_lamp_is_named_wrongly(see
         assert abs(lamp.region.first_row - true.first_row) < 20
         assert abs(lamp.region.last_row - true.last_row) < 20
     assert reading.is_sure, reading.reasons
-    assert reading.located is not None
     deviation = _off(reading.located.place, room.camera) / reading.located.errors
     assert np.abs(deviation).max() < 4.5
     assert reading.located.errors[:2].max() < 0.02

@@ -22,7 +22,6 @@ def refused(declared: Parameter, value: object) -> ParameterError:
 def test_every_parameters_refusal_is_its_data_in_words(declared: Parameter) -> None:
     for wrong in WRONG:
         error = refused(declared, wrong)
-        assert error.refused is not None
         assert error.refused.parameter == declared.name
         assert str(error).startswith(f"{declared.name} {error.refused.verb} {error.refused.value}")
         assert str(error).endswith(f"; allowed: {error.refused.allowed}.")

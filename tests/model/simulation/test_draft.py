@@ -98,11 +98,3 @@ def test_what_the_heartbeat_raises_ends_a_picture() -> None:
     with pytest.raises(KeyboardInterrupt):
         render_with(scene, SimulationSettings(), heartbeat=stop)
     assert len(beats) == bands + 3
-
-
-def test_a_draft_states_how_far_it_may_be_off_and_a_whole_picture_is_not() -> None:
-    scene = occ.load_preset("phone-136us-real").replace(columns=200, rows=400)
-    whole, draft = occ.render(scene), occ.render(scene, rows_step=8)
-    assert set(whole.draft_error.values()) == {0.0}
-    assert set(draft.draft_error) == set(whole.draft_error)
-    assert min(draft.draft_error.values()) > 0.0

@@ -12,7 +12,6 @@ import pytest
 import occ_model as occ
 from occ_model.camera.exposure import lit_fraction
 from occ_model.camera.projection import panel_corners
-from occ_model.effects.paper_view import paper_view_of
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.render import plan_scene, render_with
@@ -134,26 +133,3 @@ def test_what_is_planned_already_is_not_planned_again(scene: Scene) -> None:
 def test_the_papers_model_alone_leaves_nothing_to_chance(scene: Scene, seed: int) -> None:
     frame = occ.render(scene, tolerance=np.inf, seed=seed)
     np.testing.assert_array_equal(frame.image, occ.render(scene, tolerance=np.inf).image)
-
-
-@pytest.mark.parametrize("noise", ["exact", "reused"])
-def test_the_same_seed_gives_the_same_picture(scene: Scene, noise: str) -> None:
-    def picture(seed: int) -> np.ndarray:
-        return occ.render(scene, seed=seed, noise=noise).image  # type: ignore[arg-type]
-
-    np.testing.assert_array_equal(picture(1), picture(1))
-    assert (picture(1) != picture(2)).any()
-
-
-@pytest.mark.parametrize("method", ["equalization", "none"])
-def test_the_signal_is_the_mean_of_the_panels_pixels_in_the_receivers_picture(method: str) -> None:
-    scene = occ.load_preset("phone-136us").replace(
-        rows=400, columns=600, iso=3200.0, enhancement=method
-    )
-    frame = occ.render(scene, tolerance=0.0, force={"sensor-noise": True})
-    assert "sensor-noise" in frame.plan.included
-    region = paper_view_of(scene).region
-    rows = slice(region.first_row, region.last_row)
-    columns = slice(region.first_column, region.last_column)
-    means = frame.image[rows, columns].mean(axis=0)
-    np.testing.assert_allclose(frame.signal[columns], means, atol=1e-9)

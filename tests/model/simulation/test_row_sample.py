@@ -44,7 +44,6 @@ def test_sampled_rows_are_rows_of_the_picture(number: int) -> None:
     plan = occ.plan(scene, 0.0, "signal", NOISE_OFF)
     assert "jpeg" in plan  # a block of the file depends on nothing beyond it
     sample = sample_picture(view, plan, 1)
-    assert sample is not None
     whole = render_plan(view, plan, seed=1).image
     bands = whole[: len(whole) // BAND * BAND].reshape(-1, BAND, whole.shape[1])
     sampled = sample.image.reshape(-1, BAND, whole.shape[1])
@@ -58,11 +57,8 @@ def test_the_samples_column_means_are_those_of_the_picture(number: int) -> None:
     scene = real_scene(number)
     view, plan = paper_view_of(scene), occ.plan(scene, 0.0, "signal")
     sample = sample_picture(view, plan, 1)
-    assert sample is not None
     whole = render_plan(view, plan, seed=1).image
     found, seen = locate(whole, 0.05), locate(sample.image, 0.05)
-    assert found is not None
-    assert seen is not None
     a, b = seen.region, found.region
     assert a.rows * sample.rows_each == pytest.approx(b.rows, rel=0.06)
     first, last = max(a.first_column, b.first_column), min(a.last_column, b.last_column)

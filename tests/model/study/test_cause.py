@@ -30,9 +30,7 @@ def test_the_step_that_is_offered_helps(changes: dict[str, Any], decoder: str, w
     scene = occ.load_preset("phone-136us").replace(**SMALL, **changes)
     assert occ.success_rate(scene, 3, decoder) < 50.0
     cause = cause_of(scene, decoder)
-    assert cause is not None
     assert cause.what == what
-    assert cause.step is not None
     helped = scene.replace(**cause.step.changes)
     again = cause_of(helped, cause.step.decoder or decoder)
     assert again is None or again.what != what
@@ -48,10 +46,8 @@ def test_a_panel_too_small_for_the_brightest_pixels_is_not_found(enhancement: st
     found = occ.decode(picture, scene)
     assert found.code is None
     cause = cause_of(scene, "threshold", found.region)
-    assert cause is not None
     assert cause.what == "the panel is not found"
     assert cause.why.startswith("The brightest 5 % of the pixels mark it, but it covers 0.065 %")
-    assert cause.step is not None
     helped = scene.replace(**cause.step.changes)
     assert occ.decode(picture, helped).code == scene.transmitter.code
     taller = scene.replace(panel_height=0.08)
@@ -65,14 +61,12 @@ def test_chips_are_called_needed_only_where_no_picture_is_read_with_fewer() -> N
     assert 0.0 < occ.success_rate(far, 20, "threshold") < 100.0
     assert occ.success_rate(far, 3, "matched") == 100.0
     cause = cause_of(far, "threshold")
-    assert cause is not None
     assert cause.why == (
         "33 of the 48 chips of two packets are in view, and so both headers not in every picture: "
         "come closer, or raise the frequency."
     )
     assert cause_of(far, "matched") is None
     less = cause_of(far.replace(distance=9.0), "matched")
-    assert less is not None
     assert "18 of the 24 chips of a packet are in view: " in less.why
     assert occ.success_rate(far.replace(distance=9.0), 5, "matched") == 0.0
 
@@ -90,7 +84,5 @@ def test_more_bits_than_the_matched_decoder_compares_are_left_to_the_sequence_de
     )
     assert occ.success_rate(scene, 3, "matched") == 0.0
     cause = cause_of(scene, "matched")
-    assert cause is not None
     assert cause.what == "too many bits to compare"
-    assert cause.step is not None
     assert occ.success_rate(scene, 3, cause.step.decoder) == 100.0

@@ -25,7 +25,6 @@ def test_what_carries_most_is_tried_first() -> None:
 
 def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     (found,) = occ.most_bits(FAR, ("threshold",), frames_a_second=20.0, pictures=3)
-    assert found.scene is not None
     length = found.scene.transmitter.payload_length
     assert found.bits_a_second == 20.0 * length
     assert found.scene.camera == FAR.camera
@@ -34,7 +33,6 @@ def test_the_scene_found_is_read_and_its_bits_are_counted() -> None:
     assert FAR.replace(**chosen) == found.scene
     assert unvaried(found.scene) == unvaried(FAR)
     example = example_of(found)
-    assert example is not None
     assert example.transmitter.payload_length == length
     read = occ.decode(occ.render(example).image, example, decoder="threshold")
     assert read.failure is None

@@ -25,10 +25,8 @@ def small(preset: str, **changes: float) -> Scene:
 def test_the_profile_is_that_of_the_picture_but_for_noise(preset: str) -> None:
     scene = small(preset, iso=800.0)
     reading = read_profile(scene, SETTINGS)
-    assert reading is not None
     frame = occ.render(scene, observable="signal")
     region = reading.results[0].region
-    assert region is not None
     noise = float(region.crop(frame.camera_image).std(axis=0).max())
     assert noise > 1.0
     deviation = np.abs(reading.profile - frame.profile)
@@ -38,7 +36,6 @@ def test_the_profile_is_that_of_the_picture_but_for_noise(preset: str) -> None:
 def test_noise_that_is_cut_off_at_white_darkens_the_mean() -> None:
     scene = small("phone-136us", iso=800.0)
     reading = read_profile(scene, SETTINGS)
-    assert reading is not None
     bare = occ.column_profile(scene)
     brightest = bare == bare.max()
     shown = occ.render(scene, observable="signal").profile[brightest].mean()
@@ -51,7 +48,6 @@ def test_noise_that_is_cut_off_at_white_darkens_the_mean() -> None:
 def test_without_noise_everything_is_exactly_the_pictures(preset: str) -> None:
     scene = small(preset)
     reading = read_profile(scene, BARE)
-    assert reading is not None
     frame = occ.render(scene, tolerance=math.inf)
     assert np.array_equal(reading.profile, frame.profile)
     assert np.array_equal(reading.signal, frame.signal)
@@ -70,7 +66,6 @@ def test_where_rows_differ_the_profile_says_nothing(changes: dict[str, float]) -
 
 def test_a_panel_out_of_the_picture_is_not_read() -> None:
     reading = read_profile(small("phone-68us", offset_x=50.0), SETTINGS)
-    assert reading is not None
     assert [result.code for result in reading.results] == [None] * len(QUICK_DECODERS)
     assert all(result.failure for result in reading.results)
 
@@ -79,7 +74,6 @@ def test_a_panel_out_of_the_picture_is_not_read() -> None:
 def test_a_reading_simulates_all_that_the_scene_has_as_a_study_does(tolerance: float) -> None:
     scene = small("phone-136us", switching_frequency=14.6e3)
     reading = read_profile(scene, SimulationSettings(tolerance, observable="profile"))
-    assert reading is not None
     assert reading.plan.included == occ.plan(scene, 0.0).included
     assert occ.plan(scene, 20.0, "profile").included != reading.plan.included
 

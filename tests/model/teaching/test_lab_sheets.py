@@ -130,6 +130,5 @@ def test_every_axis_of_a_report_says_what_it_counts_in(match: Match) -> None:
 )
 def test_a_number_alone_has_the_unit_that_it_was_asked_in(given: str, stated: str) -> None:
     step = SHEETS[1].steps[3]
-    assert step.check is not None
     assert step.check.asked_in == "µs"
     assert step.with_unit(given) == stated

@@ -27,7 +27,6 @@ def test_its_mean_over_an_exposure_is_the_time_on(changes: dict[str, Any]) -> No
     scene = scene_with(**changes)
     width = scene.camera.exposure_time / scene.camera.readout_time
     curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000)
-    assert curve is not None
     share = occ.on_time(scene) / scene.camera.exposure_time
     found = [curve.mean(i + 0.0, i + width) for i in range(400)]
     np.testing.assert_allclose(found, share, atol=1e-7)
@@ -39,8 +38,6 @@ def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
     width = scene.camera.exposure_time / scene.camera.readout_time
     curve = light_over_columns(scene, -1.0, 400.0 + width, 10_000, edged=True)
     sharp = light_over_columns(scene, -100.0, 400.0 + width, 10_000)
-    assert curve is not None
-    assert sharp is not None
     lag = edge / scene.camera.readout_time
     for x in np.linspace(0.0, 400.0, 37).tolist():
         value = float(np.interp(x, curve.columns, curve.light))
@@ -50,7 +47,6 @@ def test_with_edges_it_is_the_mean_over_the_last_edge_time(edge: float) -> None:
 @pytest.mark.parametrize("edge", [0.0, 60e-6])
 def test_the_light_is_given_from_the_first_chips_edge_to_the_last_ones(edge: float) -> None:
     curve = light_over_columns(scene_with(edge_time=edge), 10.3, 380.2, 10_000, edged=edge > 0.0)
-    assert curve is not None
     ends = curve.columns[[0, -1]].tolist()
     assert ends == pytest.approx(curve.edges[[0, -1]].tolist(), abs=1e-9)
 
@@ -58,7 +54,6 @@ def test_the_light_is_given_from_the_first_chips_edge_to_the_last_ones(edge: flo
 def test_each_chip_is_the_one_sent_at_its_place() -> None:
     scene = scene_with()
     curve = light_over_columns(scene, 10.3, 380.2, 10_000)
-    assert curve is not None
     np.testing.assert_array_equal(curve.lit, occ.packet(scene)[curve.places])
     assert curve.edges[0] <= 10.3
     assert curve.edges[-1] > 380.2

@@ -94,11 +94,9 @@ def test_a_chip_received_lies_where_it_was_sent(
     frame, _ = read(exposure_time=exposure)
     result = occ.decode(frame.image, frame.scene, decoder=decoder)
     edges = received_edges(result)
-    assert edges is not None
     assert len(edges) == len(result.chips) + 1
     late = share * exposure / frame.scene.camera.readout_time
     curve = light_over_columns(frame.scene, -50.0, len(frame.profile) + 2 * late, 10_000)
-    assert curve is not None
     middles = (edges[1:-2] + edges[2:-1]) / 2 + late
     sent = [curve.lit[curve.chip_at(x) or 0] for x in middles.tolist()]
     np.testing.assert_array_equal(sent, result.chips[1:-1])
@@ -114,10 +112,6 @@ def test_a_threshold_of_light_is_none_of_the_profile() -> None:
 def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
     frame, result = read()
     levels = threshold_levels(frame.profile, result)
-    assert levels is not None
-    assert result.region is not None
-    assert result.signal is not None
-    assert result.threshold is not None
     part = frame.profile[result.region.first_column : result.region.last_column]
     assert levels[0] < levels[1]
     middle = sum(levels) / 2
@@ -128,9 +122,6 @@ def test_the_threshold_parts_the_profile_as_the_decoder_does() -> None:
 
 def test_columns_beside_the_panel_do_not_hide_the_threshold() -> None:
     frame, result = read()
-    assert result.region is not None
-    assert result.signal is not None
-    assert result.threshold is not None
     profile = frame.profile.copy()
     first = result.region.first_column
     lit = first + np.flatnonzero(result.signal > result.threshold)

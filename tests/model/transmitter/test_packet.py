@@ -58,10 +58,6 @@ def test_the_packet_of_a_known_code() -> None:
     assert "".join(map(str, sent(0b1011001110))) == by_hand.replace(" ", "")
 
 
-def test_ten_bits_make_24_chips() -> None:
-    assert {len(sent(code)) for code in CODES} == {24}
-
-
 def test_no_two_codes_make_the_same_endless_sequence() -> None:
     assert len({endless(sent(code)) for code in CODES}) == len(CODES)
 

@@ -83,7 +83,6 @@ def test_a_payload_of_4096_bits_comes_back(code: str, framing: str) -> None:
     payload = np.random.default_rng(5).integers(0, 2, 4096)
     read = one.decode(seen(one.encode(payload), 77, 2 * one.length + 8))
     if (code, framing) in (("nrz", "paper"), ("nrz", "preamble")):
-        assert read.failure is not None
         assert "The payload contains the preamble" in read.failure
     else:
         assert read.failure is None
@@ -156,7 +155,6 @@ def test_more_wrong_bytes_than_are_corrected_are_told() -> None:
     chips = one.encode(np.zeros(64))
     chips[-64:] ^= np.resize(np.array([1, 0, 0, 1, 0, 0, 0, 1], dtype=np.uint8), 64)
     read = one.decode(seen(chips, 0, 2 * one.length))
-    assert read.failure is not None
     assert "More than 2 bytes of a block are wrong" in read.failure
 
 

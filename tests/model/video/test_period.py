@@ -58,7 +58,6 @@ def test_a_payload_is_written_in_its_form_and_what_is_missing_by_dots(
 def test_all_bits_are_known_of_a_whole_period_and_fewer_of_a_part(framing: str) -> None:
     scene = occ.Scene().replace(payload="hex:5ac3", framing=framing)
     period = period_of(scene)
-    assert period.scheme is not None
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     chips = period.scheme.encode(sent)
     ratios = np.where(chips == 1, 9.0, -9.0)

@@ -17,10 +17,3 @@ def test_levels_are_quantiles_of_all_codes_profiles(bits: int, exposure: Fractio
     bins = profiles.shape[1]
     expected = np.quantile(profiles, (np.arange(bins) + 0.5) / bins)
     assert templates.levels == pytest.approx(expected, abs=1e-9)
-
-
-def test_energies_are_those_of_the_profiles_about_their_means() -> None:
-    templates = code_templates(4, Fraction(3, 2))
-    profiles = templates.profiles(np.arange(16))
-    about = profiles - profiles.mean(axis=1, keepdims=True)
-    assert templates.energy == pytest.approx((about**2).sum(axis=1), rel=1e-9)

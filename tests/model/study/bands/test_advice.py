@@ -65,7 +65,6 @@ def test_exposures_and_frequencies_without_bars_end_where_the_depth_reaches_the_
         ("exposure_time", advice.exposures, advice.all_exposures),
         ("switching_frequency", advice.frequencies, advice.all_frequencies),
     ):
-        assert rest is not None
         before = 0.0
         for low, high in ranges:
             assert max(

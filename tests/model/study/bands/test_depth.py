@@ -1,9 +1,7 @@
 """Depth of the bars against references of its own, and against pictures with noise."""
 
 import math
-from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -27,61 +25,6 @@ def _pulses(chips: int, lit: int, frequency: float, exposure: float, **others: f
         exposure_time=exposure,
         **{"illuminance": 0.0, **others},
     )
-
-
-def _reference(duty: Fraction, periods: Fraction) -> tuple[mpmath.mpf, mpmath.mpf]:
-    """Return peak to peak and RMS over the mean, by the overlap of an exposure with the pulses."""
-
-    def integral(place: Fraction) -> Fraction:
-        return place // 1 * duty + min(place % 1, duty)
-
-    # An end of the exposure meets an edge of a pulse at these starts; it is linear between them.
-    places = sorted({each % 1 for each in (Fraction(0), duty, -periods, duty - periods)})
-    light = [integral(place + periods) - integral(place) for place in places]
-    mean = periods * duty
-    square = Fraction(0)
-    for index, place in enumerate(places):
-        following = (index + 1) % len(places)
-        length = (places[following] - place) % 1 or Fraction(1)
-        first, last = light[index] - mean, light[following] - mean
-        square += length * (first * first + first * last + last * last) / 3
-    peak = (max(light) - min(light)) / mean
-    root = mpmath.sqrt(mpmath.mpf(square.numerator) / square.denominator)
-    return mpmath.mpf(peak.numerator) / peak.denominator, root * mean.denominator / mean.numerator
-
-
-def _close(found: Depth, peak: mpmath.mpf, root: mpmath.mpf) -> float:
-    errors = [0.0]
-    for value, true in ((found.peak_to_peak, peak), (found.rms, root)):
-        errors.append(float(abs(value / true - 1)) if true else abs(value))
-    return max(errors)
-
-
-def test_the_closed_form_of_a_pulse_is_exact_from_a_hundredth_to_a_thousand_periods() -> None:
-    rng = np.random.default_rng(24)
-    with mpmath.workdps(60):
-        worst = 0.0
-        for _ in range(1000):
-            duty = float(rng.uniform(0.001, 0.999))
-            periods = float(10.0 ** rng.uniform(-2.0, 3.0))
-            exact = _reference(Fraction(duty), Fraction(periods))
-            worst = max(worst, _close(occ.pulse_depth(duty, periods), *exact))
-    assert worst < 1e-12
-
-
-def test_the_depth_of_a_scene_s_pulses_is_exact_from_a_hundredth_to_a_thousand_periods() -> None:
-    rng = np.random.default_rng(240)
-    with mpmath.workdps(60):
-        worst = 0.0
-        for _ in range(1000):
-            chips = int(rng.integers(2, 60))
-            lit = int(rng.integers(1, chips))
-            frequency = float(10.0 ** rng.uniform(1.5, 4.5))
-            scene = _pulses(chips, lit, frequency, 10.0 ** rng.uniform(-2.0, 3.0) / frequency)
-            sent = Fraction(scene.transmitter.switching_frequency) / chips
-            exact = _reference(Fraction(lit, chips), Fraction(scene.camera.exposure_time) * sent)
-            worst = max(worst, _close(light_depth(scene), *exact))
-    assert worst < 1e-9
 
 
 @pytest.mark.parametrize("whole", range(1, 9))

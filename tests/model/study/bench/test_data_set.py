@@ -50,9 +50,7 @@ def test_the_chips_of_every_picture_explain_it(tmp_path: Path) -> None:
     samples = load_samples(make_data_set(tmp_path, (1.0, 3.5, 6.0)))
     for reading in read_samples(samples, ("sequence",)):
         assert reading.chips >= 210
-        assert reading.correlation is not None
         assert reading.correlation > 0.99
-        assert reading.wrong_chips is not None
         assert reading.wrong_chips < 0.02
 
 

@@ -99,7 +99,6 @@ def test_c_ook_names_the_sub_packets_that_are_missing() -> None:
     one = scheme_named("manchester", "c-ook", "", "none", 40)
     sent = one.encode(np.arange(40) % 2)
     read = one.decode(sent[: one.length // 3 + 4])
-    assert read.failure is not None
     assert read.failure.startswith("1 of 3 sub-packets were read; the first missing is number 2.")
 
 
@@ -140,7 +139,6 @@ def test_a_given_preamble_starts_the_frame() -> None:
 def test_a_preamble_inside_the_payload_is_told_not_guessed() -> None:
     one = scheme_named("nrz", "preamble", "10", "none", 6)
     read = one.decode(np.tile(one.encode([1, 0, 1, 1, 0, 0]), 3))
-    assert read.failure is not None
     assert "The payload contains the preamble" in read.failure
     assert not read.bits.size
 
@@ -177,5 +175,4 @@ def test_the_papers_framing_tells_too_few_chips_from_chips_without_headers() -> 
 def test_too_few_chips_are_counted_in_the_failure(framing: str) -> None:
     one = scheme_named("manchester", framing, "", "none", 10)
     read = one.decode(one.encode(np.zeros(10, dtype=int))[:9])
-    assert read.failure is not None
     assert f"9 of {one.length} chips fit" in read.failure

@@ -1,6 +1,6 @@
 """Differential Manchester."""
 
-from itertools import groupby, product
+from itertools import product
 
 import numpy as np
 import pytest
@@ -17,24 +17,6 @@ bit_strings = st.lists(st.integers(0, 1), max_size=40)
 
 
 @every_level
-def test_every_ten_bit_code_comes_back_without_violations(level: int) -> None:
-    for bits in product((0, 1), repeat=BITS):
-        read, violations = decode(encode(bits, level), level)
-        assert tuple(read) == bits
-        assert violations == []
-
-
-@given(bits=bit_strings, level=levels)
-def test_bits_of_any_number_come_back(bits: list[int], level: int) -> None:
-    chips = encode(bits, level)
-    assert chips.dtype == np.uint8
-    assert len(chips) == 2 * len(bits)
-    read, violations = decode(chips, level)
-    assert read.tolist() == bits
-    assert violations == []
-
-
-@every_level
 def test_every_bit_changes_in_its_middle_and_a_zero_at_its_start(level: int) -> None:
     for bits in product((0, 1), repeat=BITS):
         chips = encode(bits, level).tolist()
@@ -42,15 +24,6 @@ def test_every_bit_changes_in_its_middle_and_a_zero_at_its_start(level: int) -> 
         for bit, last, first, second in zip(bits, before, chips[::2], chips[1::2], strict=False):
             assert first != second
             assert (first != last) == (bit == 0)
-
-
-@every_level
-def test_no_run_of_chips_is_longer_than_two_and_some_are(level: int) -> None:
-    longest = {
-        max(len(list(run)) for _, run in groupby([level, *encode(bits, level).tolist()]))
-        for bits in product((0, 1), repeat=BITS)
-    }
-    assert longest == {1, 2}
 
 
 @pytest.mark.parametrize(
@@ -89,13 +62,3 @@ def test_a_bit_that_loses_its_middle_transition_is_a_violation(
     for bit in broken:
         chips[2 * bit + 1] = chips[2 * bit]
     assert decode(chips, level)[1] == sorted(broken)
-
-
-@given(bits=bit_strings.filter(bool), level=levels, data=st.data())
-def test_one_wrong_chip_never_passes_unseen(
-    bits: list[int], level: int, data: st.DataObject
-) -> None:
-    chips = encode(bits, level)
-    wrong = data.draw(st.integers(0, len(chips) - 1))
-    chips[wrong] ^= 1
-    assert decode(chips, level)[1] == [wrong // 2]

@@ -145,7 +145,6 @@ def test_from_the_least_frequency_no_run_lasts_long_enough_to_be_seen(code: Line
     if code.longest_run is None:
         assert least is None
     else:
-        assert least is not None
         assert code.lowest_frequency(least) == pytest.approx(VISIBLE_LIMIT)
         assert code.longest_run / least == pytest.approx(0.5 / VISIBLE_LIMIT)
 

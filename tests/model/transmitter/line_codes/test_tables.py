@@ -7,7 +7,6 @@ import pytest
 
 from occ_model.transmitter.line_codes import eight_b_ten_b, four_b_six_b, fsk, manchester
 from occ_model.transmitter.line_codes.eight_b_ten_b import control_word, encode_byte
-from occ_model.transmitter.line_codes.four_b_six_b import WORDS
 from occ_model.transmitter.line_codes.fsk import HALF_PERIODS, SYMBOL_CHIPS
 
 COMMAS = ("0011111", "1100000")
@@ -20,12 +19,6 @@ def text(chips: np.ndarray) -> str:
 def test_manchester_sends_0_as_01_and_1_as_10() -> None:
     bits = np.array([0, 1, 1, 0], dtype=np.uint8)
     assert text(manchester.LINE_CODE.encode(bits, 0)) == "01101001"
-
-
-def test_each_4b6b_word_has_three_ones_and_stands_once() -> None:
-    assert WORDS.shape == (16, 6)
-    assert (WORDS.sum(axis=1) == 3).all()
-    assert len({text(word) for word in WORDS}) == 16
 
 
 def test_4b6b_words_are_those_of_ieee_802_15_7() -> None:

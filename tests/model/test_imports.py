@@ -12,6 +12,9 @@ import pytest
 
 HEAVY = ("PySide6", "pyqtgraph", "superqt", "matplotlib", "scipy", "skimage", "PIL", "pandas")
 
+PROCESSES = {"concurrent.futures.process", "multiprocessing", "distributed", "tqdm"}
+"""What only several processes need."""
+
 BLOCK = f"""
 import sys
 
@@ -61,9 +64,10 @@ def test_the_blocked_names_are_really_blocked() -> None:
 
 
 def test_simulating_imports_nothing_heavy_either() -> None:
-    loaded = run(f"{USE}\nimport sys; print(*sys.modules)")
-    assert "occ_model.simulation.render" in loaded
+    loaded = run(f"{USE}\nocc.sweep\nimport sys; print(*sys.modules)")
+    assert {"occ_model.simulation.render", "occ_model.study.sweep.sweep"} <= {*loaded}
     assert {name.partition(".")[0] for name in loaded} & {*HEAVY, "occ_gui"} == set()
+    assert {*loaded} & PROCESSES == set()
 
 
 def test_type_checkers_see_where_each_public_name_comes_from() -> None:

@@ -23,10 +23,3 @@ def test_a_dimmed_lamp_gets_its_depth_and_its_shutter_speeds(
     assert rows["1/60"].endswith("no bars if the camera keeps the former")
     assert rows["1/100"].endswith("%")
     assert any("percent flicker 100 %" in line for line in lines)
-
-
-def test_a_limit_out_of_range_is_told_with_what_is_allowed(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    assert main((*_LAMP, "--limit", "0")) == 2
-    assert "limit is 0 %; allowed: 0.01 % to 100 %." in capsys.readouterr().err

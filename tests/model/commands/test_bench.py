@@ -50,19 +50,3 @@ def test_a_data_set_is_read_by_its_table(
     assert (picture, exposure, rows, decoder) == ("0.png", "2.00", "5.0", "sequence")
     assert int(chips) > 200
     assert float(correlation) > 0.99
-
-
-@pytest.mark.parametrize(
-    ("words", "refusal"),
-    [
-        (("--scheme", "morse"), "line_code is 'morse'"),
-        (("--exposure", "-1"), "exposure in symbols is -1"),
-        (("--rows", "0"), "rows a symbol is 0"),
-        (("--data", "no-such-table.csv"), "no-such-table.csv"),
-    ],
-)
-def test_what_cannot_be_measured_is_refused(
-    capsys: pytest.CaptureFixture[str], words: tuple[str, ...], refusal: str
-) -> None:
-    assert main(["bench", *words]) != 0
-    assert refusal in capsys.readouterr().err

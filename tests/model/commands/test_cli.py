@@ -82,20 +82,6 @@ def test_a_saved_scene_renders_the_same_picture_again(command: Command, tmp_path
     assert first.read_bytes() == again.read_bytes()
 
 
-@pytest.mark.parametrize("name", ["scene.csv", "scene.png", "scene.jpg", "scene", "scene.txt"])
-def test_a_scene_that_would_not_open_again_is_not_written(
-    command: Command, tmp_path: Path, name: str
-) -> None:
-    scene, picture = tmp_path / name, tmp_path / "picture.png"
-    refused = f"occ-model: {scene} has no ending of a scene file; use .toml.\n"
-    rendered = command("render", *SMALL, "-o", picture, "--save-scene", scene)
-    assert (rendered.code, rendered.err) == (2, refused)
-    # Refused before the photo, which does not exist, is looked for.
-    matched = command("match", picture, "--out", scene)
-    assert (matched.code, matched.err) == (2, refused)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_the_name_of_a_file_is_printed_in_one_line(command: Command, tmp_path: Path) -> None:
     rendered = command("render", *SMALL, "-o", tmp_path / "a\n\x1b[31m.png")
     assert rendered.code == 0
@@ -173,49 +159,6 @@ def test_parameters_lists_what_can_be_set_and_what_is_allowed(command: Command) 
     for name, declaration in PARAMETERS.items():
         meaning, allowed = f"{name:26}{declaration.meaning}", f"allowed: {declaration.allowed}"
         assert f"{meaning}\n{'':26}{allowed}\n" in outcome.out
-
-
-MISUSES = {
-    "render --preset phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
-    "render --set exposure=1ms": "There is no parameter 'exposure'; did you mean exposure_time?",
-    "render --set iso=0": "iso is 0; allowed: 1 to ",
-    "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
-    "render --set exposure_time=1Hz": "exposure_time is '1Hz', which is not a number in µs; ",
-    "render --set code=1024": "code is 1024; allowed with 10 bits: 0 to 1023.",
-    "render --set iso": "'iso' is not a setting; write NAME=VALUE.",
-    "render --set yaw=80° --set distance=0.2m": "Turned like this at a distance of 0.2 m, ",
-    "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
-    "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",
-    "render --scene folder.png": "folder.png cannot be read: it is a folder.",
-    "render --scene text.txt": "text.txt cannot be read. This is not a TOML file: ",
-    "render -o missing/out.png": "missing/out.png cannot be written: name a file in a folder ",
-    "render -o folder.png": "folder.png is a folder; name a file to write to.",
-    "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",
-    "decode missing.png": "missing.png cannot be read: No such file or directory.",
-    "decode folder.png": "folder.png is a folder, not a photo.",
-    "decode text.txt": "text.txt is not an image that can be read.",
-    "presets phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
-}
-
-
-@pytest.mark.parametrize("line", MISUSES)
-def test_a_misuse_gives_one_sentence_and_leaves_no_file(
-    command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, line: str
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("folder.png").mkdir()
-    Path("text.txt").write_text("no picture\n")
-    before = {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")}
-    words = line.split()
-    if words[0] == "render" and "-o" not in words:
-        words += ["-o", "out.png"]
-    outcome = command(*words)
-    assert outcome.code == 2
-    assert outcome.out == ""
-    assert outcome.err.startswith(f"occ-model: {MISUSES[line]}")
-    assert outcome.err.count("\n") == 1
-    assert outcome.err.endswith((".\n", "?\n"))
-    assert {path: path.is_file() and path.read_bytes() for path in tmp_path.rglob("*")} == before
 
 
 @pytest.mark.parametrize("line", ["", "fly", "render", "decode", "decode x.png --decoder none"])

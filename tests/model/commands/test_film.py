@@ -58,25 +58,3 @@ def test_a_lossy_film_says_what_it_lost(tmp_path: Path, capsys: pytest.CaptureFi
     assert words.startswith("Its codec is lossy: in the first frame pixels differ by ")
     loss = float(words.split("differ by ")[1].split()[0])
     assert 0.1 < loss < 8.0
-
-
-@pytest.mark.parametrize(
-    ("options", "words"),
-    [
-        (["--frame-rate", "fast"], "frame_rate is 'fast', which is not a number in Hz"),
-        (["--frames", "0"], "frames is 0; allowed: a whole number from 1"),
-        (["--frame-rate", "100"], "160 columns at 100 µs takes 16 ms; allowed at 100 Hz"),
-        (["--waypoint", "offset_x=1"], "waypoint is 'offset_x=1'; allowed: a time and"),
-        (["--waypoint", "1s:speed=1"], "waypoint changes 'speed'; allowed: distance"),
-        (["--waypoint", "1s:yaw=x"], "waypoint's yaw is 'x'; allowed: a number in °"),
-        (["--exposures", "68us,long"], "exposure_time is 'long'"),
-        (["-o", "film.avi"], "film.avi has no ending of a film"),
-    ],
-)
-def test_what_cannot_be_filmed_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], words: str
-) -> None:
-    path = tmp_path / "film.mkv"
-    assert main(["film", *SMALL, "-o", str(path), *options]) == 2
-    assert words in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []

@@ -36,23 +36,6 @@ def test_the_chips_in_view_are_printed_without_a_known_code(
     assert lines["region"].startswith(f"columns {first} to {last}, rows ")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "named"),
-    [
-        (("--chips", "--lamps"), "--lamps"),
-        (("--chips", "--out", "fit.toml"), "--out"),
-        ((SAMPLE, "--chips"), "several photos"),
-    ],
-)
-def test_options_that_contradict_the_chips_are_refused(
-    capsys: pytest.CaptureFixture[str], arguments: tuple[object, ...], named: str
-) -> None:
-    assert main(["match", str(SAMPLE), *map(str, arguments)]) != 0
-    error = capsys.readouterr().err
-    assert named in error
-    assert "--chips" in error
-
-
 def test_the_cameras_exposure_stands_under_the_fitted_one(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -78,16 +78,6 @@ def test_no_sure_photo_is_a_failure(folder: Path, capsys: pytest.CaptureFixture[
     assert "No photo is sure" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("place", ["nowhere/x.csv", "."])
-def test_an_unwritable_table_is_refused_before_the_work(
-    folder: Path, tmp_path: Path, place: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(words(folder, "--out", str(tmp_path / place))) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert "name a file" in said.err
-
-
 def test_a_full_disk_leaves_the_old_table(
     folder: Path,
     tmp_path: Path,
@@ -139,29 +129,3 @@ def test_a_photo_of_another_lamp_is_corrected_by_its_own_frequency(
     assert "mean of 2" in mean
     assert float(mean.split()[1]) == pytest.approx(9.0, rel=2e-3)
     assert "f = 8 kHz, given" in out.read_text()
-
-
-@pytest.mark.parametrize(
-    ("known", "sentence"),
-    [
-        ("0.png", "--known (nothing) is none of the photos, or several; allowed: PHOTO=VALUE"),
-        ("2.png=1kHz", "--known 2.png is none of the photos"),
-        ("0.png=loud", "--known 0.png is 'loud'"),
-        ("0.png=-1kHz", "--known 0.png is -1 kHz; allowed: 0.5 Hz to 500 MHz."),
-        ("0.png=2s", "--known 0.png is '2s'"),
-    ],
-)
-def test_a_known_value_of_no_photo_or_of_no_frequency_is_refused(
-    folder: Path, capsys: pytest.CaptureFixture[str], known: str, sentence: str
-) -> None:
-    assert main(words(folder, "--known", known)) == 2
-    said = capsys.readouterr()
-    assert said.out == ""
-    assert sentence in said.err
-
-
-def test_a_known_value_is_for_several_photos(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["match", str(folder / "0.png"), "--known", "0.png=1kHz"]) == 2
-    assert "--known is given with one photo" in capsys.readouterr().err

@@ -57,18 +57,6 @@ def test_a_picture_without_a_named_lamp_fails_with_the_reason(
     assert "No lamp was found" in capsys.readouterr().out
 
 
-def test_an_unknown_room_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["room", "locate", "--room", "cellar"]) != 0
-    assert "There is no room 'cellar'" in capsys.readouterr().err
-
-
-def test_a_setting_that_a_room_does_not_have_is_refused_not_ignored(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    assert main(["room", "locate", "--set", "distance=2m"]) == 2
-    assert "A room has no distance: " in capsys.readouterr().err
-
-
 def test_a_map_has_no_single_place_of_its_own(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["room", "map", "--x", "1"])

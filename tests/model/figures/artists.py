@@ -97,7 +97,7 @@ def _of(artist: Artist) -> list[str]:
         return []
     if isinstance(artist, Legend):
         texts = [line for text in artist.get_texts() for line in _of(text)]
-        handles = [line for handle in artist.legend_handles for line in _of(handle)]  # type: ignore[arg-type]
+        handles = [line for handle in artist.legend_handles for line in _of(handle)]
         columns, place = (getattr(artist, name) for name in ("_ncols", "_loc"))
         return [f"legend {columns} frame {artist.get_frame_on()} {place}", *texts, *handles]
     if isinstance(artist, Text):

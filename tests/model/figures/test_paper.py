@@ -128,15 +128,6 @@ def test_a_folder_that_cannot_be_made_is_a_sentence(
     assert "cannot be made" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("wrong", [("--seed", "-1"), ("--images", "0"), ("--jobs", "0")])
-def test_an_impossible_number_is_refused_before_any_writing(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], wrong: tuple[str, str]
-) -> None:
-    assert main(["figures", "--out", str(tmp_path / "figures"), *wrong]) == 2
-    assert wrong[0].removeprefix("--") in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_figure_2_holds_the_calculated_values_and_the_mask(folder: Path) -> None:
     frame = occ.render(occ.load_preset("phone-68us"), tolerance=math.inf)
     table = rows(folder / "figure-2.csv")

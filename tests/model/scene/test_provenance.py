@@ -45,14 +45,9 @@ def test_a_provenance_gives_all_its_scenes_back() -> None:
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
-def test_a_file_gives_its_scene_back(tmp_path: Path, ending: str) -> None:
-    assert scene_inside(exported(tmp_path / f"figure{ending}")) == SCENE
-
-
-@pytest.mark.parametrize("ending", ENDINGS)
 def test_a_figure_is_opened_as_a_scene_is(tmp_path: Path, ending: str) -> None:
     path = exported(tmp_path / f"figure{ending}")
-    assert read_scene_file(path) == SCENE
+    assert read_scene_file(path) == scene_inside(path) == SCENE
     assert main(["plan", "--scene", str(path)]) == 0
 
 

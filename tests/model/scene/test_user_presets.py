@@ -104,37 +104,6 @@ def test_a_preset_of_the_program_cannot_be_deleted(own: Path) -> None:
     assert "phone-136us" in presets()
 
 
-RUBBISH = {
-    "no toml": b"this is no preset",
-    "bytes": b"\xff\xfe\x00",
-    "empty": b"",
-    "title": b"format = 1\ntitle = 5\n",
-    "base": b"format = 1\nbased_on = 5\n",
-    "elsewhere": b"format = 1\nbased_on = '../../elsewhere'\n",
-    "itself": b"format = 1\nbased_on = 'itself'\n",
-    "notes": b"format = 1\nsources = 3\n",
-    "note": b"format = 1\n[sources]\niso = 3\n",
-    "value": b"format = 1\n[camera]\niso = -5.0\n",
-    "key": b"format = 1\n[camera]\nshutter = 1\n",
-}
-
-
-@pytest.mark.parametrize("name", RUBBISH)
-def test_rubbish_among_the_users_presets_is_left_out(own: Path, name: str) -> None:
-    built_in = presets()
-    save_preset("good", MINE)
-    (own / f"{name}.toml").write_bytes(RUBBISH[name])
-    (own / "a folder.toml").mkdir()
-    (own / "phone-136us.toml").write_bytes(b"not the program's")
-    assert presets() == (*built_in, "good")
-    with pytest.raises((SceneFileError, ParameterError)) as refused:
-        load_preset(name)
-    assert str(own / f"{name}.toml") in str(refused.value)
-    assert load_preset("phone-136us").camera.exposure_time == 136e-6
-    delete_preset(name)
-    assert not (own / f"{name}.toml").exists()
-
-
 def nested(levels: int) -> list[Any]:
     value: list[Any] = []
     for _ in range(levels):
@@ -142,7 +111,18 @@ def nested(levels: int) -> list[Any]:
     return value
 
 
-HOSTILE = {
+HOSTILE: dict[str, bytes | str] = {
+    "no toml": b"this is no preset",
+    "bytes": b"\xff\xfe\x00",
+    "empty": b"",
+    "title": "title = 5",
+    "base": "based_on = 5",
+    "elsewhere": "based_on = '../../elsewhere'",
+    "itself": "based_on = 'itself'",
+    "notes": "sources = 3",
+    "note": "[sources]\niso = 3",
+    "value": "[camera]\niso = -5.0",
+    "key": "[camera]\nshutter = 1",
     "hexadecimal": "title = 0x" + "f" * 4000,
     "hexadecimal value": "[camera]\nrows = 0x" + "f" * 4000,
     "decimal": "title = " + "9" * 5000,
@@ -153,13 +133,14 @@ HOSTILE = {
     "deep tables": "title = " + "{a=" * 1500 + "1" + "}" * 1500,
     "shallow array": "title = " + "[" * 150 + "]" * 150,
     "bases": "based_on = [" + "'phone-68us'," * 50_000 + "]",
-    "base": f"based_on = '{'a' * 10**5}'",
+    "long base": f"based_on = '{'a' * 10**5}'",
     "table": f"[{'a' * 10**5}]",
-    "note": f"[sources]\n{'a' * 10**5} = 'x'",
+    "long note": f"[sources]\n{'a' * 10**5} = 'x'",
     "escapes": '["a\\u001b[31m\\n"]',
     "twice": f"{'a' * 10**5} = 1\n" * 2,
     "large": "#" * 2_000_000,
 }
+"""Files that are no presets; a text is what stands behind the line of the format."""
 
 
 @pytest.mark.parametrize("name", HOSTILE)
@@ -168,21 +149,34 @@ def test_a_hostile_preset_gets_a_short_reason_and_stops_nothing(
 ) -> None:
     before = presets()
     save_preset("good", MINE)
-    (own / f"{name}.toml").write_text(f"format = 1\n{HOSTILE[name]}\n")
-    assert presets() == (*before, "good")
-    assert [preset.name for preset in all_presets()] == [*before, "good"]
+    content = HOSTILE[name]
+    whole = content if isinstance(content, bytes) else f"format = 1\n{content}\n".encode()
+    path = own / f"{name}.toml"
+    path.write_bytes(whole)
+    assert [preset.name for preset in all_presets()] == [*before, "good"] == [*presets()]
     ((file, reason),) = unreadable_presets().items()
     assert file == name
     with pytest.raises((SceneFileError, ParameterError)) as refused:
         load_preset(name)
     assert reason == str(refused.value)
-    assert str(own / f"{name}.toml") in reason
+    assert str(path) in reason
     assert reason.isprintable()
     assert len(reason) < len(str(own)) + 2000
     assert main(["presets"]) == 0
     listed = capsys.readouterr().out.splitlines()
     assert listed[-1] == f"{name:20}cannot be used: {reason}"
     assert [line.split()[0] for line in listed[:-1]] == [*before, "good"]
+    delete_preset(name)
+    assert not path.exists()
+
+
+def test_a_file_of_the_user_s_is_not_a_preset_of_the_program(own: Path) -> None:
+    before = presets()
+    own.mkdir(parents=True)
+    (own / "phone-136us.toml").write_bytes(b"not the program's")
+    (own / "a folder.toml").mkdir()
+    assert presets() == before
+    assert load_preset("phone-136us").camera.exposure_time == 136e-6
 
 
 def test_an_internal_error_over_one_file_hides_no_other(

@@ -123,10 +123,3 @@ def test_the_plan_is_given_in_words(capsys: pytest.CaptureFixture[str]) -> None:
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 10
     assert any(line.startswith("Shot and read noise: ") and "by hand" in line for line in lines)
-
-
-def test_an_unknown_or_contradictory_effect_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["plan", "--on", "blur"]) == 2
-    assert "effect is 'blur'; allowed: led-edges," in capsys.readouterr().err
-    assert main(["plan", "--on", "jpeg", "--off", "jpeg"]) == 2
-    assert "'jpeg' is switched both on and off" in capsys.readouterr().err

@@ -4,11 +4,12 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given
 from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
@@ -36,18 +37,35 @@ from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
 SCENE = Scene()
 
 
-def reads_where(good: Callable[[float], bool], name: str = "switching_frequency") -> object:
-    """Stand in for all decoding: bits are right where ``good`` says so, half of them elsewhere."""
+Decoding = Callable[[Callable[[float, int, int], float]], "Counter[tuple[float, int]]"]
+"""Takes the share of bits that are right, by frequency, number of the image, and seed."""
 
-    def right_bits_of_images(
-        scene: Scene, settings: RateSettings, heartbeat: Callable[[], object]
-    ) -> Iterator[tuple[int]]:
-        for _ in range(settings.images):
-            heartbeat()
-            bits = scene.transmitter.bits
-            yield (bits if good(float(scene.value(name))) else bits // 2,)
 
-    return right_bits_of_images
+@pytest.fixture
+def decoding(monkeypatch: pytest.MonkeyPatch) -> Decoding:
+    """Stand in for all decoding, and count the images read, by frequency and seed."""
+
+    def reads(share: Callable[[float, int, int], float]) -> "Counter[tuple[float, int]]":
+        read: Counter[tuple[float, int]] = Counter()
+
+        def right_bits_of_images(
+            scene: Scene, settings: RateSettings, heartbeat: Callable[[], object]
+        ) -> Iterator[tuple[int]]:
+            frequency = scene.transmitter.switching_frequency
+            for image in range(settings.images):
+                heartbeat()
+                read[frequency, settings.seed] += 1
+                yield (int(share(frequency, image, settings.seed) * scene.transmitter.bits),)
+
+        monkeypatch.setattr(module, "right_bits_of_images", right_bits_of_images)
+        return read
+
+    return reads
+
+
+def within(*ranges: tuple[float, float]) -> Callable[[float, int, int], float]:
+    """All bits are right between these frequencies, half of them elsewhere."""
+    return lambda frequency, *_: 1.0 if any(a <= frequency <= b for a, b in ranges) else 0.5
 
 
 class no_processes:  # noqa: N801 - in place of a class
@@ -65,19 +83,18 @@ def searched(scene: Scene, name: str = "switching_frequency", **how: Any) -> Wor
     return module.working_range(scene, name, 90.0, settings)
 
 
-def ends(range_end: RangeEnd | None) -> tuple[float, float]:
+def ends(range_end: RangeEnd) -> tuple[float, float]:
     return range_end.works.value, range_end.fails.value
 
 
-@hypothesis_settings(max_examples=60)
+@hypothesis_settings(max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(low=st.floats(600.0, 40e3), ratio=st.floats(1.2, 2.0), own=st.floats(500.0, 100e3))
 def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
-    low: float, ratio: float, own: float
+    decoding: Decoding, low: float, ratio: float, own: float
 ) -> None:
     high = low * ratio
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "right_bits_of_images", reads_where(lambda f: low <= f <= high))
-        found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
+    decoding(within((low, high)))
+    found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
     for range_end, truth in ((found.lowest, low), (found.highest, high)):
         works, fails = ends(range_end)
         assert min(works, fails) <= truth <= max(works, fails)
@@ -89,14 +106,10 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
 
 @pytest.mark.parametrize("own", [700.0, 5e3, 40e3])
 def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_are_exact(
-    monkeypatch: pytest.MonkeyPatch, own: float
+    decoding: Decoding, own: float
 ) -> None:
     truth = [(600.0, 1e3), (2e3, 8e3), (25e3, 60e3)]
-    monkeypatch.setattr(
-        module,
-        "right_bits_of_images",
-        reads_where(lambda f: any(low <= f <= high for low, high in truth)),
-    )
+    decoding(within(*truth))
     found = occ.limits(SCENE.replace(switching_frequency=own), images=1).frequency
     assert len(found.intervals) == len(truth)
     assert len(found.gaps) == 2
@@ -111,25 +124,18 @@ def test_ranges_are_lists_of_intervals_and_both_ends_of_the_scenes_own_are_exact
     assert found.highest is found.intervals[-1].highest
 
 
-def test_the_images_that_confirm_an_end_have_not_chosen_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    def noted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
-        frequency = scene.transmitter.switching_frequency
-        # By the images that choose, reading ends at 12 kHz; by any others, at 11 kHz.
-        end = 12e3 if settings.seed == 1 else 11e3
-        for _ in range(settings.images):
-            yield (10 if frequency <= end else 0,)
-
-    monkeypatch.setattr(module, "right_bits_of_images", noted)
+def test_the_images_that_confirm_an_end_have_not_chosen_it(decoding: Decoding) -> None:
+    # By the images that choose, reading ends at 12 kHz; by any others, at 11 kHz.
+    decoding(lambda frequency, _, seed: frequency <= (12e3 if seed == 1 else 11e3))
     range_end = occ.limits(SCENE, images=20).frequency.highest
     works, fails = ends(range_end)
     assert works <= 11e3 < fails <= 12e3 * NEAR
     assert (range_end.works.whole, range_end.fails.whole) == (20, 0)
 
 
-def test_a_range_that_reaches_the_search_limit_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda _: True))
-    far = SCENE.replace(switching_frequency=3e6)
-    found = occ.limits(far, images=1)
+def test_a_range_that_reaches_the_search_limit_says_so(decoding: Decoding) -> None:
+    decoding(within((0.0, math.inf)))
+    found = occ.limits(SCENE.replace(switching_frequency=3e6), images=1)
     assert found.frequency.searched == (500.0, 3e6)
     assert found.highest_frequency == 3e6
     for working_range in (found.frequency, found.exposure):
@@ -139,8 +145,8 @@ def test_a_range_that_reaches_the_search_limit_says_so(monkeypatch: pytest.Monke
     assert (found.shortest_exposure, found.longest_exposure) == found.exposure.searched
 
 
-def test_where_nothing_is_read_a_sentence_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda frequency: False))
+def test_where_nothing_is_read_a_sentence_says_so(decoding: Decoding) -> None:
+    decoding(within())
     found = occ.limits(SCENE, "matched", rate=75.0, images=2)
     assert found.highest_frequency is found.shortest_exposure is found.longest_exposure is None
     assert found.frequency.failure == (
@@ -175,48 +181,28 @@ def test_an_edge_rests_on_success_rates_that_can_be_had_again() -> None:
     assert range_end.fails.rate < 90.0 <= range_end.works.rate
 
 
-def test_values_are_given_up_where_no_further_image_can_mend_them(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    read: Counter[float] = Counter()
-
-    def counted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
-        for _ in range(settings.images):
-            read[scene.transmitter.switching_frequency] += 1
-            yield (10 if scene.transmitter.switching_frequency < 20e3 else 0,)
-
-    monkeypatch.setattr(module, "right_bits_of_images", counted)
-    found = occ.limits(SCENE, images=20)
-    works, fails = ends(found.frequency.highest)
-    far = [count for frequency, count in read.items() if frequency > 21e3]
-    assert far
-    assert set(far) == {1}, far
+def test_values_are_given_up_where_no_further_image_can_mend_them(decoding: Decoding) -> None:
+    read = decoding(lambda frequency, *_: frequency < 20e3)
+    range_end = occ.limits(SCENE, images=20).frequency.highest
+    by_frequency: Counter[float] = Counter()
+    for (frequency, _), images in read.items():
+        by_frequency[frequency] += images
+    far = {images for frequency, images in by_frequency.items() if frequency > 21e3}
+    assert far == {1}
     # What is reported rests on all images: no result has ended its own count.
-    assert (read[works] >= 20, read[fails] >= 20) == (True, True)
-    assert found.frequency.highest.fails.sent == found.frequency.highest.works.sent == 200
+    assert min(by_frequency[value] for value in ends(range_end)) >= 20
+    assert range_end.fails.sent == range_end.works.sent == 200
 
 
-def test_an_end_that_more_images_refute_is_moved(monkeypatch: pytest.MonkeyPatch) -> None:
-    def doubtful(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
-        high = scene.transmitter.switching_frequency > 11e3
-        for image in range(settings.images):  # beyond 11 kHz every tenth image is not read
-            yield (0 if high and image % 10 == 9 else 10,)
-
-    monkeypatch.setattr(module, "right_bits_of_images", doubtful)
-    found = occ.limits(SCENE, images=20)
-    works, fails = ends(found.frequency.highest)
+def test_an_end_that_more_images_refute_is_moved(decoding: Decoding) -> None:
+    # Beyond 11 kHz every tenth image is not read.
+    decoding(lambda frequency, image, _: frequency <= 11e3 or image % 10 != 9)
+    works, fails = ends(occ.limits(SCENE, images=20).frequency.highest)
     assert works <= 11e3 < fails
 
 
-def test_each_end_is_read_in_all_images_where_the_first_ones_mislead(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def misleading(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
-        frequency = scene.transmitter.switching_frequency
-        for image in range(settings.images):
-            yield (10 if 2e3 <= frequency <= 10e3 or image < FEW_IMAGES else 0,)
-
-    monkeypatch.setattr(module, "right_bits_of_images", misleading)
+def test_each_end_is_read_in_all_images_where_the_first_ones_mislead(decoding: Decoding) -> None:
+    decoding(lambda frequency, image, _: 2e3 <= frequency <= 10e3 or image < FEW_IMAGES)
     found = occ.limits(SCENE.replace(switching_frequency=5e3), images=20).frequency
     for range_end, truth in ((found.lowest, 2e3), (found.highest, 10e3)):
         works, fails = ends(range_end)
@@ -225,55 +211,39 @@ def test_each_end_is_read_in_all_images_where_the_first_ones_mislead(
 
 
 def test_the_command_says_the_bits_a_second_that_arrive(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    decoding: Decoding, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    decoding(within((0.0, 20e3)))
     scene = ["--set", "columns=1000", "--set", "readout_time=40us", "--set", "bits=16"]
     command = ["limits", *scene, "--decoder", "threshold", "--images", "1", "--jobs", "1"]
-    assert main([*command, "--fps", "10"]) == 0
-    assert capsys.readouterr().out.splitlines()[2].endswith(" 160")
-    assert main([*command, "--fps", "60"]) == 0
     # The columns of a picture take 40 ms: there are no more than 25 a second.
-    assert capsys.readouterr().out.splitlines()[2].endswith(" 400")
+    for frames_a_second, bits in ((10, 160), (60, 400)):
+        assert main([*command, "--fps", str(frames_a_second)]) == 0
+        assert capsys.readouterr().out.splitlines()[2].endswith(f" {bits}")
 
 
-def test_no_image_of_a_value_is_simulated_twice(monkeypatch: pytest.MonkeyPatch) -> None:
-    read: Counter[tuple[float, int]] = Counter()
+def without_own(read: "Counter[tuple[float, int]]") -> "Counter[tuple[float, int]]":
+    """Leave out the scene's own frequency, at which all exposures are read, too."""
+    own = SCENE.transmitter.switching_frequency
+    return Counter({at: images for at, images in read.items() if at[0] != own})
 
-    def counted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
-        frequency = scene.transmitter.switching_frequency
-        for image in range(settings.images):  # a rate that falls slowly: all are in doubt
-            read[frequency, settings.seed] += 1
-            yield (0 if image < (frequency - 10e3) / 2e3 else 10,)
 
-    monkeypatch.setattr(module, "right_bits_of_images", counted)
+def test_no_image_of_a_value_is_simulated_twice(decoding: Decoding) -> None:
+    # A rate that falls slowly: all are in doubt.
+    read = decoding(lambda frequency, image, _: image >= (frequency - 10e3) / 2e3)
     occ.limits(SCENE, rate=60.0, images=20)
-    for seed in (1, module.other_seed(1)):
-        read.pop((SCENE.transmitter.switching_frequency, seed), None)  # of all exposures, too
-    assert max(read.values()) == 20
+    assert max(without_own(read).values()) == 20
 
 
-def test_few_images_are_believed_where_the_rate_falls_at_once(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    read: Counter[tuple[float, int]] = Counter()
-
-    def counted(scene: Scene, settings: RateSettings, heartbeat: object) -> Iterator[tuple[int]]:
-        frequency = scene.transmitter.switching_frequency
-        for _ in range(settings.images):
-            read[frequency, settings.seed] += 1
-            yield (10 if 4e3 <= frequency <= 20e3 else 0,)
-
-    monkeypatch.setattr(module, "right_bits_of_images", counted)
+def test_few_images_are_believed_where_the_rate_falls_at_once(decoding: Decoding) -> None:
+    read = decoding(lambda frequency, *_: 4e3 <= frequency <= 20e3)
     occ.limits(SCENE, images=20)
-    for seed in (1, module.other_seed(1)):
-        read.pop((SCENE.transmitter.switching_frequency, seed), None)
-    whole = [frequency for (frequency, _), images in read.items() if images == 20]
+    images = list(without_own(read).values())
     # At each end: the coarse value, the end twice, and the value beyond.
-    assert len(whole) <= 8
+    assert images.count(20) <= 8
     sure = images_to_be_sure(99.0)
-    assert {images for images in read.values() if images != 20} <= {1, FEW_IMAGES, PICTURES, sure}
-    assert list(read.values()).count(sure) == 2
+    assert {*images} <= {1, FEW_IMAGES, PICTURES, 20, sure}
+    assert images.count(sure) == 2
 
 
 def test_two_processes_find_the_limits_that_one_finds() -> None:
@@ -288,16 +258,16 @@ def test_two_processes_find_the_limits_that_one_finds() -> None:
     assert said[-1] == (1.0, "")
 
 
-def test_where_no_processes_can_be_had_this_one_searches(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_where_no_processes_can_be_had_this_one_searches(
+    decoding: Decoding, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr("occ_model.parallel.process_pool.ProcessPool", no_processes)
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    decoding(within((0.0, 20e3)))
     assert occ.limits(SCENE, images=2, jobs=2) == occ.limits(SCENE, images=2)
 
 
-def test_progress_rises_from_0_to_1_and_says_what_is_searched(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+def test_progress_rises_from_0_to_1_and_says_what_is_searched(decoding: Decoding) -> None:
+    decoding(within((0.0, 20e3)))
     said: list[tuple[float, str]] = []
     occ.limits(SCENE, images=20, progress=lambda share, what: said.append((share, what)))
     shares = [share for share, _ in said]
@@ -318,10 +288,8 @@ def test_for_a_scene_too_slow_the_answer_lies_above_it() -> None:
     assert found.highest.value == pytest.approx(theory.null_frequency(slow), rel=0.03)
 
 
-def test_advice_holds_both_ends_found_and_the_limits_of_theory(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+def test_advice_holds_both_ends_found_and_the_limits_of_theory(decoding: Decoding) -> None:
+    decoding(within((0.0, 20e3)))
     found = occ.limits(SCENE, images=1)
     advice = advice_of(found)
     assert [end.side for end in advice.frequency.ends] == ["lowest", "highest"]
@@ -353,9 +321,9 @@ def test_as_few_images_as_show_a_rate_are_asked_for(rate: float) -> None:
     assert interval_of_pictures(images - 1, images - 1, images - 1)[0] < rate
 
 
-def test_no_number_of_images_shows_that_all_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_no_number_of_images_shows_that_all_are_read(decoding: Decoding) -> None:
     assert (images_to_be_sure(100.0), images_to_be_sure(99.9)) == (0, 0)
-    monkeypatch.setattr(module, "right_bits_of_images", reads_where(lambda f: f <= 20e3))
+    decoding(within((0.0, 20e3)))
     range_end = occ.limits(SCENE, rate=100.0).frequency.highest
     assert (range_end.inside, range_end.interval) == (None, None)
 
@@ -369,25 +337,16 @@ CURVES: dict[str, Callable[[float], float]] = {
 """How the share of missed images grows with the logarithm of the frequency, 1 % at 10 kHz."""
 
 
-def falls(curve: str, lost: int) -> object:
-    """Stand in for all decoding: from 10 kHz on less than 99 % is read.
+def falls(curve: str, lost: int) -> Callable[[float, int, int], float]:
+    """From 10 kHz on less than 99 % is read; a missed image loses ``lost`` of its 10 bits."""
 
-    Parameters
-    ----------
-    lost
-        Bits, of 10, that a missed image loses.
-    """
-
-    def right_bits_of_images(
-        scene: Scene, settings: RateSettings, _: object
-    ) -> Iterator[tuple[int]]:
-        frequency = scene.transmitter.switching_frequency
+    @cache
+    def misses(frequency: float, seed: int) -> list[bool]:
         missed = CURVES[curve](math.log(frequency / 10e3)) * 10.0 / lost
-        random = np.random.default_rng([settings.seed, round(frequency * 1e3)])
-        for _image in range(settings.images):
-            yield (10 - lost if random.random() < missed else 10,)
+        random = np.random.default_rng([seed, round(frequency * 1e3)])
+        return (random.random(1000) < missed).tolist()
 
-    return right_bits_of_images
+    return lambda frequency, image, seed: 1.0 - lost / 10 * misses(frequency, seed)[image]
 
 
 @pytest.mark.parametrize(
@@ -401,9 +360,9 @@ def falls(curve: str, lost: int) -> object:
     ],
 )
 def test_the_stated_interval_of_an_end_holds_it(
-    monkeypatch: pytest.MonkeyPatch, curve: str, lost: int, widest: float
+    decoding: Decoding, curve: str, lost: int, widest: float
 ) -> None:
-    monkeypatch.setattr(module, "right_bits_of_images", falls(curve, lost))
+    decoding(falls(curve, lost))
     found = []
     for seed in range(200):
         settings = RateSettings(20, ("threshold",), seed)
@@ -468,11 +427,9 @@ def test_the_lit_panel_is_just_white_at_saturation_exposure() -> None:
 
 
 def test_the_command_answers_with_one_table_of_all_decoders(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    decoding: Decoding, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(
-        module, "right_bits_of_images", reads_where(lambda f: f <= 2e3 or 4e3 <= f <= 14e3)
-    )
+    decoding(within((0.0, 2e3), (4e3, 14e3)))
     assert main(["limits", "--preset", "phone-136us", "--images", "2", "--jobs", "1"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[1].split("  ")[0] == "decoder"

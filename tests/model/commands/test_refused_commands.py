@@ -1,0 +1,161 @@
+"""A command that cannot be done ends with one sentence before any work, and changes no file."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import occ_model as occ
+from occ_model.cli import main
+from occ_model.files.writing import write_image
+
+WITHOUT_FILES = {
+    "render --preset phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
+    "render --set exposure=1ms": "There is no parameter 'exposure'; did you mean exposure_time?",
+    "render --set iso=0": "iso is 0; allowed: 1 to ",
+    "render --set iso=fast": "iso is 'fast', which is not a number; allowed: 1 to ",
+    "render --set exposure_time=1Hz": "exposure_time is '1Hz', which is not a number in µs; ",
+    "render --set code=1024": "code is 1024; allowed with 10 bits: 0 to 1023.",
+    "render --set iso": "'iso' is not a setting; write NAME=VALUE.",
+    "render --set yaw=80° --set distance=0.2m": "Turned like this at a distance of 0.2 m, ",
+    "render --set rows=100000 --set columns=1000000": "An image of 100000 rows and 1000000 col",
+    "presets phone": "There is no preset 'phone'. Did you mean phone-68us? Known are ",
+    "plan --on blur": "effect is 'blur'; allowed: led-edges,",
+    "plan --on jpeg --off jpeg": "effect 'jpeg' is switched both on and off",
+    "bands --limit 0": "limit is 0 %; allowed: 0.01 % to 100 %.",
+    "bench --scheme morse": "line_code is 'morse'",
+    "bench --exposure -1": "exposure in symbols is -1",
+    "bench --rows 0": "rows a symbol is 0",
+    "room locate --room cellar": "There is no room 'cellar'",
+    "room locate --set distance=2m": "A room has no distance: ",
+    "sweep --vary distance=1,1": "distance is 1 m twice",
+    "sweep --vary distance=1 --images 0": "images is 0",
+    "sweep --vary distance=1 --jobs 0": "jobs is 0",
+    "sweep --vary distance=1 --jobs 100000": "allowed: a whole number from 1 to 1,024.",
+    f"sweep --vary distance=1 --images {'9' * 4000}": "a whole number from 1 to 1,000,000.",
+    "sweep --vary iso=100:4000:1 --vary distance=1:2:x300": "1,170,300 points; allowed",
+    "sweep --vary distance=1 --on jpeg --off jpeg": "both on and off",
+    "film --frame-rate fast -o f.mkv": "frame_rate is 'fast', which is not a number in Hz",
+    "film --frames 0 -o f.mkv": "frames is 0; allowed: a whole number from 1",
+    "film --frame-rate 100 -o f.mkv": "3456 columns at 8 µs takes 27.648 ms; allowed at 100 Hz",
+    "film --waypoint offset_x=1 -o f.mkv": "waypoint is 'offset_x=1'; allowed: a time and",
+    "film --waypoint 1s:speed=1 -o f.mkv": "waypoint changes 'speed'; allowed: distance",
+    "film --waypoint 1s:yaw=x -o f.mkv": "waypoint's yaw is 'x'; allowed: a number in °",
+    "film --exposures 68us,long -o f.mkv": "exposure_time is 'long'",
+    "animate --vary averaging=light -o a.gif": "averaging cannot run through values",
+    "figures --out new --seed -1": "seed is -1",
+    "figures --out new --images 0": "images is 0",
+    "figures --out new --jobs 0": "jobs is 0",
+}
+
+READING = {
+    "render --scene missing.toml": "missing.toml cannot be read: No such file or directory.",
+    "render --scene folder.png": "folder.png cannot be read: it is a folder.",
+    "render --scene text.txt": "text.txt cannot be read. This is not a TOML file: ",
+    "decode missing.png": "missing.png cannot be read: No such file or directory.",
+    "decode folder.png": "folder.png is a folder, not a photo.",
+    "decode text.txt": "text.txt is not an image that can be read.",
+    "bench --data no-such-table.csv": "no-such-table.csv cannot be read",
+    "match p.png --chips --lamps": "--chips is given with --lamps",
+    "match p.png --chips --out fit.toml": "--out is given with --chips",
+    "match p.png 0.png --chips": "--chips is given with several photos",
+    "match p.png --known p.png=1kHz": "--known is given with one photo",
+    "match 0.png p.png --known 0.png": "--known (nothing) is none of the photos, or several; ",
+    "match 0.png p.png --known 2.png=1kHz": "--known 2.png is none of the photos",
+    "match 0.png p.png --known 0.png=loud": "--known 0.png is 'loud'",
+    "match 0.png p.png --led-frequency 1kHz --known 0.png=-1kHz": "is -1 kHz; allowed: 0.5 Hz to",
+    "match 0.png p.png --known 0.png=2s": "--known 0.png is '2s'",
+}
+
+NO_SCENE = "has no ending of a scene file; use .toml."
+
+WRITING = {
+    "render -o missing/out.png": "missing/out.png cannot be written: name a file in a folder ",
+    "render -o folder.png": "folder.png is a folder; name a file to write to.",
+    "render -o out.xyz": "out.xyz has no ending of an image format; use .png, ",
+    "film -o film.avi": "film.avi has no ending of a film",
+    "match 0.png p.png --out nowhere/x.csv": "name a file in a folder that is there",
+    "match 0.png p.png --out .": "name a file to write to",
+    "sweep --vary distance=1 --plot x.gif": "'.gif'; allowed: .png, .pdf, .svg",
+    "sweep --vary distance=1 --plot no/such/x.png": "cannot be written",
+    "sweep --vary distance=1 --out .": "is a folder",
+    "sweep --vary distance=1 --vary yaw=0 --vary roll=0 --plot x.png": "one axis or two, not 3",
+    **{
+        f"{words} {name}": f"{name} {NO_SCENE}"
+        for name in ("scene.csv", "scene.png", "scene.jpg", "scene", "scene.txt")
+        # Refused before the photo is read.
+        for words in ("render -o q.png --save-scene", "match text.txt --out")
+    },
+}
+
+SAME_FILE = {
+    "match p.png --out p.png": "the same file as the photo; ",
+    "match p.png --out link.toml": "--out is link.toml, the same file as the photo; ",
+    "match p.png --out hard.toml": "--out is hard.toml, the same file as the photo; ",
+    "match hard.toml --out away/../hard.toml": "the same file as the photo; ",
+    "match p.png w.csv --out w.csv": "the same file as one of the photos; ",
+    "match p.png w.csv --out w.png": "A table is not written to a .png file",
+    "match p.png --scene s.toml --out s.toml": "the same file as the file of --scene; ",
+    "match p.png --out t.csv": "t.csv has no ending of a scene file; use .toml.",
+    "render -o q.png --save-scene q.png": "--out and --save-scene are the same file, ",
+    "render -o q.png --save-scene dangling.toml": "--out and --save-scene are the same file, ",
+    "render -o p.png --save-scene hard.toml": "--out and --save-scene are the same file, ",
+    "render -o away/../q --save-scene q": "--out and --save-scene are the same file, q; name two",
+    "render -o q --save-scene folder-link/q": "--out and --save-scene are the same file, ",
+    "render --scene p.png -o p.png": "the same file as the file of --scene; ",
+    "render --preset mine -o q.png --save-scene mine.toml": "the file of --preset; ",
+    "sweep --vary iso=100 --out w.png --plot w.png": "--out and --plot are the same file, ",
+    "sweep --vary iso=100 --out w.png": "A table is not written to a .png file",
+    "sweep --vary iso=100 --out w.toml": "name one that ends in .csv, not w.toml.",
+    "sweep --vary iso=100 --out x --plot ./x": "--out and --plot are the same file, ",
+    "sweep --vary iso=100 --scene w.csv --out w.csv": "the same file as the file of --scene; ",
+    "figures --out figures --photo-68us figures/figure-3.png": "the file of --photo-68us; ",
+    "figures --out figures --photo-136us fig-link.png": "the file of --photo-136us; ",
+    "accuracy --out figures --scene figures/accuracy.csv": "the file of --scene; ",
+}
+
+REFUSED = WITHOUT_FILES | READING | WRITING | SAME_FILE
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """The current folder, with files and links that no command may change."""
+    folder = tmp_path_factory.mktemp("files")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        patch.setenv("OCC_PRESETS", str(folder))
+        for name in ("figures", "away", "folder.png"):
+            Path(name).mkdir()
+        scene = occ.load_preset("phone-68us").replace(rows=60)
+        for name in ("p.png", "0.png", "figures/figure-3.png"):
+            write_image(Path(name), occ.render(scene).image)
+        for name in ("s.toml", "w.csv", "figures/accuracy.csv", "mine.toml"):
+            Path(name).write_text(scene.to_toml())
+        Path("text.txt").write_text("no picture\n")
+        Path("link.toml").symlink_to("p.png")
+        Path("hard.toml").hardlink_to("p.png")
+        Path("dangling.toml").symlink_to("q.png")
+        Path("fig-link.png").symlink_to("figures/figure-3.png")
+        Path("folder-link").symlink_to(".")
+        yield folder
+
+
+def contents(folder: Path) -> dict[Path, bytes]:
+    return {path: path.read_bytes() if path.is_file() else b"" for path in folder.rglob("*")}
+
+
+@pytest.mark.parametrize("line", REFUSED, ids=lambda line: line[:60])
+def test_a_refused_command_says_one_sentence_and_changes_no_file(
+    folder: Path, capsys: pytest.CaptureFixture[str], line: str
+) -> None:
+    before, words = contents(folder), line.split()
+    if words[0] == "render" and "-o" not in words:
+        words += ["-o", "out.png"]
+    assert main(words) == 2
+    out, said = capsys.readouterr()
+    assert out == ""
+    assert said.startswith("occ-model: ")
+    assert REFUSED[line] in said
+    assert said.count("\n") == 1
+    assert said.endswith((".\n", "?\n"))
+    assert contents(folder) == before

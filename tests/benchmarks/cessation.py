@@ -39,7 +39,6 @@ def with_noise(scene: Scene, levels: float) -> Scene:
 
 
 def main() -> None:
-    """Search, and print a line for each scene."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--images", type=int, default=20)
     images = parser.parse_args().images

@@ -12,7 +12,6 @@ import occ_model as occ
 
 
 def main() -> None:
-    """Print the counts."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--trials", type=int, default=10_000)
     trials = parser.parse_args().trials

@@ -67,7 +67,6 @@ def written(found: dict[str, tuple[int, int]]) -> str:
 
 
 def main() -> None:
-    """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--codes", type=int, default=20)
     parser.add_argument("--step", type=float, default=1.0, help="kHz")

@@ -15,7 +15,6 @@ from simulated_films import FILMS, film, judge
 
 
 def main(first: int, count: int) -> None:
-    """Print a line a film, and a summary."""
     ratios: dict[str, list[float]] = {}
     print("film  fps    gap   bits framing    f ppm      +-   t_r %     gap %  seen right ms")
     for number in range(first, count):

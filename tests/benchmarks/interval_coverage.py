@@ -72,7 +72,6 @@ def true_end(preset: str, decoder: str, within: tuple[float, float], falls: bool
 
 
 def count_ends(searches: int, seed: int, processes: ProcessPoolExecutor) -> None:
-    """Print a line for each end."""
     print("| preset | decoder | true end | intervals that hold it | median width |")
     print("|---|---|---|---|---|")
     jobs = [[processes.submit(ends_of, *one, seed + place) for place in range(searches)]
@@ -89,7 +88,6 @@ def count_ends(searches: int, seed: int, processes: ProcessPoolExecutor) -> None
 
 
 def count_rates(studies: int, images: int, seed: int, processes: ProcessPoolExecutor) -> None:
-    """Print a line for each edge."""
     print("| preset | decoder | frequency | true rate | intervals that hold it |")
     print("|---|---|---|---|---|")
     total, bits, held = studies * images, 10, 0
@@ -114,7 +112,6 @@ def count_rates(studies: int, images: int, seed: int, processes: ProcessPoolExec
 
 
 def main() -> None:
-    """Measure and print a line an edge."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--studies", type=int, default=40)
     parser.add_argument("--images", type=int, default=20)

@@ -36,7 +36,6 @@ def line(preset: str, decoder: str) -> str:
 
 
 def main() -> None:
-    """Print a line for each preset and decoder as soon as it is known."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--preset", action="append", choices=occ.presets())
     parser.add_argument("--decoder", action="append", choices=occ.decoders())

@@ -38,7 +38,6 @@ def source(scene: occ.Scene) -> FilmSource:
 
 
 def main() -> None:
-    """Measure once."""
     application = QApplication([])
     scene = occ.load_preset("phone-136us").replace(
         rows=1080, columns=1920, readout_time=15e-6, distance=0.6

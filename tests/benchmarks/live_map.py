@@ -42,12 +42,10 @@ class Beat:
         self._last = now
 
     def start(self) -> None:
-        """Tick from now on."""
         self._last = perf_counter()
         self._timer.start(_BEAT_MS)
 
     def stop(self) -> None:
-        """Tick no more."""
         self._timer.stop()
 
     def percentile(self, share: float) -> float:
@@ -94,7 +92,6 @@ class _PaintedMaps:
 
 
 def main() -> None:
-    """Measure, several times."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--preset", default="phone-136us")
     parser.add_argument("--dock", default="map", help="the pane in front; another one: no map")

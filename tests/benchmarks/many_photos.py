@@ -41,7 +41,6 @@ def _photos(folder: Path, count: int) -> list[Path]:
 
 
 def main() -> None:
-    """Match the photos, and print the cost."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100
     jobs = int(sys.argv[2]) if len(sys.argv) > 2 else 2
     told = _scene().replace(readout_time=1e-6, exposure_time=1e-3)

@@ -89,7 +89,6 @@ WHAT: dict[str, tuple[int, Callable[[Sequence[int]], Iterator[Any]], Callable[..
 
 
 def main() -> None:
-    """Match photographs, and print the figures."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("what", nargs="?", choices=list(WHAT), default="known")
     parser.add_argument("count", nargs="?", type=int, help="number of photographs")

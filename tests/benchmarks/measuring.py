@@ -10,8 +10,6 @@ _ROUNDS = 41
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the report."""
-
     what: str
     measured: str
     wanted: str

@@ -97,7 +97,6 @@ def compare_pictures() -> None:
 
 
 def show(decoder: str, method: str, pairs: list[TwoPaths]) -> None:
-    """Print a line of the table."""
     square, terms, probability = significance(pairs)
     off = np.mean([100.0 * (pair.study.mean() - pair.image.mean()) for pair in pairs])
     cells = (decoder, method, len(pairs), terms, f"{off:+.2f}", f"{square:.1f}")

@@ -215,7 +215,6 @@ def measure(name: str, megapixels: float, noisy: bool) -> str:
 
 
 def main() -> None:
-    """Print what each kind takes."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--megapixels", type=float, default=169.9)
     parser.add_argument("--noisy", action="store_true", help="files that no encoder shrinks")

@@ -270,7 +270,6 @@ _ALL = (
 
 
 def main() -> None:
-    """Print the report."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
         "--markdown", action="store_true", help="print the table of resources/docs/measurements.md"

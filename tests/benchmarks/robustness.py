@@ -68,7 +68,6 @@ def codes_read(pose: str, noise: float, codes: int) -> list[int]:
 
 
 def main() -> None:
-    """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--codes", type=int, default=1024, help="how many of the 1024 codes")
     parser.add_argument("--jobs", type=int, default=2)

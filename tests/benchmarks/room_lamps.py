@@ -52,7 +52,6 @@ def _compared(preset: str, turn: float, rounds: int, *, all_effects: bool) -> st
 
 
 def main() -> None:
-    """Print the processor times and the ratio of each preset, level and turned."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=9)
     parser.add_argument("--presets", nargs="+", default=["phone-136us", "phone-136us-real"])

@@ -109,7 +109,6 @@ def shares(deviations: FloatArray) -> str:
 
 
 def main() -> None:
-    """Try random places and print what was found."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--poses", type=int, default=50)
     parser.add_argument("--seed", type=int, default=1)

@@ -90,7 +90,6 @@ def print_limits(pictures: int) -> None:
 
 
 def main() -> None:
-    """Print the tables."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--pictures", type=int, default=20)
     parser.add_argument("--part", choices=("schemes", "limits", "both"), default="both")

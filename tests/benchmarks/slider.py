@@ -136,7 +136,6 @@ class Window(QObject):
         return during / (made[-1] - made[0]), exact - made[-1]
 
     def close(self) -> None:
-        """End the application."""
         self.application.window.close()
         self.application.stop()
 

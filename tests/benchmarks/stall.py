@@ -45,7 +45,6 @@ class _Found:
 
 
 def main() -> None:
-    """Measure each in turn."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--preset", default="phone-136us")
     parser.add_argument("--seconds", type=float, default=30.0, help="for each line of the table")

@@ -43,7 +43,6 @@ def seconds_of(work: Callable[[], object], rounds: int = ROUNDS) -> float:
 
 
 def swept(axes: Mapping[str, Sequence[float]], **settings: object) -> occ.SweepTable:
-    """Sweep the phone."""
     phone = occ.load_preset("phone-136us")
     return occ.sweep(phone, axes, IMAGES, BOTH, **settings)  # type: ignore[arg-type]
 
@@ -95,7 +94,6 @@ def by_images(axes: Mapping[str, Sequence[float]]) -> None:
 
 
 def main() -> None:
-    """Print the report."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--whole", action="store_true", help="the whole grid by images, too")
     options = parser.parse_args()

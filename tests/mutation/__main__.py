@@ -91,7 +91,6 @@ class Run:
 
 
 def described(mutant: Mutant, outcome: Outcome) -> str:
-    """Say what became of a mutant."""
     head = f"{outcome.result:9} {mutant.kind:10} {mutant.file}:{mutant.line} {mutant.where}"
     if outcome.result == KILLED:
         return f"{head}  by {outcome.by}"
@@ -149,7 +148,6 @@ def drawn_mutants(
 
 
 def read_command_line(words: Sequence[str] | None) -> argparse.Namespace:
-    """Read what is asked for."""
     parser = argparse.ArgumentParser(prog="python tests/mutation", description=__doc__)
     add = parser.add_argument
     add("paths", nargs="*", help="packages, folders or files, as occ_model/effects")
@@ -175,7 +173,6 @@ def read_command_line(words: Sequence[str] | None) -> argparse.Namespace:
 
 
 def main(words: Sequence[str] | None = None) -> None:
-    """Do what is asked for."""
     options = read_command_line(words)
     # However it is ended, the copies go, and what runs in them.
     signal.signal(signal.SIGTERM, lambda number, _frame: sys.exit(128 + number))

@@ -22,7 +22,6 @@ class Choice:
 
     @property
     def seconds(self) -> float:
-        """How long they take without a mutant."""
         return sum(test.seconds for test in self.tests)
 
 

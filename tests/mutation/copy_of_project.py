@@ -103,7 +103,6 @@ class Copy:
         )
 
     def stop(self) -> None:
-        """End what runs in the copy."""
         if self._child:
             end_group(self._child)
         for process in (self._process, self._runner):

@@ -59,7 +59,6 @@ class Source:
         self._word_starts = [start for start, _ in self._words]
 
     def span(self, node: ast.expr | ast.stmt) -> tuple[int, int]:
-        """Return where a node begins and ends."""
         assert node.end_lineno is not None
         assert node.end_col_offset is not None
         return (

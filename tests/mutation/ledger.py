@@ -38,7 +38,6 @@ class Equivalent:
 
 
 def equivalents(path: Path = LIST) -> list[Equivalent]:
-    """Read the list of equivalent mutants."""
     entries = tomllib.loads(path.read_text(encoding="utf-8"))["equivalent"]
     return [Equivalent(**entry) for entry in entries]
 
@@ -63,7 +62,6 @@ class Ledger:
             self._rows[tuple(row["key"])] = row
 
     def note(self, mutant: Mutant, outcome: Outcome, seed: int) -> None:
-        """Store a result, and keep the first one of the same mutant beside it."""
         before = self._rows.get(mutant.key, {})
         self._rows[mutant.key] = row = {
             "key": mutant.key,
@@ -81,11 +79,9 @@ class Ledger:
         (self.folder / f"{name}.json").write_text(json.dumps(row, indent=1), encoding="utf-8")
 
     def results(self) -> Mapping[tuple[Any, ...], str]:
-        """Return what became of each mutant at last."""
         return {key: str(row["result"]) for key, row in self._rows.items()}
 
     def table(self, known: Iterable[Equivalent]) -> list[str]:
-        """Write the table by package, in Markdown."""
         listed = {(one.file, one.where, one.before, one.after) for one in known}
         counts: dict[str, Counter[str]] = {}
         for key, row in sorted(self._rows.items()):

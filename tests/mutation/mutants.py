@@ -35,11 +35,9 @@ class Mutant:
 
     @property
     def key(self) -> tuple[str, str, str, str, int]:
-        """What this mutant is known by."""
         return (self.file, self.where, self.before, self.after, self.same)
 
     def apply(self, text: str) -> str:
-        """Return the source with the fault."""
         data = text.encode()
         return (data[: self.edit.start] + self.edit.text + data[self.edit.end :]).decode()
 
@@ -89,7 +87,6 @@ class _Finder:
         self._where.pop()
 
     def _add(self, kind: str, edit: Edit) -> None:
-        """Note a mutant."""
         data = self.source.bytes
         changed = data[: edit.start] + edit.text + data[edit.end :]
         line = data.count(b"\n", 0, edit.start) + 1

@@ -19,8 +19,6 @@ _LONGEST = 3600.0
 
 @dataclass(frozen=True)
 class MeasuredTest:
-    """A test as it was measured."""
-
     name: str
     seconds: float
     lines: Mapping[str, int]
@@ -28,7 +26,6 @@ class MeasuredTest:
 
     @property
     def file(self) -> str:
-        """Where it is."""
         return self.name.partition("::")[0]
 
     def runs(self, file: str, lines: Iterable[int]) -> bool:

@@ -104,7 +104,6 @@ class Recorder:
             self._switch(before)
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Note how long a test took."""
         now = _processor_seconds()
         used, self._begun = now - self._begun, now
         self.tests[report.nodeid]["seconds"] += used
@@ -112,7 +111,6 @@ class Recorder:
         self._of_file[file] = self._of_file.get(file, 0.0) + used
 
     def pytest_sessionfinish(self) -> None:
-        """Store what was measured."""
         self._coverage.stop()
         self._coverage.save()
         found = {"tests": self.tests, "left out": self.left_out}
@@ -129,5 +127,4 @@ def _file(test: str) -> str:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Begin to record."""
     config.pluginmanager.register(Recorder())

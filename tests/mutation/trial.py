@@ -21,8 +21,6 @@ _PASSED, _NOT_FOUND, _NO_TESTS, _TIMED_OUT = 0, 4, 5, 124
 
 @dataclass(frozen=True)
 class Outcome:
-    """How it went."""
-
     result: str
     by: str
     """The first test that failed, or why the mutant counts as killed."""

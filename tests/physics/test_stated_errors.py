@@ -5,8 +5,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from photo_world.bounds import bound_of_light, bound_of_picture, bound_of_profile
 from photo_world.photograph import World, photograph, random_world
 from photo_world.tone_curves import power, srgb
@@ -14,14 +12,8 @@ from photo_world.trials import Trial, told, trial
 from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel
-from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import Cells
-from occ_model.transmitter.waveform import Waveform
-
-CHIPS = np.array([1, 1, 1, 0, 0, 1, 0, 1, 1, 0, 0], dtype=np.uint8)
-PULSES = 3
 
 
 def small_world(seed: int, **changes: Any) -> World:
@@ -146,54 +138,6 @@ def test_columns_kept_for_the_fit_hold_no_clipped_pixel() -> None:
     assert profiles
     assert all(profile.values[profile.kept].max() < 250.0 for profile in profiles)
     assert any(profile.clipped.any() for profile in profiles)
-
-
-@settings(max_examples=40)
-@given(step=st.floats(0.02, 0.5), exposure=st.floats(0.05, 5.0), middle=st.floats(0.0, 11.0))
-def test_without_blur_the_light_is_the_exact_exposure_integral(
-    step: float, exposure: float, middle: float
-) -> None:
-    timing = Timing(step, exposure, middle, 2.22)
-    exact = timing.lit_fraction(Waveform(CHIPS), 300)
-    light = BlurredLight(CHIPS, 300).lit_fraction(timing, 0.0, 0.0)
-    np.testing.assert_allclose(light, exact, atol=1e-9)
-
-
-def test_an_led_that_is_on_longer_lights_more_by_that() -> None:
-    """On average over whole periods: a pulse's length times the number of pulses."""
-    timing = Timing(0.11, 0.7, 3.0, 2.22)
-    light = BlurredLight(CHIPS, 1000)
-    longer = (
-        light.lit_fraction(timing, 0.0, 0.1).mean() - light.lit_fraction(timing, 0.0, 0.0).mean()
-    )
-    assert longer == pytest.approx(0.1 * PULSES / len(CHIPS), rel=0.03)
-
-
-def test_blur_keeps_the_light_and_has_the_width_that_it_states() -> None:
-    place = np.arange(-8, 9)
-    for blur in (0.8, 1.1, 1.5):
-        kernel = blur_kernel(blur)
-        assert kernel.sum() == pytest.approx(1.0)
-        assert kernel @ place**2 == pytest.approx(blur**2, rel=0.02)
-
-
-@pytest.mark.parametrize(("shape", "tails"), [("box", -1.2), ("exponential", 3.0)])
-def test_other_blurs_have_their_width_and_tails(shape: BlurShape, tails: float) -> None:
-    """Sampled by columns: a box gains a column's own width, 1/12, and exponential tails are cut."""
-    place = np.arange(-8, 9)
-    kernel = blur_kernel(1.2, shape=shape)
-    assert kernel.sum() == pytest.approx(1.0)
-    assert kernel @ place**2 == pytest.approx(1.2**2, rel=0.12)
-    assert kernel @ place**4 / (kernel @ place**2) ** 2 - 3.0 == pytest.approx(tails, rel=0.25)
-
-
-@pytest.mark.parametrize("tails", [-1.2, -0.5, 0.5, 1.0])
-def test_the_blurs_tails_are_its_excess_kurtosis(tails: float) -> None:
-    place = np.arange(-8, 9)
-    for blur in (0.9, 1.3):
-        kernel = blur_kernel(blur, tails)
-        assert kernel @ place**2 == pytest.approx(blur**2, rel=0.02)
-        assert kernel @ place**4 / blur**4 - 3.0 == pytest.approx(tails, abs=0.1)
 
 
 def test_the_tone_curve_holds_the_standard_one_and_its_inverse() -> None:

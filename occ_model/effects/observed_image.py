@@ -11,6 +11,7 @@ from occ_model.effects.normal import clipped_mean, normal_share, share_unclipped
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.simulated_columns import Names
+from occ_model.effects.unsampled_columns import add_unsampled
 
 _SHARP_NOISE = 1e-9
 """Deviation in grey levels that none is taken for."""
@@ -56,6 +57,7 @@ def observed_image(pixels: SampledPixels) -> Observed:
         doubts += np.maximum(added + more, -0.5 * (squares + doubts)) - alone
         found.alone.update(zip(pixels.moving, alone.tolist(), strict=True))
         found.doubt.update(zip(pixels.moving, doubts.tolist(), strict=True))
+    add_unsampled(pixels, found)
     return found
 
 
@@ -98,4 +100,5 @@ def observed_profile(pixels: SampledPixels) -> Observed:
             found.alone[name] = added
             added += 2.0 * more / file.block_rows
             found.add_doubt([name], added)
+    add_unsampled(pixels, found)
     return found

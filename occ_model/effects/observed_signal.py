@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from occ_model.arrays import BoolArray, FloatArray
-from occ_model.camera.enhancement import Enhancement
+from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
 from occ_model.effects.observed import Observed
@@ -14,6 +14,7 @@ from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.signal_sampling import SURE_DEVIATIONS, SignalSampling
 from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves
+from occ_model.effects.unsampled_columns import add_unsampled
 
 _DOUBTED_RIM, _DOUBTED_RIM_OF_FEW = 0.5, 1.0
 """Part of the pixels of a rim that moves of which no sample shows whether they are enhanced: in
@@ -27,6 +28,8 @@ _LARGE_STEP = 32.0
 
 _MOST_GAIN = 8.0
 """Times by which an enhancement raises contrasts at most, where noise smooths it."""
+
+_LEVELS = np.arange(256.0)
 
 _CLIPPED_NOISE = 8.0
 """Noise in grey levels that black and white cut off noticeably."""
@@ -57,6 +60,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     found = Observed(pixels.names, seen, sorted(pixels.names))
     sampling = SignalSampling(pixels)
     found.alone.update(sampling.of_effects())
+    add_unsampled(pixels, found, lambda one, own: pixels.table.look(curves.curve(one), own))
     fluctuations = sampling.fluctuations()
     found.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
@@ -81,7 +85,8 @@ def _beside(pixels: SampledPixels, included: Names, values: FloatArray) -> Float
     """Return the mean of pixels of some mean values that are rounded and not enhanced."""
     spread = pixels.spread(included)
     if float(spread.max()) < LEAST_SMOOTHING_NOISE:
-        return np.rint(np.clip(values, 0.0, WHITE))
+        flat = np.clip(values, 0.0, WHITE)
+        return PassedSteps.of(flat, pixels.noise_at(included, flat)).mean_of(_LEVELS)
     return pixels.table.look(clipped_mean(pixels.levels, spread, WHITE), values)
 
 
@@ -117,17 +122,15 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     An equalization makes one where many columns share a value. What each column of the profile
     changes there is summed over all columns, less what those of the sample stand for.
     """
-    sample, region = pixels.sample, pixels.view.region
-    if len(sample.columns) >= region.columns:
+    missed, region = pixels.unsampled, pixels.view.region
+    if missed is None:
         return
     enhancement = pixels.columns.enhancement(pixels.names)
     steps = np.diff(enhancement.curve.astype(np.float64))
     large = np.flatnonzero(steps > _LARGE_STEP)
     if not len(large):
         return
-    profile = pixels.columns.profile(pixels.names)[region.first_column : region.last_column]
-    missed = np.full(region.columns, 1.0 / region.columns)
-    np.subtract.at(missed, sample.columns - region.first_column, sample.weights)
+    profile = pixels.profile(pixels.names)
     middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
     noise = pixels.noise_at(pixels.names, profile)  # a full pixel has none
     moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2)).tolist()

@@ -253,6 +253,24 @@ class SampledPixels:
         """The difference of the brightest and the darkest pixel of the sample."""
         return float(self.levels[-1] - self.levels[0])
 
+    def profile(self, included: Names) -> FloatArray:
+        """Return the values on the panel of all columns of the region."""
+        region = self.view.region
+        return self.columns.profile(included)[region.first_column : region.last_column]
+
+    @cached_property
+    def unsampled(self) -> FloatArray | None:
+        """The weight that each column of the region lacks in the sample, None where none does.
+
+        Their sum is 0: a mean over the columns is one over the sample and a sum with these.
+        """
+        region, sample = self.view.region, self.sample
+        if len(sample.columns) >= region.columns:
+            return None
+        lacking = np.full(region.columns, 1.0 / region.columns)
+        np.subtract.at(lacking, sample.columns - region.first_column, sample.weights)
+        return lacking
+
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
         """Return the mean of each column over its rows."""
         return np.asarray(np.einsum("...cn,cn->...c", seen, self.sample.row_weights))

@@ -60,7 +60,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     found = Observed(pixels.names, seen, sorted(pixels.names))
     sampling = SignalSampling(pixels)
     found.alone.update(sampling.of_effects())
-    add_unsampled(pixels, found, lambda one, own: pixels.table.look(curves.curve(one), own))
+    add_unsampled(pixels, found, curves.enhanced)
     fluctuations = sampling.fluctuations()
     found.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
@@ -130,10 +130,11 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     large = np.flatnonzero(steps > _LARGE_STEP)
     if not len(large):
         return
-    profile = pixels.profile(pixels.names)
+    profile = _seen_profile(pixels)
     middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
     noise = pixels.noise_at(pixels.names, profile)  # a full pixel has none
-    moved = np.sqrt(pixels.mean_of((pixels.stack[1:] - pixels.whole) ** 2)).tolist()
+    moves = np.sqrt(pixels.mean_of_rows((pixels.stack[1:] - pixels.whole) ** 2)).max(axis=1)
+    moved = moves.tolist()
     reach = max(2.0 * float(noise.max()), *moved, _ROUNDING_MARGIN)
     close = (np.abs(profile - middles) < reach).any(axis=0)
     profile, missed, noise = profile[close], missed[close], noise[close]
@@ -151,10 +152,22 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
         doubt(effect.name, reached, np.sqrt((own / rest / 8.0) ** 2 + by_chance))
     least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
     for name, own in zip(pixels.moving, moved, strict=True):
-        doubt(name, away < max(own, _ROUNDING_MARGIN), 0.4 * own / least)
+        nearness = np.maximum(1.0 - away / max(own, _ROUNDING_MARGIN), 0.0)
+        doubt(name, nearness > 0.0, nearness * (0.4 * own / least))
         if least.min() < LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
             error = found.sampling_error(name, region.columns)
             found.add_doubt([name], SURE_DEVIATIONS * error)
+
+
+def _seen_profile(pixels: SampledPixels) -> FloatArray:
+    """Return the profile of the panel as the lens dims it."""
+    region, columns = pixels.view.region, pixels.sample.columns
+    profile = pixels.profile(pixels.names)
+    order = np.argsort(columns)
+    seen = pixels.whole[:, pixels.sample.inner].mean(axis=1)
+    gain = seen / np.maximum(profile[columns - region.first_column], 1.0)
+    places = np.arange(region.first_column, region.last_column)
+    return np.asarray(profile * np.interp(places, columns[order], gain[order]))
 
 
 def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:

@@ -37,7 +37,7 @@ _MOVED_NODES, _BLURRED_NODES = 2, 3
 _BESIDE_NODES = 3
 """Nodes above and below the panel."""
 
-_SIDE_NODES = 10
+_SIDE_NODES = 32
 """Columns across an upright rim."""
 
 _RIM_COLUMNS = 33

@@ -262,14 +262,19 @@ class SampledPixels:
     def unsampled(self) -> FloatArray | None:
         """The weight that each column of the region lacks in the sample, None where none does.
 
-        Their sum is 0: a mean over the columns is one over the sample and a sum with these.
+        A mean of squares over the panel's columns is one over the sample and a sum with these.
         """
-        region, sample = self.view.region, self.sample
-        if len(sample.columns) >= region.columns:
+        region, columns = self.view.region, self.sample.columns
+        if len(columns) >= region.columns:
             return None
         lacking = np.full(region.columns, 1.0 / region.columns)
-        np.subtract.at(lacking, sample.columns - region.first_column, sample.weights)
-        return lacking
+        np.subtract.at(lacking, columns - region.first_column, self.sample.weights)
+        inside = self.inside([self.names])
+        if inside is None:
+            return lacking
+        order, share = np.argsort(columns), self.mean_of_rows(inside[0])
+        places = np.arange(region.first_column, region.last_column)
+        return np.asarray(lacking * np.interp(places, columns[order], share[order]) ** 2)
 
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
         """Return the mean of each column over its rows."""

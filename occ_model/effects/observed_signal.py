@@ -153,7 +153,8 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
     for name, own in zip(pixels.moving, moved, strict=True):
         nearness = np.maximum(1.0 - away / max(own, _ROUNDING_MARGIN), 0.0)
-        doubt(name, nearness > 0.0, nearness * (0.4 * own / least))
+        near = nearness > 0.0  # a column of the sample stands for those as close to the step
+        doubt(name, near, np.where(missed < 0.0, nearness, 1.0) * (0.4 * own / least))
         if least.min() < LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
             error = found.sampling_error(name, region.columns)
             found.add_doubt([name], SURE_DEVIATIONS * error)

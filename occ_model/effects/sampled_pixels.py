@@ -262,7 +262,7 @@ class SampledPixels:
     def unsampled(self) -> FloatArray | None:
         """The weight that each column of the region lacks in the sample, None where none does.
 
-        A mean of squares over the panel's columns is one over the sample and a sum with these.
+        A mean over the panel's columns is one over the sample and a sum over columns with these.
         """
         region, columns = self.view.region, self.sample.columns
         if len(columns) >= region.columns:
@@ -274,7 +274,7 @@ class SampledPixels:
             return lacking
         order, share = np.argsort(columns), self.mean_of_rows(inside[0])
         places = np.arange(region.first_column, region.last_column)
-        return np.asarray(lacking * np.interp(places, columns[order], share[order]) ** 2)
+        return np.where(np.interp(places, columns[order], share[order]) > 0.0, lacking, 0.0)
 
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
         """Return the mean of each column over its rows."""

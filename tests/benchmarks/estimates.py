@@ -3,7 +3,8 @@
 ``presets`` prints, for each effect and observable of the presets with a lens, what the plan
 estimates, what leaving the effect out of the complete simulation changes, and their ratio.
 ``scenes [number] [first]`` does so for random scenes of a world wider than the sliders, keeps it,
-and tries the promise on them: the planned simulation against the complete one at some tolerances.
+and tries the promise on them: the planned simulation against the complete one at some tolerances;
+``large [number] [first]`` for pictures of so many columns that a plan samples some of them.
 ``figure [file]`` draws the ratios that were kept. ``plans [folder]`` prints how many effects are
 taken in at some tolerances, and how long a picture takes; ``planning [folder]`` prints how long a
 plan takes. With the folder of another state of the program both are tried in turn.
@@ -16,7 +17,7 @@ import json
 import subprocess
 import sys
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from time import process_time
 from typing import Any
@@ -27,7 +28,7 @@ from tqdm import tqdm
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from physics.effect_world import present, rms, scene_of, seen
+from physics.effect_world import large_scene_of, present, rms, scene_of, seen
 
 import occ_model as occ
 from occ_model.effects.registry import EFFECTS
@@ -105,10 +106,10 @@ def presets() -> None:
     print(f"{below} changes are above their limits.")
 
 
-def scenes(count: int, first: int) -> None:
+def scenes(count: int, first: int, world: Callable[[int], Scene] = scene_of) -> None:
     with KEPT.open("a", encoding="utf-8") as file:
         for seed in tqdm(range(first, first + count), "scenes"):
-            for row in compared(scene_of(seed), seed, TOLERANCES):
+            for row in compared(world(seed), seed, TOLERANCES):
                 file.write(json.dumps([seed, *row]) + "\n")
     summary()
 
@@ -285,8 +286,9 @@ def figure(file: str = "estimates.png") -> None:
 
 if __name__ == "__main__":
     what, *rest = sys.argv[1:] or ["presets"]
-    if what == "scenes":
-        scenes(int(rest[0]) if rest else 200, int(rest[1]) if rest[1:] else 0)
+    if what in ("scenes", "large"):
+        world = scene_of if what == "scenes" else large_scene_of
+        scenes(int(rest[0]) if rest else 200, int(rest[1]) if rest[1:] else 0, world)
     else:
         commands = {
             "presets": presets, "summary": summary, "plans": plans, "planning": planning,

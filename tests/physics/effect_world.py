@@ -118,12 +118,35 @@ def scene_of(seed: int) -> Scene:
     """A random scene that has a picture; one that has none is drawn again."""
     random = np.random.default_rng([7, seed])
     while True:
-        scene = anywhere(random) if random.random() < 0.5 else like_a_preset(random)
-        try:
-            observe(scene, occ.plan(scene, 0.0))
-        except occ.ProjectionError:
-            continue
-        return scene
+        scene = _drawn(random)
+        if _has_picture(scene):
+            return scene
+
+
+def large_scene_of(seed: int) -> Scene:
+    """A random picture of many columns, of which a plan samples some, and of few rows."""
+    random = np.random.default_rng([11, seed])
+    while True:
+        scene = _drawn(random)
+        columns = int(min(scene.camera.columns * random.uniform(2.5, 8.0), 2400))
+        readout = scene.camera.readout_time * scene.camera.columns / columns
+        scene = scene.replace(
+            columns=columns, rows=int(random.integers(24, 120)), readout_time=readout
+        )
+        if _has_picture(scene):
+            return scene
+
+
+def _drawn(random: np.random.Generator) -> Scene:
+    return anywhere(random) if random.random() < 0.5 else like_a_preset(random)
+
+
+def _has_picture(scene: Scene) -> bool:
+    try:
+        observe(scene, occ.plan(scene, 0.0))
+    except occ.ProjectionError:
+        return False
+    return True
 
 
 def seen(scene: Scene, effects: frozenset[str], observable: Observable, seed: int) -> np.ndarray:

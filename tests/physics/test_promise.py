@@ -6,7 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 from amount import amount
-from physics.effect_world import present, rms, scene_of, seen
+from physics.effect_world import large_scene_of, present, rms, scene_of, seen
 
 import occ_model as occ
 from occ_model.scene.scene import Scene
@@ -26,10 +26,10 @@ KNOWN = 2.0
 
 @cache
 def changes(
-    number: int, observable: Observable
+    number: int, observable: Observable, is_large: bool = False
 ) -> tuple[list[tuple[float, float, float]], list[float]]:
     """Return each effect's estimate, limit and change, and plans' changes over the tolerance."""
-    scene = scene_of(number)
+    scene = large_scene_of(number) if is_large else scene_of(number)
     everything = occ.plan(scene, 0.0, observable)
     effects = present(everything)
     whole = seen(scene, effects, observable, number)
@@ -114,10 +114,23 @@ def test_what_is_left_out_changes_no_more_than_the_tolerance(observable: Observa
         pytest.param(530279, "profile", id="edges show in few columns that are not full, picture"),
         pytest.param(530279, "signal", id="edges show in few columns that are not full, signal"),
         pytest.param(530339, "signal", id="a panel between two rows, noise below half a level"),
+        pytest.param(
+            531708, "signal", id="columns in few of whose rows the panel is, beside a step"
+        ),
+        pytest.param(531966, "signal", id="columns that the lens dims to a step"),
     ],
 )
 def test_the_promise_holds_where_it_was_once_broken(number: int, observable: Observable) -> None:
     assert max(changes(number, observable)[1]) <= 1.0
+
+
+@pytest.mark.parametrize("number", [14, 56, 74])
+@pytest.mark.parametrize("observable", ["profile", "signal"])
+def test_the_promise_holds_in_pictures_of_which_columns_are_sampled(
+    number: int, observable: Observable
+) -> None:
+    """Each broke it once: by few columns beside a large step, or a rim that few columns show."""
+    assert max(changes(number, observable, is_large=True)[1]) <= 1.0
 
 
 @pytest.mark.whole

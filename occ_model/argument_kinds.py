@@ -17,26 +17,22 @@ from occ_model.errors import OccError, ParameterError, shown
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
-_MADE_BY = {
+_MADE_BY = {  # what gives a value of a class, for its sentence
     "Scene": "load_preset('phone-136us')",
     "Photo": "load_photo",
     "Video": "load_video",
     "DecodeResult": "decode",
 }
-"""What gives a value of a class, for its sentence."""
 
-_OURS = ("occ_model", "concurrent.futures")
-"""Where classes are from whose objects are refused before any work."""
-
+_OURS = ("occ_model", "concurrent.futures")  # where refused classes are from
 _NUMBERS: dict[type, Any] = {float: Real, int: Integral, bool: bool | np.bool_}
 _ROWS = (Iterable, Iterator, Sequence)
 
-_WORDS: dict[Any, str] = {
+_WORDS: dict[Any, str] = {  # names of kinds that are not those of classes
     float: "a number", int: "a whole number", bool: "True or False", str: "a text",
     Path: "a path", Callable: "a function", Mapping: "a mapping", np.ndarray: "an array of numbers",
     type(None): "None", **dict.fromkeys(_ROWS, "a sequence"),
 }  # fmt: skip
-"""How kinds are named; other classes by their own names."""
 
 
 def checked(function: _Function) -> _Function:

@@ -12,14 +12,13 @@ from occ_model.boards.chip_table import c_table, head
 from occ_model.boards.transmission import Transmission
 from occ_model.scene.units import HERTZ
 
-_CLOCK_SELECT = {
+_CLOCK_SELECT = {  # bits of TCCR1B by prescaler: ATmega328P data sheet, table 16-5
     1: "_BV(CS10)",
     8: "_BV(CS11)",
     64: "_BV(CS11) | _BV(CS10)",
     256: "_BV(CS12)",
     1024: "_BV(CS12) | _BV(CS10)",
 }
-"""Bits of TCCR1B by prescaler: ATmega328P data sheet, table 16-5."""
 
 UNO = Board(
     name="arduino-uno",

@@ -7,9 +7,7 @@ from occ_model.boards.board import Board
 
 SCENE = "scene.toml"
 
-_SKETCH_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,62}")
-"""What the Arduino IDE takes as a name."""
-
+_SKETCH_NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]{0,62}")  # a name for the Arduino IDE
 _DEFAULT_NAME = "blink"
 
 

@@ -5,15 +5,9 @@ from math import log
 
 from occ_model.boards.board import Board
 
-_E12 = (10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82)
-"""Values of resistors in a decade: IEC 60063, series E12."""
-
-GATE_CAPACITANCE = 2e-9
-"""Of the MOSFET, in F; assumed: that of common logic-level types is 0.6 to 2 nF."""
-
-PULL_DOWN = 10_000
-"""Resistor in ohm that keeps the light off while the board starts; 10 to 100 kOhm would do."""
-
+_E12 = (10, 12, 15, 18, 22, 27, 33, 39, 47, 56, 68, 82)  # of resistors: IEC 60063
+GATE_CAPACITANCE = 2e-9  # of the MOSFET, in F; assumed: common logic-level types have 0.6 to 2 nF
+PULL_DOWN = 10_000  # ohm, keeps the light off while the board starts; 10 to 100 kOhm would do
 LED_VOLTS = 2.0  # forward voltage of a single LED, in V; assumed: that of a red one
 LED_CURRENT = 0.010  # current of a single LED, in A; assumed: half of what common ones bear
 

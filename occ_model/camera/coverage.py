@@ -14,14 +14,9 @@ from occ_model.camera.row_memory import MEMORY
 
 _BLUR_REACH = 4.0  # standard deviations after which a blurred edge ends: 3e-5 of it are left
 
-_FINE_CELLS_A_BLUR = 4.0
-"""Standard deviations of the blur, in cells, from which a coarser grid is as good."""
-
-_SAMPLED_ROWS = 16
-"""Rows of a cell that are sampled where the outline is high: they are as good as all."""
-
-_MAX_EXACT_ROWS = 4096
-"""Rows of an outline that are all used: a blur may be wider than the panel is high."""
+_FINE_CELLS_A_BLUR = 4.0  # blur's standard deviation in cells that allows a coarser grid
+_SAMPLED_ROWS = 16  # rows of a cell that are sampled where the outline is high: as good as all
+_MAX_EXACT_ROWS = 4096  # maximum rows of an outline to use all of them: a blur may be wider
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -12,16 +12,11 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT, WHITE
 
-_LEVEL_TOLERANCE = 1e-9
-"""Grey levels within which column values are equal: their own error is no smaller."""
+_LEVEL_TOLERANCE = 1e-9  # grey levels within which column values are equal: their rounding error
 
 
-_NEGLIGIBLE_TAIL = 5.0
-"""Standard deviations beyond which less than a part in 10^6 of a normal distribution is left."""
-
-_TABLE_END = 8.0
-"""Standard deviations to which it is tabulated: beyond, none of 10^14 pixels is expected."""
-
+_NEGLIGIBLE_TAIL = 5.0  # standard deviations; beyond lies less than 1e-6 of a normal distribution
+_TABLE_END = 8.0  # standard deviations tabulated: none of 1e14 pixels is expected beyond
 _PER_DEVIATION = 2048  # entries of the table of the normal distribution to a standard deviation
 
 

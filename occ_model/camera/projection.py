@@ -9,9 +9,7 @@ from occ_model.errors import ProjectionError
 from occ_model.scene.scene import Camera, Pose, Scene
 from occ_model.scene.units import METRE
 
-MAX_PIXELS = 170_000_000
-"""Largest image that is made or read; a larger one is refused, as it would fill the memory."""
-
+MAX_PIXELS = 170_000_000  # largest image that is made or read: a larger one would fill the memory
 _MIN_RELATIVE_DEPTH = 1e-6
 """Depth, as a fraction of the distance, below which a corner counts as in the camera's plane.
 

@@ -16,8 +16,7 @@ from occ_model.arrays import FloatArray, Pixels
 
 NODES = 6  # nodes of a band
 
-TOLERANCE = 2e-3
-"""Largest error of mean values, in grey levels: far less than rounding to bytes hides."""
+TOLERANCE = 2e-3  # largest error of mean values, in grey levels: far below rounding to bytes
 
 
 def node_rows(rows: range) -> FloatArray:

@@ -18,8 +18,7 @@ _EXPOSURE_FACTOR = 0.65
 
 It includes the fall-off of light at 10 degrees off the axis, some 6 %."""
 
-_PHOTONS_PER_LUMEN_SECOND = 8.8e15
-"""Photons in a lumen second of white LED light: 320 lm/W, 3.55e-19 J a photon of 560 nm."""
+_PHOTONS_PER_LUMEN_SECOND = 8.8e15  # per lm s of white LED light: 320 lm/W, 3.55e-19 J a photon
 
 
 _SMALLEST_FLOAT = np.finfo(np.float64).tiny

@@ -12,8 +12,7 @@ from occ_model.study.bands.eye import eye_flicker
 
 _DIGITS = 4
 
-_RANGES = 6
-"""Ranges that are listed before the last one."""
+_RANGES = 6  # maximum number of ranges listed before the last one
 
 
 def add_to(commands: Commands) -> None:

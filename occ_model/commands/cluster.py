@@ -9,8 +9,7 @@ from typing import Any
 
 from occ_model.errors import OccError, one_line, shown
 
-_SECONDS = 5
-"""Seconds to wait for a scheduler's answer."""
+_SECONDS = 5  # timeout of a scheduler's answer
 
 
 class ClusterError(OccError):

@@ -18,8 +18,7 @@ from occ_model.transmitter.line_codes.registry import (
 )
 from occ_model.transmitter.scheme import Scheme
 
-_EXAMPLE = ("manchester", 10)
-"""Line code and bits by which the lengths of frames are compared."""
+_EXAMPLE = ("manchester", 10)  # line code and bits by which the lengths of frames are compared
 
 
 def add_to(commands: Commands) -> None:

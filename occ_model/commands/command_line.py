@@ -12,14 +12,13 @@ from occ_model.commands.files import check_files
 from occ_model.commands.options import Parser
 from occ_model.version import __version__
 
-_MODULES = {
+_MODULES = {  # the module of each command
     "render": "render", "animate": "animate", "film": "film", "film-study": "film_study",
     "plan": "plan", "accuracy": "accuracy", "sweep": "sweep", "limits": "limits", "bench": "bench",
     "most-bits": "most_bits", "bands": "bands", "decode": "decode", "match": "match",
     "figures": "figures", "room": "room", "transmit": "transmit", "codes": "codes",
     "presets": "listing", "parameters": "listing",
 }  # fmt: skip
-"""The module of each command."""
 
 
 def make_parser(command: str | None = None) -> Parser:

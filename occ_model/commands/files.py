@@ -10,7 +10,7 @@ from occ_model.files.writing import PICTURE_ENDINGS
 from occ_model.scene.from_text import check_scene_path
 from occ_model.scene.presets import user_folder
 
-INPUTS = {
+INPUTS = {  # options that name a file to read, or several, with the file's name in messages
     "file": "the photo",
     "more": "one of the photos",
     "files": "one of the files to open",
@@ -20,15 +20,13 @@ INPUTS = {
     "photo_68us": "the file of --photo-68us",
     "photo_136us": "the file of --photo-136us",
 }
-"""Options that name a file to read, or several, with the file's name in messages."""
 
-OUTPUTS = {
+OUTPUTS = {  # options that name a file or folder to write
     "out": "--out",
     "save_scene": "--save-scene",
     "plot": "--plot",
     "screenshot": "--screenshot",
 }
-"""Options that name a file or folder to write."""
 
 _FIGURES = (*PICTURE_ENDINGS, ".pdf", ".svg")
 
@@ -44,9 +42,7 @@ class Written:
     names: tuple[str, ...] = ()
 
 
-SCENE_FILE = Written("A scene")
-"""A scene file; its ending is checked as wherever scenes are saved."""
-
+SCENE_FILE = Written("A scene")  # its ending is checked wherever scenes are saved
 TABLE = Written("A table", ".csv", (*_FIGURES, ".toml"))
 
 

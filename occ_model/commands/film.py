@@ -24,8 +24,7 @@ from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path
 from occ_model.video.load import load_video
 from occ_model.video.render import render_video
 
-_FRAMES = 90
-"""Frames of a film: three seconds at the usual rate."""
+_FRAMES = 90  # frames of a film: three seconds at the usual rate
 
 
 def add_to(commands: Commands) -> None:

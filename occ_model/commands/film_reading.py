@@ -16,11 +16,8 @@ from occ_model.video.decode import decode_video
 from occ_model.video.file.source import CHANNELS
 from occ_model.video.load import load_video
 
-_RATE_PARTS = 5
-"""Parts of the film in which error rates are reported."""
-
-_MIN_RATE_PACKETS = 50
-"""Packets from which the rates of parts are reported."""
+_RATE_PARTS = 5  # parts of the film in which error rates are reported
+_MIN_RATE_PACKETS = 50  # packets from which the rates of parts are reported
 
 
 def read_film(options: argparse.Namespace, scene: Scene) -> int:

@@ -7,8 +7,7 @@ from occ_model.errors import one_line
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.presets import all_presets, preset_named, unreadable_presets
 
-_MAX_NOTE_CHARACTERS = 1000
-"""Largest number of characters of a value's note that are printed."""
+_MAX_NOTE_CHARACTERS = 1000  # maximum printed length of a value's note
 
 
 def add_to(commands: Commands) -> None:

@@ -26,8 +26,7 @@ else:
     Commands: TypeAlias = argparse._SubParsersAction
 
 
-_MAX_MESSAGE_CHARACTERS = 1000
-"""Largest number of characters of an error message: all allowed values fit, long input is cut."""
+_MAX_MESSAGE_CHARACTERS = 1000  # all allowed values fit, long input is cut
 
 
 class Parser(argparse.ArgumentParser):

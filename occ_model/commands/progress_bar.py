@@ -9,8 +9,7 @@ from typing import Any
 
 from occ_model.program import discard
 
-_SETTINGS = "TQDM_"
-"""What the environment variables begin with by which a user changes tqdm's bars."""
+_SETTINGS = "TQDM_"  # prefix of the environment variables by which a user changes tqdm's bars
 
 
 def progress_bar(**options: Any) -> Any:

@@ -42,8 +42,7 @@ BOTH, ALL = "both", "all"
 
 Study = TypeVar("Study")
 
-PLOT_ENDINGS = (".png", ".pdf", ".svg")
-"""The endings of the files that a plot is written to."""
+PLOT_ENDINGS = (".png", ".pdf", ".svg")  # of the files that a plot is written to
 
 
 def add_to(commands: Commands) -> None:

@@ -11,15 +11,13 @@ from occ_model.scene.parameter_kinds import Count, Parameter, ParameterValue, Qu
 from occ_model.scene.parameters import parameter_named
 from occ_model.study.sweep.request_check import check_points
 
-SYNTAX = (
+SYNTAX = (  # what :func:`axes_of` parses
     "NAME=a,b,c: these values; NAME=low:high:step: from low in even steps, with high where a step "
     "meets it; NAME=low:high:xN: N values from low to high, in even ratios where the parameter's "
     "slider is logarithmic (frequency, times, distance), else in even steps"
 )
-"""The syntax that :func:`axes_of` parses."""
 
-_DIGITS = 12
-"""Significant digits of a value in even steps, so that 0.6 + 3 x 0.2 is 1.2."""
+_DIGITS = 12  # significant digits of a value in even steps, so that 0.6 + 3 x 0.2 is 1.2
 
 
 def axes_of(settings: Iterable[str]) -> dict[str, list[ParameterValue]]:

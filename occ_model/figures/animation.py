@@ -30,9 +30,7 @@ from occ_model.simulation.band_model import band_profile
 from occ_model.simulation.render import render_with
 from occ_model.video.file.write import check_film_path, write_frames
 
-ENDINGS = (".gif", ".mp4", ".png")
-"""The endings of an animation's file: GIF, MP4 (MPEG-4), and animated PNG."""
-
+ENDINGS = (".gif", ".mp4", ".png")  # of an animation's file: GIF, MP4 (MPEG-4), animated PNG
 MOST_FRAMES = 300
 _COLOURS = 128
 
@@ -42,9 +40,7 @@ _ROWS, _SHOWN_COLUMNS = 120, 900
 _DEFAULT_RATE = 15.0
 _MAX_GIF_RATE = 50.0  # frames a second; players of GIF files show none faster
 
-_HEADROOM, _HIGHEST = 1.2, 260.0
-"""The level axis reaches above the brightest level, by this factor, but no higher than this."""
-
+_HEADROOM, _HIGHEST = 1.2, 260.0  # end of the level axis: a factor of the brightest level, at most
 _MAX_TITLE_LETTERS = 110  # maximum letters of a title
 
 

@@ -26,8 +26,7 @@ THRESHOLD: dict[str, Any] = {"color": colours.THRESHOLD, "linestyle": "-.", "lin
 
 FORMATS = ("png", "svg", "pdf")  # the file formats of a figure
 
-ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")
-"""The endings of the files that a drawing is written to."""
+ENDINGS = (*(f".{name}" for name in FORMATS), ".csv")  # of a drawing's file
 
 _STYLE: dict[Any, Any] = {
     "font.size": 9,

@@ -17,9 +17,7 @@ _Kind = TypeVar("_Kind", Text, Legend)
 
 _MARGIN = 0.05  # inches between a text and the edge of the page
 
-_HINTED_WIDTH_FACTOR = 1.08
-"""By how much a line of small letters, placed on whole pixels, is wider than its outlines."""
-
+_HINTED_WIDTH_FACTOR = 1.08  # width of a line of small letters on whole pixels against its outlines
 _MAX_LINES = 12
 _MAX_ROUNDS = 3  # of making a page higher, after which its axes are placed anew
 

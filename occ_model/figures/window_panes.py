@@ -22,15 +22,11 @@ from occ_model.teaching.packet_fields import threshold_levels
 
 MOST_CELLS = 900  # maximum cells on each side of a printed picture: print resolves no more
 
-_PHOTO = "photo, fitted levels"
-"""Name of a photo's profile: it has the mean and the contrast of the simulation's."""
-
+_PHOTO = "photo, fitted levels"  # its profile has the mean and the contrast of the simulation's
 _CAPTION_SIZE = 7  # points of a caption's letters
 _MIN_HEIGHT = 1.3  # inches of a figure of a flat picture, with the texts above and below it
 
-_AXIS_OF_RESIDUAL = 2.0
-"""Ends of the axis of a residual, as a multiple of what most columns stay within."""
-
+_AXIS_OF_RESIDUAL = 2.0  # axis of a residual as a multiple of what most columns stay within
 _CAPTION_PARAMETERS = ("exposure_time", "switching_frequency", "readout_time", "distance")
 
 

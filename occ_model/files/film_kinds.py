@@ -28,9 +28,7 @@ _MATROSKA = Container("MKV or WebM", "opencv", 1e-3, counts=False)
 _GIF = Container("GIF", "pillow", 1e-2)
 _PNG = Container("animated PNG", "pillow")
 
-_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")
-"""Boxes that MP4 and MOV files begin with, after four bytes of length."""
-
+_BOXES = (b"ftyp", b"moov", b"mdat", b"wide", b"free", b"skip", b"pnot")  # first in MP4 and MOV
 FIRST_BYTES = 16  # number of bytes that identify the kind
 
 

@@ -14,7 +14,7 @@ from occ_model.arrays import ByteArray
 from occ_model.errors import OutputError, one_line
 from occ_model.files.reading import reason_of
 
-_FORMATS = {
+_FORMATS = {  # those that can hold any grey picture, by the file's ending
     ".png": "PNG",
     ".jpg": "JPEG",
     ".jpeg": "JPEG",
@@ -23,7 +23,6 @@ _FORMATS = {
     ".webp": "WEBP",
     ".bmp": "BMP",
 }
-"""The image formats that can hold any grey picture, by the file's ending."""
 
 PICTURE_ENDINGS = tuple(_FORMATS)  # endings of the files that pictures can be written to
 

@@ -8,9 +8,7 @@ from typing import Any, Protocol, TypeAlias
 
 from occ_model.errors import OccError
 
-Heartbeat: TypeAlias = Callable[[], object]
-"""Called repeatedly by work that takes long; whatever it raises ends the work."""
-
+Heartbeat: TypeAlias = Callable[[], object]  # called by long work; ends it by raising
 CHANNELS = 8  # most channels that can share workers, and most counters of heartbeats
 
 NO_PROCESSES = (OSError, ImportError, NotImplementedError)
@@ -62,8 +60,7 @@ class Stage:
     uninterruptible: bool = False
 
 
-Stages: TypeAlias = Callable[[], Iterable[Stage]]
-"""Gives the stages of a request, one after the other; called where the scheduler runs."""
+Stages: TypeAlias = Callable[[], Iterable[Stage]]  # called where the scheduler runs
 
 
 class Workers(Protocol):

@@ -105,8 +105,7 @@ class _RecordingContext:
         return process
 
 
-_shared: dict[str, Any] = {}
-"""In a worker: the numbers that it shares with the process that started it."""
+_shared: dict[str, Any] = {}  # in a worker: the numbers shared with the process that started it
 
 
 def _begin(first_runs: Any, counts: Any, niceness: int) -> None:

@@ -17,9 +17,7 @@ from occ_model.parallel.job import (
 from occ_model.parallel.reports import Reports
 from occ_model.parallel.request import Run, StageProgress
 
-_JOBS_PER_WORKER = 2
-"""Jobs in flight for each worker: one that it does, and one that it continues with."""
-
+_JOBS_PER_WORKER = 2  # jobs in flight for each worker: one at work, and the next
 _MAX_LOST_WORKERS = 3  # how often workers may end one after the other without a result
 
 

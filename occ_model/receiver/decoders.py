@@ -36,10 +36,9 @@ SEQUENCE = Decoder(
 
 PAPER_DECODER = THRESHOLD.name  # the name of the paper's decoder, which is the default
 
-DECODERS: dict[str, Decoder] = {
+DECODERS: dict[str, Decoder] = {  # the built-in decoders by name
     decoder.name: decoder for decoder in (THRESHOLD, MATCHED, EQUALIZER, SEQUENCE)
 }
-"""The built-in decoders by name."""
 
 
 def decoders() -> tuple[str, ...]:

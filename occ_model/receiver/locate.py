@@ -11,8 +11,7 @@ from occ_model.results.decoding import Location, Region
 
 _MAX_GRID_CELLS = 512  # maximum cells on a side of the grid on which contours grow
 
-_MIN_BRIGHT_FRACTION = 0.04
-"""Least fraction of bright pixels in a cell of a contour; below it they are noise."""
+_MIN_BRIGHT_FRACTION = 0.04  # of bright pixels in a cell of a contour; below it they are noise
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:

@@ -2,18 +2,15 @@
 
 from dataclasses import dataclass
 
-ACCURACY_PARTS = {
+ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name
     "integration": "exposure: samples in time, closed form",
     "effects": "effects, one after the other",
     "path": "columns alone, whole pictures",
     "draft": "drafts: every k-th row of the picture",
     "noise": "noise drawn, noise used again",
 }
-"""Titles of the parts of an accuracy study, by name."""
 
-CHAINED_PARTS = ("integration", "effects")
-"""Parts whose points, apart from that of the present settings, form a curve."""
-
+CHAINED_PARTS = ("integration", "effects")  # points form a curve, but for the present settings'
 CLOSED_FORM = "closed form"  # name of the exposure that is integrated exactly
 
 LEAST_ERROR = 1e-3

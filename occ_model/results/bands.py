@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
 
-NO_BARS_DEPTH = 0.01
-"""Peak-to-peak depth relative to the mean, below which a picture counts as free of bars."""
+NO_BARS_DEPTH = 0.01  # peak-to-peak depth relative to the mean below which there are no bars
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,11 +11,8 @@ _CAMERA = Scene().camera
 
 EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)  # default exposures, in symbols
 
-DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)
-"""Default signal-to-noise ratios in dB: variance of the chips over that of a row's noise."""
-
-BenchPlace: TypeAlias = tuple[str, str, float, float]
-"""Scheme, varied axis (``"exposure"`` or ``"noise"``), exposure and signal-to-noise ratio."""
+DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)  # default ratios: variance of chips to that of row noise
+BenchPlace: TypeAlias = tuple[str, str, float, float]  # scheme, "exposure" or "noise", its values
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,12 +84,11 @@ class BenchBounds:
     most_bits: Mapping[str, tuple[tuple[float, ...], tuple[float, ...]]]
 
 
-HEADER = (
+HEADER = (  # the columns of the table
     "scheme", "decoder", "varied", "exposure (symbols)", "signal to noise (dB)", "bits",
     "wrong bits", "bit error rate", "low", "high", "payloads right", "payloads",
     "bits a second", "bits from", "bits to", "note",
 )  # fmt: skip
-"""The columns of the table."""
 
 
 def written(points: Sequence[BenchPoint], frames_a_second: float) -> list[tuple[object, ...]]:

@@ -9,8 +9,7 @@ from occ_model.results.plan import Plan
 from occ_model.scene.argument_checks import check_choice
 from occ_model.scene.scene import Scene
 
-PICTURES = ("camera", "receiver")
-"""The pictures of a frame: that which the camera took, and that which the receiver enhanced."""
+PICTURES = ("camera", "receiver")  # as taken, and as enhanced by the receiver
 
 
 @dataclass(frozen=True, eq=False)

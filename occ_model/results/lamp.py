@@ -7,11 +7,8 @@ import numpy as np
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.results.decoding import Region
 
-_LEAST_PERIODS = 2.5
-"""Minimum number of periods in view: two bright things side by side look like fewer, too."""
-
-_MOST_UNSURE = 0.01 / 3.0
-"""Maximum relative standard deviation of a frequency: three of them are a percent."""
+_LEAST_PERIODS = 2.5  # minimum periods in view: two bright things side by side look like fewer
+_MOST_UNSURE = 0.01 / 3.0  # relative standard deviation of a frequency: three of them are a percent
 
 
 @dataclass(frozen=True, eq=False, slots=True)

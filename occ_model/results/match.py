@@ -10,10 +10,9 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 
-PLAIN_STRIPES = (
+PLAIN_STRIPES = (  # advice for a refused pulse that repeats
     "These look like plain stripes of one lamp: if so, state that it sends a square wave."
 )
-"""Advice for a refused pulse that repeats."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -111,9 +110,7 @@ class ChipReading:
 _EXPOSURE_DEPENDENT = ("exposure_time", "start_time", "gamma")
 """Estimates that depend on the exposure: a column starts half an exposure before its middle."""
 
-_DISPLAY_TOLERANCE = 5e-7
-"""Relative difference of two values that agree in the six digits displayed."""
-
+_DISPLAY_TOLERANCE = 5e-7  # relative difference of two values that agree in the six digits shown
 _ERROR_TOLERANCE = 1e-3  # difference of two equal values, as a fraction of the standard deviation
 
 _ONLY_EXPOSURE = "Only the exposure time, and with it the start time, is doubtful."
@@ -252,8 +249,7 @@ class Match:
         return float(np.sqrt(np.mean(self.residual**2)))
 
 
-_TYPICAL_QUANTILE = 0.95
-"""Quantile of the residual's magnitude that scales an axis, so that no single edge does."""
+_TYPICAL_QUANTILE = 0.95  # of the residual's magnitude; scales an axis, so that no single edge does
 
 
 @dataclass(frozen=True, eq=False, slots=True)

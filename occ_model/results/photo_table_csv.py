@@ -95,8 +95,7 @@ def _error(deviation: float | None) -> str | None:
     return None if deviation is None else f"{deviation:.1e}"
 
 
-_FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"
-"""Characters that begin a formula in a spreadsheet, including full-width ones."""
+_FORMULA = "=+-@\uff1d\uff0b\uff0d\uff20"  # first of a spreadsheet's formula, also full-width
 
 
 def _text(text: str) -> str:

@@ -5,8 +5,7 @@ from typing import Literal, TypeAlias
 
 from occ_model.scene.simulation_settings import Observable
 
-Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]
-"""A stage of the light path from the panel to the file."""
+Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]  # in the order of the light
 
 
 @dataclass(frozen=True, slots=True)

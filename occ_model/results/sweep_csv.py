@@ -12,8 +12,7 @@ from occ_model.version import __version__
 
 _FORMAT = 3
 
-TITLE = "# Success rate over "
-"""The beginning of every table of a sweep."""
+TITLE = "# Success rate over "  # the beginning of every sweep's table
 
 
 def header_text(request: SweepRequest) -> str:

@@ -15,25 +15,17 @@ SignalPath: TypeAlias = Literal["auto", "profile", "rows", "image"]
 """How a decoder's signal is simulated: as column means, from a sample of the image's rows, from the
 whole image, or by the first of these that the plan allows."""
 
-Shown: TypeAlias = Literal["rate", "bits"]
-"""What is drawn of a sweep: success rates in percent, or net bits a second."""
-
+Shown: TypeAlias = Literal["rate", "bits"]  # success rates in percent, or net bits a second
 SHOWN: tuple[Shown, ...] = ("rate", "bits")
 
 SIGNAL_PATHS: tuple[SignalPath, ...] = ("auto", "profile", "rows", "image")
 
-MOST_POINTS = 1_000_000
-"""Points of a sweep: their counts are kept in memory, and their table is written at once."""
-
-MOST_AXES = 31
-"""Parameters that a sweep varies: numpy's arrays have 32 axes, and one is that of the decoders."""
-
+MOST_POINTS = 1_000_000  # of a sweep: counts are kept in memory, and the table is written at once
+MOST_AXES = 31  # parameters of a sweep: numpy's arrays have 32 axes, one is that of the decoders
 MOST_IMAGES = 1_000_000  # images at a point
 MOST_JOBS = 1024  # processes of a sweep
 
-JOBS_A_CORE = 4
-"""Processes that are started at most for each core: more take memory and save no time."""
-
+JOBS_A_CORE = 4  # maximum processes for each core: more take memory and save no time
 _OUTER_AXES = ("bits", "exposure_time", "switching_frequency")
 """Parameters that change least often from point to point: for each of their values the matched
 decoder computes the forward model of all codes."""

@@ -23,9 +23,7 @@ _EDGE_REACH = 7  # pixels on either side of an edge that is expected: its light 
 _LEVEL_PIXELS = 10  # further pixels that give the light of the lamp, and of its surroundings
 _MIN_RELATIVE_LIGHT = 0.5  # fraction of the lamp's brightest light from which an edge is measured
 
-_EXCLUDED_END_FRACTION = 0.06
-"""Fraction of an edge's length, and pixels, that are left out at its ends."""
-
+_EXCLUDED_END_FRACTION = 0.06  # fraction of an edge's length, and pixels, left out at its ends
 _MIN_POINTS = 16  # points from which a line is fitted
 _MIN_ROWS = 16  # minimum rows that determine the lamp's light in a column
 _MIN_LEVEL_PIXELS = 4  # minimum bright pixels inside a lamp that determine its level
@@ -33,8 +31,7 @@ _MAX_DEVIATIONS = 3.5  # deviations beyond which a point is left out of a line
 _MIN_VARIANCE = 1e-8  # of a line's point, in square pixels: points can be as straight as a ruler
 _PHASES = 16  # places of an edge on the pixel grid that its error is counted over
 
-_BLOCK = 8
-"""Neighbouring points whose errors may be alike: the blocks of a JPEG file, and the lens's blur."""
+_BLOCK = 8  # points with correlated errors: the blocks of a JPEG file, the lens's blur
 
 
 @dataclass(frozen=True, eq=False, slots=True)

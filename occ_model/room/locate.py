@@ -17,20 +17,14 @@ from occ_model.room.reading import ReadLamp, check_picture, find_and_name
 from occ_model.room.room import Room, RoomLamp, check_room
 from occ_model.room.view import angles_of, room_outline, rotation
 
-_MAX_DEVIATION_EXCESS = 9.0
-"""Sum of squared deviations within which another place explains the picture as well."""
-
+_MAX_DEVIATION_EXCESS = 9.0  # of chi-squared, within which another place explains the picture too
 _MIN_EDGES = 4
 """Edges of lamps below which there is no place.
 
 Each gives two numbers; what three give, many places explain exactly."""
 
-_MAX_MEAN_SQUARE = 4.0
-"""Mean squared deviation, in standard errors, above which a place does not explain the edges."""
-
-_MAX_EXCLUDED_EDGES = 3
-"""Edges that may be left out, one after the other, where no place explains all."""
-
+_MAX_MEAN_SQUARE = 4.0  # in standard errors squared; above it a place does not explain the edges
+_MAX_EXCLUDED_EDGES = 3  # maximum edges left out, one after the other, where no place explains all
 _ONE_LAMP = "Only one lamp determines the place: it can be farther off than the stated errors."
 
 _PLACE_TOLERANCE = 1e-3  # metres and radians within which two places are the same

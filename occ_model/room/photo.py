@@ -15,8 +15,7 @@ from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 
-_SAME_SHAPE = 0.01
-"""Fraction by which the sides of two pictures may differ for one to be the other, scaled."""
+_SAME_SHAPE = 0.01  # relative difference of the sides' ratio for one picture to be another, scaled
 
 
 @dataclass(frozen=True, eq=False, slots=True)

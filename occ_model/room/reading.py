@@ -19,12 +19,8 @@ from occ_model.transmitter.packet import packet
 
 _ROWS = 4  # rows that are averaged where lamps are looked for
 
-_MIN_SIGMA_ABOVE_NOISE = 6.0
-"""Standard deviations of the noise above the surroundings from which a pixel is a lamp's."""
-
-_MIN_LAMP_FRACTION = 0.1
-"""Fraction of the brightest pixels' light above the surroundings from which a pixel is a lamp's."""
-
+_MIN_SIGMA_ABOVE_NOISE = 6.0  # of the noise above the surroundings from which a pixel is a lamp's
+_MIN_LAMP_FRACTION = 0.1  # of the brightest pixels' light above the surroundings
 _SAMPLING_STEP = 4  # step between the rows that sample the light of surroundings and lamps
 _MIN_SIDE = 12  # rows and columns of the smallest lamp that is looked at
 
@@ -32,11 +28,10 @@ _MIN_LIT_FRACTION = 0.5
 """Fraction of a lamp's brightest light from which a column of it is found lit, however faint the
 lamp is beside others."""
 
-_SENT = (
+_SENT = (  # what a decoder has to know of a lamp besides its code
     "switching_frequency", "bits", "payload", "line_code", "framing", "preamble",
     "error_correction", "pattern",
 )  # fmt: skip
-"""What a decoder has to know of a lamp besides its code."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -15,9 +15,7 @@ from occ_model.errors import ParameterError, ProjectionError, one_line
 from occ_model.room.room import Place, Room, RoomLamp
 from occ_model.scene.scene import Pose, Scene
 
-_DISC_CORNERS = 96
-"""Corners of the polygon of a disc: it lies within 0.06 % of the radius of the circle."""
-
+_DISC_CORNERS = 96  # of a disc's polygon, which lies within 0.06 % of the radius of the circle
 _MIN_DEPTH = 1e-3  # depth in metres before which nothing is seen
 _MAX_LENS_SHIFT = 0.15  # fraction of the picture's size by which a lens may move what it shows
 

@@ -13,8 +13,7 @@ from occ_model.scene.scene import Scene
 
 SCENE_ENDING = ".toml"  # ending of the files that scenes are saved to
 
-DEFAULT_PRESET = "phone-68us"
-"""The preset used where none is named: all models and decoders give a result for it."""
+DEFAULT_PRESET = "phone-68us"  # where none is named: all models and decoders give a result
 
 
 def read_scene_file(path: Path) -> Scene:

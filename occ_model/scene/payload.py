@@ -13,11 +13,10 @@ from occ_model.errors import shown
 
 MAX_PAYLOAD_BITS = 4096
 
-PAYLOADS = (
+PAYLOADS = (  # the forms of a payload, in words
     "HELLO or text:HELLO (UTF-8), hex:48656c6c6f or bits:0100100001, "
     f"of 1 to {MAX_PAYLOAD_BITS} bits"
 )
-"""The forms of a payload, in words."""
 
 _FORMS = ("text", "hex", "bits")
 _SHORT_FORM = re.compile(r"\s*(?:0x([0-9a-f ]+)|0b([01 ]+))", re.IGNORECASE)

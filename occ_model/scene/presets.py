@@ -33,9 +33,7 @@ from occ_model.scene.preset_file import (
 )
 from occ_model.scene.scene import Scene, check_scene
 
-USER_FOLDER = "OCC_PRESETS"
-"""The environment variable that names another folder for the user's own presets."""
-
+USER_FOLDER = "OCC_PRESETS"  # environment variable of another folder for the user's presets
 _NAME = re.compile(r"[A-Za-z0-9](?:[A-Za-z0-9 _-]{0,58}[A-Za-z0-9_-])?")
 _NAME_RULE = (
     "1 to 60 letters, digits, spaces, - and _, the first a letter or digit, the last no space"

@@ -20,12 +20,8 @@ ENDINGS = (".png", ".svg", ".pdf", ".csv")  # the endings of files that may carr
 
 _SCENE = re.compile(r"^scene (.+):$", re.MULTILINE)
 
-_MAX_SEARCHED_BYTES = 64_000_000
-"""Bytes of a drawing or document that are searched: its text may stand anywhere."""
-
-_MAX_TEXT_BYTES = 1_000_000
-"""Bytes of the text itself, and of the start of a picture or table, which holds it."""
-
+_MAX_SEARCHED_BYTES = 64_000_000  # searched of a drawing or document, whose text may stand anywhere
+_MAX_TEXT_BYTES = 1_000_000  # of the text, and of the start of a picture or table, which holds it
 _SVG = b"<dc:description>", b"</dc:description>"
 _COMMENTS = re.compile(rb"(?:#[^\n]*+\n?+)*+")
 _PDF = b"/Subject ("

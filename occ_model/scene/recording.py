@@ -16,9 +16,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.toml_format import parse_toml
 from occ_model.scene.units import HERTZ, PPM, SECOND
 
-FrameTimes: TypeAlias = Literal["measured", "nominal"]
-"""What a film states as the times of its frames: when they started, or equal steps."""
-
+FrameTimes: TypeAlias = Literal["measured", "nominal"]  # as started, or in equal steps
 FRAME_TIMES: tuple[FrameTimes, ...] = ("measured", "nominal")
 
 # fmt: off

@@ -105,15 +105,12 @@ class Scene:
         return self.replace(**changes)
 
 
-GROUPS: dict[str, tuple[str, ...]] = {
+GROUPS: dict[str, tuple[str, ...]] = {  # the names of the parameters, group by group
     part.name: tuple(getattr(Scene(), part.name).declarations())
     for part in dataclasses.fields(Scene)
 }
-"""The names of the parameters, group by group."""
 
-_NEW_CHOICES = {("band_reading", "charitable"): "aligned"}
-"""Choices of earlier scene files that have another name now; such files open in this release."""
-
+_NEW_CHOICES = {("band_reading", "charitable"): "aligned"}  # new names of choices in earlier files
 _GROUP_OF = {name: group for group, names in GROUPS.items() for name in names}
 
 

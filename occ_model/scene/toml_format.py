@@ -11,19 +11,16 @@ from occ_model.errors import SceneFileError, one_line, shown
 
 FORMAT = 1
 
-_MAX_KEY_PARTS = 32
-"""Most parts of a dotted key: the parser's time grows with their square, and ours have two."""
-
+_MAX_KEY_PARTS = 32  # of a dotted key: the parser's time grows with their square; ours have two
 _LONG_KEY = re.compile(rf"(?:(?<![\w-])[\w-]++[ \t]*+\.[ \t]*+){{{_MAX_KEY_PARTS}}}")
 
-_STRING_OR_COMMENT = re.compile(
+_STRING_OR_COMMENT = re.compile(  # one that has no end ends with its line or with the text
     r'''"""(?:[^"\\]|\\.|"(?!""))*+(?:"""|\Z)'''
     r"""|'''(?:[^']|'(?!''))*+(?:'''|\Z)"""
     r"""|"(?:[^"\\\n]|\\[^\n])*+"?"""
     r"""|'[^'\n]*+'?|#[^\n]*+""",
     re.DOTALL,
 )
-"""One that has no end ends with its line or with the text, so that nothing is read twice."""
 
 
 def to_toml(tables: Mapping[str, Mapping[str, object]]) -> str:

@@ -28,11 +28,8 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}(?:[eE][+-]?\d+)?")
 
 _MAX_DECIMALS = 6  # decimals of an estimate above which its error is written in a unit of its own
 
-_ROUNDING_ERROR = 1e-12
-"""Fraction of a value below which its error is that of the arithmetic, and is not stated."""
-
-LONGEST_TEXT = 200
-"""Most characters of a quantity's text: several times those of 17 digits and a unit."""
+_ROUNDING_ERROR = 1e-12  # relative error that is the arithmetic's, and is not stated
+LONGEST_TEXT = 200  # of a quantity's text: several times the characters of 17 digits and a unit
 
 
 @dataclass(frozen=True, slots=True)

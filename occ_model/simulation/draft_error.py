@@ -18,9 +18,7 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.camera.coverage import column_spans
 from occ_model.camera.photometry import WHITE
 
-_BLOCK = 8
-"""Rows of a part: those of a block of a JPEG file, in which its errors are not independent."""
-
+_BLOCK = 8  # rows of a part: those of a block of a JPEG file, whose errors depend on each other
 _BLUR_REACH = 4.0  # standard deviations of the lens's blur that a rim reaches into the panel
 _DEVIATIONS_ADDED = 5.0  # standard deviations of an estimate by which the stated error is larger
 

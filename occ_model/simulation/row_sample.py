@@ -26,9 +26,7 @@ from occ_model.simulation.stage_timer import StageTimer
 BAND = 8  # rows of a band
 BANDS = 24  # bands across the panel
 
-_SURROUNDING_BANDS = 6
-"""Bands of rows above the panel, and below it: they show the surroundings and stray light."""
-
+_SURROUNDING_BANDS = 6  # bands of rows above the panel, and below it: surroundings and stray light
 _PAIRS = BANDS // 2  # pairs of neighbouring bands, whose noise is opposite: its mean is nothing
 
 _QUANTILE_STRIDE = 7

@@ -32,18 +32,10 @@ from occ_model.study.effect_differences import CompleteSimulation, plan_of_effec
 from occ_model.study.observation import panel_span
 from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
 
-SAMPLES = tuple(2**power for power in range(13))
-"""Samples of an exposure."""
-
-DRAFT_STEPS = (4, 16, 64)
-"""Row steps of the drafts."""
-
-_MIN_DRAFT_ROWS = 4
-"""Minimum number of the panel's rows in a draft."""
-
-_EXACT_COLUMNS = 97
-"""Number of columns whose reference exposure is computed in rational arithmetic."""
-
+SAMPLES = tuple(2**power for power in range(13))  # samples of an exposure
+DRAFT_STEPS = (4, 16, 64)  # row steps of the drafts
+_MIN_DRAFT_ROWS = 4  # minimum number of the panel's rows in a draft
+_EXACT_COLUMNS = 97  # columns whose reference exposure is computed in rational arithmetic
 Result = TypeVar("Result")
 
 _ENOUGH_SECONDS = 0.15

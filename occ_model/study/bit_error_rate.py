@@ -19,11 +19,8 @@ from occ_model.study.success_rate import check_rate, plan_of_images, right_bits_
 from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.packet import code_of, sent_chips
 
-MOST_BITS = 100_000_000
-"""Maximum number of bits of a measurement."""
-
-_PLANNED_PAYLOADS = 3
-"""Payloads whose pictures are planned: what any of them calls for, all are simulated with."""
+MOST_BITS = 100_000_000  # maximum number of bits of a measurement
+_PLANNED_PAYLOADS = 3  # payloads whose pictures are planned: what any calls for is simulated
 
 
 def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional

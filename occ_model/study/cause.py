@@ -21,20 +21,11 @@ from occ_model.study import theory
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
-TWO_HEADERS = ("threshold", "equalizer")
-"""The decoders whose last step looks for two headers; others read a single packet."""
-
-_NEAR_NULL = 0.96
-"""Fraction of the null frequency from which single chips are lost in rounding."""
-
-_TARGET_LEVEL = 200.0
-"""Grey level of the lit panel that a suggested step aims at."""
-
-_LOST = 4.0
-"""Times the panel's area from which a rectangle is not the panel's."""
-
-_STEP_MARGIN = 1.15
-"""Factor by which a suggested step exceeds the theoretical limit."""
+TWO_HEADERS = ("threshold", "equalizer")  # need two headers; others read a single packet
+_NEAR_NULL = 0.96  # fraction of the null frequency from which single chips are lost in rounding
+_TARGET_LEVEL = 200.0  # grey level of the lit panel that a suggested step aims at
+_LOST = 4.0  # times the panel's area from which a rectangle is not the panel's
+_STEP_MARGIN = 1.15  # factor by which a suggested step exceeds the theoretical limit
 
 
 _MIN_SWING_TO_NOISE = {"threshold": 10.0, "equalizer": 2.0}

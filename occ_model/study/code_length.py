@@ -23,11 +23,8 @@ from occ_model.study.room_map import RoomMapRequest, room_map
 from occ_model.study.sweep.sweep import Progress
 from occ_model.transmitter.packet import sent_chips
 
-MOST_CODES = 4096
-"""Lamps beyond which codes are not compared with each other."""
-
-_EXTRA_BITS = (0, 2, 4)
-"""Bits beyond the minimum that gives each lamp a code."""
+MOST_CODES = 4096  # lamps beyond which codes are not compared with each other
+_EXTRA_BITS = (0, 2, 4)  # bits beyond the minimum that gives each lamp a code
 
 
 @dataclass(frozen=True, slots=True)

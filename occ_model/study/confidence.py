@@ -8,8 +8,7 @@ from occ_model.errors import ParameterError, shown
 from occ_model.results.limits import Trial
 from occ_model.scene.argument_checks import check_count, is_number
 
-_MAX_TRIALS = 2**53
-"""Largest number up to which a float holds every whole number."""
+_MAX_TRIALS = 2**53  # largest number up to which a float holds every whole number
 
 
 def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[float, float]:
@@ -63,8 +62,7 @@ def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, f
     return 100.0 * low, 100.0 * high
 
 
-TWO_SIDED = NormalDist().inv_cdf(0.975)
-"""The normal deviate that 95 % lie within."""
+TWO_SIDED = NormalDist().inv_cdf(0.975)  # standard normal deviate that 95 % lie within
 
 
 def trial_of(value: float, counts: Sequence[int], bits: int) -> Trial:

@@ -16,8 +16,7 @@ from occ_model.arrays import BoolArray, FloatArray
 from occ_model.receiver.locate import grid_of, least_bright_share
 from occ_model.results.decoding import Region
 
-_MAX_PROBABILITY = 1.0 - 1e-12
-"""Largest probability of a bright pixel of which a logarithm is taken."""
+_MAX_PROBABILITY = 1.0 - 1e-12  # largest probability of a bright pixel, for its logarithm
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -16,14 +16,9 @@ from occ_model.simulation.render import observe, render_plan
 from occ_model.simulation.stage_timer import StageTimer
 from occ_model.study.telling_crop import ICON, telling_crop
 
-_SAMPLES = 2**16
-"""Maximum number of samples kept of a change."""
-
-_VISIBLE_CHANGE = 0.05
-"""Root mean square in grey levels below which a change of the panel's pixels is not seen."""
-
-_SIZE_PER_MARGIN = 16
-"""The panel's size in margins."""
+_SAMPLES = 2**16  # maximum number of samples kept of a change
+_VISIBLE_CHANGE = 0.05  # RMS in grey levels below which a change of the panel's pixels is not seen
+_SIZE_PER_MARGIN = 16  # the panel's size in margins
 
 
 class CompleteSimulation:

@@ -22,14 +22,9 @@ from occ_model.arrays import FloatArray
 
 _POWERS = (0.5, 1.0, 2.0, 4.0, math.inf)
 
-_ENDS, _SLOPES = 81, 32
-"""Ends and slopes that are tried."""
-
-_FLATTEST, _STEEPEST = 0.3, 1e5
-"""Slopes of the odds' logarithm at the end, over the whole of the bracket."""
-
-_MAX_LOST_FRACTION = 0.999
-"""Fraction of lost pictures at the end, where each of them loses no more than the rate allows."""
+_ENDS, _SLOPES = 81, 32  # ends and slopes that are tried
+_FLATTEST, _STEEPEST = 0.3, 1e5  # of the log-odds at the end, over the whole bracket
+_MAX_LOST_FRACTION = 0.999  # of pictures at the end, where each loses no more than the rate allows
 
 
 def interval_of_end(

@@ -135,14 +135,9 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
     return tuple(_answers(scene, decoders, (wanted, images, seed), ranges))
 
 
-SEARCHED = ("switching_frequency", "exposure_time")
-"""The parameters whose limits are searched."""
-
-MOST_PROCESSES = 2
-"""Processes that search: one along each parameter."""
-
-_POLL_SECONDS = 0.1
-"""Seconds between two polls of other processes."""
+SEARCHED = ("switching_frequency", "exposure_time")  # the parameters whose limits are searched
+MOST_PROCESSES = 2  # processes that search: one along each parameter
+_POLL_SECONDS = 0.1  # between two polls of other processes
 
 
 def usual_images(images: int, rate: float) -> int:

@@ -26,25 +26,18 @@ from occ_model.study.theory import panel_readout_time
 from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.scheme import scheme_of
 
-_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")
-"""The line codes that are tried: of those as short, only the better known."""
+_TRIED_LINE_CODES = ("manchester", "4b6b", "8b10b")  # of codes as short, only the better known
+DECODERS = ("threshold", "equalizer", "sequence")  # read payloads of any length, the quickest first
 
-DECODERS = ("threshold", "equalizer", "sequence")
-"""The decoders that read payloads of any length, the quickest search first."""
-
-VARIED = (
+VARIED = (  # the parameters that the search chooses; its result depends on all others
     "pattern", "line_code", "framing", "preamble", "error_correction", "payload",
     "switching_frequency",
 )  # fmt: skip
-"""The parameters that the search chooses; its result depends on all others."""
 
 _FRAMING = "preamble"
 
-_FREQUENCY_RATIO = 1.15
-"""Ratio of neighbouring frequencies."""
-
-_FILLED_FRACTIONS = (0.95, 0.5, 0.25)
-"""Fractions of the chips that a picture shows which one period of a payload takes."""
+_FREQUENCY_RATIO = 1.15  # of neighbouring frequencies
+_FILLED_FRACTIONS = (0.95, 0.5, 0.25)  # of a picture's chips that a payload's period takes
 
 
 @dataclass(frozen=True, slots=True)

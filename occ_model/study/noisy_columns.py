@@ -22,14 +22,9 @@ from occ_model.scene.scene import Camera, Scene, Sensor
 from occ_model.simulation.columns import Columns
 from occ_model.study.drawn_region import BrightShares
 
-_LEVELS = 512
-"""Column values at which means are computed where there are more columns; between them linearly."""
-
-_BINS = 128
-"""Column values of which the histogram of the pixels is made."""
-
-_NO_SPREAD = 1e-9
-"""Standard deviation in grey levels below which there is no noise."""
+_LEVELS = 512  # column values at which means are computed where there are more; linear between
+_BINS = 128  # column values of which the histogram of the pixels is made
+_NO_SPREAD = 1e-9  # standard deviation in grey levels below which there is no noise
 
 
 @lru_cache(maxsize=8)

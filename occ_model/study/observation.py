@@ -46,12 +46,10 @@ def _span_of(corners: bytes, rows: int, columns: int) -> Region | None:
     return Region(int(lit[0]), int(lit[0]) + lit.size, int(first[lit[0]]), int(last[lit[0]]))
 
 
-_LENS_SHIFT_PART = 50
-"""The fraction of a picture's larger side by which a lens may move the panel: one in so many."""
+_LENS_SHIFT_PART = 50  # a lens may move the panel by one in so many of the larger side
 
 
-_MAX_EXPECTED_BRIGHT = 0.01
-"""Negligible expected number of pixels outside the panel as bright as its brightest."""
+_MAX_EXPECTED_BRIGHT = 0.01  # pixels outside the panel as bright as its brightest: negligible
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,20 +8,14 @@ from occ_model.scene.presets import load_preset
 from occ_model.scene.scene import Scene
 from occ_model.study.sweep.request_check import checked_request
 
-FREQUENCIES = tuple(2000.0 * step for step in range(1, 11))
-"""2 to 20 kHz in steps of 2 kHz (II.A)."""
+FREQUENCIES = tuple(2000.0 * step for step in range(1, 11))  # 2 to 20 kHz (II.A)
+DISTANCES = tuple(round(0.6 + 0.2 * step, 1) for step in range(8))  # 60 to 200 cm (II.A)
+IMAGES = 5  # for each frequency, exposure time and distance (II.A)
 
-DISTANCES = tuple(round(0.6 + 0.2 * step, 1) for step in range(8))
-"""60 to 200 cm in steps of 20 cm (II.A)."""
-
-IMAGES = 5
-"""Images taken for each frequency, exposure time and distance (II.A)."""
-
-DEVICES = {
+DEVICES = {  # the presets of each device, its lowest exposure time first
     "phone": ("phone-68us", "phone-136us"),
     "tablet": ("tablet-61us", "tablet-122us"),
 }
-"""The presets of each device, its lowest exposure time first."""
 
 
 def point_scene(preset: str, switching_frequency: float, distance: float) -> Scene:

@@ -31,11 +31,8 @@ MOST_PLACES = 10_000
 
 _TITLE = "# Lamps read and place found over the floor"
 _FORMAT = 2
-_START_TIME_SPREAD = 0.1
-"""Seconds over which the start of each picture is drawn at random."""
-
-_LAMP_MARGIN = 20.0
-"""Pixels around a lamp's rectangle within which a reading is attributed to it."""
+_START_TIME_SPREAD = 0.1  # seconds over which the start of each picture is drawn at random
+_LAMP_MARGIN = 20.0  # pixels around a lamp's rectangle within which a reading is attributed to it
 
 
 @dataclass(frozen=True, slots=True)

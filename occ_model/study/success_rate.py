@@ -35,9 +35,7 @@ from occ_model.transmitter.packet import sent_chips
 
 _SEEDS = 2**32
 
-_KEPT = 512
-"""Pictures of which what decoders read is kept: those of a search, for the next decoder."""
-
+_KEPT = 512  # pictures whose decoder inputs are kept: those of a search, for the next decoder
 _NO_PANEL = "No panel found: the picture has one grey level."
 
 

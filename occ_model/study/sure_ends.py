@@ -25,21 +25,15 @@ from occ_model.study.confidence import TWO_SIDED, trial_of
 from occ_model.study.end_interval import interval_of_end
 from occ_model.study.working_range import NEAR, Images, moved, right_bits_at
 
-MOST_IMAGES = 1000
-"""Images at a value beyond which it is not shown to be read: at rates above 99.6 %."""
+MOST_IMAGES = 1000  # maximum at a value inside, beyond which no rate above 99.6 % is shown
 
 
-OUTSIDE = 200
-"""Most images at a value beyond an end."""
-
+OUTSIDE = 200  # maximum images at a value beyond an end
 _ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
 """Pictures at parts of what is left of an interval, in rounds."""
 
-_REFUTING_PROBABILITY = 0.025
-"""Probability of wrongly refuting a rate: one side of a 95 % interval."""
-
-_STAKES = (0.03, 0.1, 0.3)
-"""Stakes of the betting test, as fractions of the maximum: small ones detect small deficits."""
+_REFUTING_PROBABILITY = 0.025  # of wrongly refuting a rate: one side of a 95 % interval
+_STAKES = (0.03, 0.1, 0.3)  # of the betting test, of the maximum: small ones detect small deficits
 
 
 def images_to_be_sure(rate: float) -> int:

@@ -7,18 +7,12 @@ from occ_model.arrays import ByteArray, FloatArray, Pixels
 from occ_model.camera.photometry import WHITE
 from occ_model.results.effect_costs import EffectCrop
 
-CROP = (64, 112)
-"""Rows and columns of a crop that is looked at closely."""
-
-ICON = (16, 40)
-"""Rows and columns of a crop in a line of a table."""
-
+CROP = (64, 112)  # rows and columns of a crop that is looked at closely
+ICON = (16, 40)  # rows and columns of a crop in a line of a table
 _MIN_KEPT_FRACTION = 0.7
 """Fraction of a difference that averaging must keep for the averaged panel to show it."""
 
-_CLIPPED_PERCENT = 1.0
-"""Percent of the pixels at either end that the stretching to the full range may clip."""
-
+_CLIPPED_PERCENT = 1.0  # of the pixels at either end that the stretching to the full range may clip
 _MAX_AMPLIFIED = 256
 _MIDDLE_GREY = 128.0
 

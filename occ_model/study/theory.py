@@ -15,8 +15,7 @@ from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
-_BOUND_BINS = 2**14
-"""Frequencies at which the bound of the rate is summed up."""
+_BOUND_BINS = 2**14  # frequencies at which the bound of the rate is summed up
 
 
 def band_model_frequency(scene: Scene) -> float:

@@ -33,17 +33,10 @@ from occ_model.scene.scene import Scene
 from occ_model.study.confidence import trial_of
 from occ_model.study.success_rate import right_bits_of_images
 
-STEP = 1.15
-"""Ratio of neighbouring values in the first, coarse search."""
-
-NEAR = 1.003
-"""Ratio of the values on both sides of an end of the interval at which its bisection stops."""
-
-READ_RATE = 99.0
-"""Success rate in percent from which a decoder is taken to read."""
-
-FEW_IMAGES = 5
-"""Images after which a value is believed to be read, until it is reported."""
+STEP = 1.15  # ratio of neighbouring values in the first, coarse search
+NEAR = 1.003  # ratio of the values on both sides of an end at which its bisection stops
+READ_RATE = 99.0  # success rate in percent from which a decoder is taken to read
+FEW_IMAGES = 5  # images after which a value is believed to be read, until it is reported
 
 
 def working_range(

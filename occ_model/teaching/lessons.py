@@ -19,21 +19,16 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.toml_format import parse_toml
 from occ_model.teaching.quantities import QUANTITIES
 
-USER_FOLDER = "OCC_LESSONS"
-"""The environment variable that names another folder for a teacher's own lessons."""
-
+USER_FOLDER = "OCC_LESSONS"  # environment variable of another folder for a teacher's lessons
 PANES = ("profile", "decode", "accuracy", "photo", "equations", "exposure", "map", "room")
 """The panes that a step can show."""
 
-EQUATIONS = (
+EQUATIONS = (  # the equations that a step can show
     "lit-panel", "dark-panel", "column", "one-state", "transition", "chip-columns",
     "frame-time", "null",
 )  # fmt: skip
-"""The equations that a step can show."""
 
-ACTIONS = ("transmitter", "photo", "match")
-"""What a step can have a button for: write a transmitter, open a photo, match it."""
-
+ACTIONS = ("transmitter", "photo", "match")  # of a step's button: write, open or match
 _FOLDER, _ENDING = "lessons", ".toml"
 _TEMPLATE = f"my-first-lesson{_ENDING}"  # the lesson that a teacher begins with
 

@@ -11,8 +11,7 @@ from occ_model.results.teaching import LightCurve
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import sent_chips
 
-_ROUNDING = 1e-12
-"""How far a ratio may be off a whole number, relative to it, by how its parts are written."""
+_ROUNDING = 1e-12  # relative error of a whole ratio, by how its parts are written
 
 
 def light_over_columns(

@@ -91,7 +91,7 @@ def _share_seen(scene: Scene, _photo: str | Match = "") -> float:
     return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
-QUANTITIES: dict[str, LessonQuantity] = {
+QUANTITIES: dict[str, LessonQuantity] = {  # by the name that a lesson's file uses
     "chip-columns": LessonQuantity(
         "columns that are read out while a chip lasts, t_LED / t_r",
         COLUMN,
@@ -220,4 +220,3 @@ QUANTITIES: dict[str, LessonQuantity] = {
         called="code",
     ),
 }
-"""The quantities, by the name that a lesson's file uses."""

@@ -2,8 +2,7 @@
 
 from occ_model.scene.units import Unit
 
-_DIGITS = 3
-"""Significant digits that a student can read off; those before the point are written in full."""
+_DIGITS = 3  # significant digits that a student can read off; integer parts are written in full
 
 
 def result_text(unit: Unit, value: float) -> str:

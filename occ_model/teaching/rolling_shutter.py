@@ -9,8 +9,7 @@ from occ_model.transmitter.packet import sent_chips
 
 _CHIPS = 4  # chips that the shown columns begin in
 
-_MAX_CHIPS = 400
-"""Largest number of chips that a drawing resolves; of a longer exposure only these are given."""
+_MAX_CHIPS = 400  # maximum number of chips that a drawing resolves; only these of a longer exposure
 
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:

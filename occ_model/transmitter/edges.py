@@ -13,8 +13,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.waveform import Duration, Phases, Waveform, Windows
 
-PhasesAt = Callable[[Fraction], Phases]
-"""Gives the phases of all windows' starts, shifted by a number of chips."""
+PhasesAt = Callable[[Fraction], Phases]  # of all windows' starts, shifted by chips
 
 
 class EdgedWaveform:

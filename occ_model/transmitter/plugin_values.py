@@ -7,8 +7,7 @@ import numpy as np
 from occ_model.arrays import ByteArray
 from occ_model.errors import PluginError, one_line
 
-MOST_CHIPS = 65_536
-"""Most chips of a plug-in's period or result: more than any built-in packet has (57,116)."""
+MOST_CHIPS = 65_536  # of a plug-in's period or result: more than any built-in packet has (57,116)
 
 
 def excess(what: str, values: object, most: int) -> str | None:

@@ -19,9 +19,7 @@ _ROUNDS = 6  # maximum iterations of the timing's fit
 _CONVERGED_CHANGE = 1e-5  # change of the timing in chips below which the fit has converged
 _MAX_STEP = 0.2  # largest change of the phase in one improvement, in chips
 
-_SHIFTS = np.linspace(-0.75, 0.75, 13)
-"""Shifts in chips that are tried first: decoders count from different ends of an exposure."""
-
+_SHIFTS = np.linspace(-0.75, 0.75, 13)  # chips, tried first: decoders count from different ends
 _MIN_FREEDOM, _FREEDOMS, _CHIPS_A_FREEDOM = 3, (5, 7), 6
 """Numbers of polynomials of either level, and the chips in view for each. Light that falls off as a
 lens's or a round lamp's is not a parabola, which shifts the edges of all frames alike: over 60
@@ -30,10 +28,7 @@ up to 7."""
 
 _MIN_EXPOSURE_CHIPS = 1e-3  # shortest exposure in chips: a shorter one makes the same light
 
-_MIN_NOISE = 1e-6
-"""Least variance of a column about its model that is believed, as a fraction of the swing
-squared."""
-
+_MIN_NOISE = 1e-6  # minimum variance of a column, as a fraction of the swing squared
 _MAX_LOG_LIKELIHOOD_RATIO = 50.0  # largest log-likelihood ratio of a chip: no model is surer
 _MIN_COLUMNS_PER_RIM = 8  # at either end at most one of so many columns is left out
 _SINGULAR = 1e-9  # fraction of the largest singular value below which one is rounding error

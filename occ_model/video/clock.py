@@ -8,18 +8,13 @@ from occ_model.video.clock_fit import fit_clock
 from occ_model.video.frame_times import FrameTimes, Part
 from occ_model.video.phases import ClockFit, Phases, mean_step
 
-READOUT_TOLERANCE = 0.01
-"""Fraction by which the readout time may differ from the rough one that is given."""
-
-_MAX_READOUT_EXCESS = 1e-3
-"""Fraction by which measurement errors may extend the readout beyond the frame period."""
-
+READOUT_TOLERANCE = 0.01  # maximum relative difference of the readout time from the given rough one
+_MAX_READOUT_EXCESS = 1e-3  # relative error by which the readout may exceed the frame period
 _MIN_FRAMES = 3  # minimum number of frames to fit the clock to
 _MAX_OUTLIER_FRACTION = 0.1  # outlier fraction of the phases that triggers a warning
 _MAX_NAMED_FREQUENCIES = 5  # maximum number of other frequencies that a sentence names
 
-_MIN_WANDER_RATIO = 3.0
-"""Ratio of the phases' scatter to that from frame to frame from which they wander."""
+_MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames from which they wander
 
 
 def fits_of(

@@ -16,24 +16,17 @@ from occ_model.video.phases import ClockFit, Phases, mean_step
 
 _FIRST_FRAMES = 64  # frames of the part of a film in which aliases are searched
 
-_GRID_POINTS_PER_TURN = 8.0
-"""Frequencies that are tried while the phase at the part's end changes by a period."""
-
+_GRID_POINTS_PER_TURN = 8.0  # frequencies tried in a change of the last phase by a period
 _MAX_TRIED = 2**17  # most frequencies that are tried; the part of the film is shortened to it
 
-_MAX_ALIASES = 64
-"""Most frequencies that may fit alike: of more, as with frames far apart, none is stated."""
-
+_MAX_ALIASES = 64  # of more, as with frames far apart, no frequency is stated
 _TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies without one that is coherent by chance
 
-_MIN_RELATIVE_COHERENCE = 0.8
-"""Fraction of the best coherence from which another frequency is an alias to be fitted."""
-
+_MIN_RELATIVE_COHERENCE = 0.8  # fraction of the best coherence from which an alias is fitted
 _MIN_COHERENCE = 0.5  # coherence of phases with the frame times below which they do not follow them
 _PART_GROWTH = 1.3  # factor by which the fitted part of the film grows, once its frequency is known
 
-_MAX_CHI_SQUARED_EXCESS = 9.0
-"""Difference of chi-squared up to which an alias is not excluded: three standard deviations."""
+_MAX_CHI_SQUARED_EXCESS = 9.0  # up to which an alias is not excluded: three standard deviations
 
 
 def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:

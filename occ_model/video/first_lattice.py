@@ -12,11 +12,8 @@ from occ_model.video.chip_timing import ChipLattice
 _MIN_EDGES = 4  # fewest edges between chips that show a lattice
 _MAX_EDGE_ERROR = 0.3  # chips off the lattice from which an edge shows that chips were miscounted
 
-_SEARCHED_FRACTION = 0.05
-"""Fraction of the expected length of a chip within which another length is searched."""
-
-_STEPS_A_TURN = 8.0
-"""Lengths of a chip that are tried while the last edge moves by a chip against the first."""
+_SEARCHED_FRACTION = 0.05  # of the expected length of a chip, within which another is searched
+_STEPS_A_TURN = 8.0  # lengths of a chip tried while the last edge moves by a chip against the first
 
 
 def first_lattice(

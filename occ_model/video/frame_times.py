@@ -8,12 +8,8 @@ from occ_model.arrays import BoolArray, FloatArray, IndexArray
 from occ_model.results.video_reading import Measured
 from occ_model.scene.units import SECOND
 
-_MAX_INTERVAL_DEVIATION = 0.25
-"""Fraction of a period by which an interval may differ from a whole number of them."""
-
-_MAX_TIME_DEVIATION = 0.02
-"""Standard deviation of the frame times, as a fraction of the period, that triggers a warning."""
-
+_MAX_INTERVAL_DEVIATION = 0.25  # of a period, by which an interval may differ from whole ones
+_MAX_TIME_DEVIATION = 0.02  # of frame times, as a fraction of the period, that triggers a warning
 _MAX_NAMED_FRAMES = 3  # maximum number of frames that a sentence names
 
 BREAK = 16.0

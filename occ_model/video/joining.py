@@ -19,14 +19,10 @@ _MAX_FRAME_RATIO = 8.0
 
 _FIXED_CHIP_RATIO = 30.0  # log-likelihood ratio of a chip that is the same in every packet
 
-_KNOWN_CHIP_RATIO = 2.0
-"""Log-likelihood ratio from which a chip counts as known when places are compared."""
-
+_KNOWN_CHIP_RATIO = 2.0  # from which a chip counts as known when places are compared
 _MIN_LOG_ODDS = 7.0  # minimum log-odds of the best place against all others together
 
-_CONTRADICTING_LOG_LIKELIHOOD = -12.0
-"""Logarithm of the likelihood below which a place contradicts the chips that are known."""
-
+_CONTRADICTING_LOG_LIKELIHOOD = -12.0  # below which a place contradicts the known chips
 _MIN_DEVIATION = 0.15  # minimum standard deviation of a place predicted by the clock, in chips
 
 

@@ -29,12 +29,8 @@ from occ_model.video.file.decoder_process import (
 from occ_model.video.file.note import note_in
 from occ_model.video.file.source import CHANNELS, StoredFrame
 
-_SAME_TIME = 1e-6
-"""Seconds by which a frame's time may differ from that which it was stated to have."""
-
-_MAX_DECODED_AHEAD = 10
-"""Frames ahead up to which a frame is decoded to; one further away is found by its time."""
-
+_SAME_TIME = 1e-6  # seconds by which a frame's time may differ from the stated one
+_MAX_DECODED_AHEAD = 10  # frames ahead up to which to decode; one further away is found by its time
 _STEPS_LEFT = 2.0  # maximum distance of a complete film's last frame from its end, in longest steps
 _SCAN_AXIS_FRAMES = 5  # frames at a film's start on which the scan axis is found
 

@@ -18,18 +18,11 @@ from occ_model.scene.scene import Scene
 from occ_model.video.chip_timing import ChipTiming, fit_timing
 from occ_model.video.first_lattice import first_lattice
 
-_MAX_UNEXPLAINED = 0.3
-"""Fraction of the signal's variance that the chips leave unexplained above which they are not
-read."""
-
-_REMEMBERED_REGIONS = 5
-"""Previous frames whose regions show where the panel ends: it moves little from one to the next."""
-
+_MAX_UNEXPLAINED = 0.3  # maximum fraction of the variance that the chips leave unexplained
+_REMEMBERED_REGIONS = 5  # previous frames whose regions show where the panel ends: it moves little
 _MAX_DARK = 6.0  # most dark chips in a row at an end of the panel: more than any line code has
 
-_MOTION_MARGIN = 0.5
-"""Chips by which the panel may have moved since the frames that show where it ends."""
-
+_MOTION_MARGIN = 0.5  # chips by which the panel may have moved since those frames
 _ROUNDING_CHIPS = 1e-6  # chips of rounding that do not cut a chip off
 
 

@@ -18,17 +18,9 @@ from occ_model.video.clock import fits_of, state
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.phases import Phases
 
-_MIN_PERIODS = 3.0
-"""Periods in a frame from which stripes repeat, and are not by chance alike twice."""
-
-_MAX_UNREPEATED = 0.1
-"""Fraction of the variance of stripes that no repeated wave explains, above which they are
-others."""
-
-_MIN_CHANGE = 0.2
-"""Fraction of the brightest frames' light by which dark ones are darker where whole frames
-blink."""
-
+_MIN_PERIODS = 3.0  # in a frame from which stripes repeat, and are not by chance alike twice
+_MAX_UNREPEATED = 0.1  # maximum fraction of the stripes' variance that no repeated wave explains
+_MIN_CHANGE = 0.2  # of the brightest frames' light by which dark frames that blink are darker
 _MIN_SAME_FRACTION = 0.9  # minimum fraction of equal frames from which all count as equal
 
 

@@ -15,17 +15,10 @@ from occ_model.arrays import FloatArray
 
 MMSE, ZERO_FORCING = "mmse", "zero-forcing"  # the ways to undo an exposure
 
-_ZERO_FORCING_NOISE = 1e-6
-"""Noise-to-light ratio of zero-forcing, which avoids a division by zero at a null."""
-
-_NULL_FRACTION = 0.25
-"""Fraction of the spectrum, where the exposure passes least, that the noise is measured in."""
-
-_MIN_CHIP_SPECTRUM = 1e-3
-"""Least of a chip's spectrum, relative to its largest; at its own nulls it is 0."""
-
-_TAPER_EXPOSURES = 4.0
-"""Exposures over which the signal fades out at either end, before the spectrum repeats it."""
+_ZERO_FORCING_NOISE = 1e-6  # noise-to-light ratio that avoids a division by zero at a null
+_NULL_FRACTION = 0.25  # fraction of the spectrum, least passed by the exposure, to measure noise in
+_MIN_CHIP_SPECTRUM = 1e-3  # minimum of a chip's spectrum relative to its largest; 0 at its nulls
+_TAPER_EXPOSURES = 4.0  # exposures over which either end fades out, before the spectrum repeats it
 
 
 def box(columns: float) -> FloatArray:

@@ -13,11 +13,8 @@ from occ_model.transmitter.waveform import Duration, Phases, Waveform
 
 BINS_PER_CHIP = 8  # bins of a chip: an edge is known to a sixteenth of a chip
 
-_TONE_CODES = 256
-"""Codes that the distribution of lit fractions is computed from; more do not change it."""
-
-_ROUNDING = 1e-12
-"""Variance of a profile, in lit fractions squared, below which it is rounding error."""
+_TONE_CODES = 256  # codes for the distribution of lit fractions; more do not change it
+_ROUNDING = 1e-12  # variance in lit fractions squared below which it is rounding error
 
 
 @dataclass(frozen=True, eq=False, slots=True)

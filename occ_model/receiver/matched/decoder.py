@@ -37,12 +37,8 @@ from occ_model.transmitter.framings.framing import Framed
 from occ_model.transmitter.packet import bits_of, packet_length
 from occ_model.transmitter.scheme import scheme_of
 
-_MIN_CORRELATION = 0.7
-"""Least correlation of a code that is read: half of the signal's variance is explained."""
-
-_MIN_CONFIDENCE = 0.05
-"""Least confidence of a code that is read; below it the best code may be so by chance."""
-
+_MIN_CORRELATION = 0.7  # of a code that is read: half of the signal's variance is explained
+_MIN_CONFIDENCE = 0.05  # of a code that is read; below it the best code may be so by chance
 _FULLY_EXPLAINED = 1e-3
 """Fraction of the variance below which a code explains all: bins and ranks are no more exact.
 

@@ -18,8 +18,7 @@ from occ_model.transmitter.scheme import Scheme
 MOST_BITS = 12  # bits up to which all payloads are compared: 4,096 of them
 _AT_ONCE = 512  # payloads whose correlations are held at once
 
-_ROUNDING = 1e-6
-"""Variance of a profile, in lit fractions squared, below which it is rounding error."""
+_ROUNDING = 1e-6  # variance in lit fractions squared below which it is rounding error
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -21,9 +21,7 @@ MOST_STATES = 2048  # states of a trellis that is searched whole
 _MAX_ENCODER_STATES = 16  # states of an encoder above which its words are not listed
 _MAX_BLOCK = 8  # bits of a block above which its words are not listed
 
-_MAX_SAMPLED_BITS = 64
-"""Bits of payloads up to which all samples are tried whether they are sequences of words."""
-
+_MAX_SAMPLED_BITS = 64  # bits of payloads up to which all samples are tried as sequences of words
 _SAMPLES = 8  # random payloads beside those of zeros and of ones
 
 

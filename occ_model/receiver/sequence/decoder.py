@@ -39,15 +39,12 @@ _MAX_NOISE_RATIO = 0.9
 
 _MIN_CERTAINTY = 0.9  # least probability that all bits are right, of a code that is read
 
-_MAX_MEMORY = 32
-"""Most chips that an exposure reaches back to; of more, a moving mean leaves hardly anything."""
-
+_MAX_MEMORY = 32  # chips that an exposure reaches back to; a longer mean leaves hardly anything
 _DOUBTFUL_FRACTION = 0.02
 """Fraction of the signal's variance that is neither the chips' light nor noise, above which their
 timing may be another one."""
 
-_MAX_UNEXPLAINED = 0.05
-"""Largest fraction of the signal's variance that may be neither the chips' light nor noise."""
+_MAX_UNEXPLAINED = 0.05  # of the signal's variance that is neither the chips' light nor noise
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:

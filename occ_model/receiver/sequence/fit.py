@@ -20,12 +20,8 @@ from occ_model.receiver.sequence.trellis import Word, most_states, trellis_of
 _PHASES = 8  # phases of the chips that are tried, evenly over one chip
 TRIED_CHIPS = 96  # chips in the middle of the picture that the phases are tried on
 
-_LAG_ROWS = 3
-"""Rows apart whose products give the contrast without the noise, which no two rows share."""
-
-_MIN_NOISE = 1e-8
-"""Least variance that is assumed, in fractions of full light squared: no model is more exact."""
-
+_LAG_ROWS = 3  # rows apart whose products give the contrast without the noise: no two share it
+_MIN_NOISE = 1e-8  # minimum variance, in fractions of full light squared: no model is more exact
 _SINGULAR = 1e-10  # fraction of the largest singular value below which one is rounding error
 _MAX_STEP = 0.1  # largest change of the phase in one improvement, in chips
 

@@ -18,9 +18,7 @@ from occ_model.receiver.sequence.fit import (
 )
 from occ_model.receiver.sequence.trellis import Word
 
-_MAX_TURNS = 8
-"""Maximum iterations of the timing in a part; each moves its ends by at most 0.1 chips."""
-
+_MAX_TURNS = 8  # iterations of a part's timing; each moves its ends by at most 0.1 chips
 _CONVERGED_CHIPS = 0.01  # motion of a part's ends in chips below which the fit has converged
 
 

@@ -24,8 +24,7 @@ _LONGEST_EXPOSURE = 2.0
 A threshold in the middle no longer sees it, and all repetitions of a packet show the same errors.
 """
 
-_LONGEST_UNCHECKED = 1.0
-"""Chips of an exposure beyond which single chips no longer reach the level of longer runs."""
+_LONGEST_UNCHECKED = 1.0  # exposure in chips up to which single chips reach the level of runs
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:

@@ -8,18 +8,13 @@ from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.receiver.signal import otsu_split
 from occ_model.results.decoding import RunHistogram, Runs
 
-_MAX_RUN_CHIPS = np.array([2, 4])
-"""Chips of the longest run of zeros, and of ones: a header after data that end in a one."""
-
-_HEADER_RUNS = (3, 4)
-"""Chips of the run of ones that holds a header: its own three, or four after a one."""
-
+_MAX_RUN_CHIPS = np.array([2, 4])  # chips of a run of zeros, and of ones: a header after a one
+_HEADER_RUNS = (3, 4)  # chips of the run of ones that holds a header: its three, or one more
 _NO_HEADER_PENALTY = 0.1  # penalty in chips of a fit without a header, as the picture may show none
 _WIDENING_PENALTY = 0.05  # penalty of a pattern's fit, in chips, for each chip of widening
 _WIDENINGS = 19  # widenings that are tried for a raw pattern, which has no framing
 
-_IMPROVEMENTS = 3
-"""Most rounds of least squares; they end when the whole numbers of chips no longer change."""
+_IMPROVEMENTS = 3  # maximum rounds of least squares; they end when the numbers of chips stay
 
 
 def runs_of(binary: ByteArray) -> Runs:

@@ -13,9 +13,7 @@ from occ_model.study.bands.depth import light_depth
 from occ_model.study.bands.least_depth import DepthOver
 from occ_model.study.bands.shutter_speeds import shutter_speeds
 
-_MAX_CHIPS = 10_000
-"""Exposure in chips from which the code's bars are bounded, not computed."""
-
+_MAX_CHIPS = 10_000  # exposure in chips from which the code's bars are bounded, not computed
 _MIN_LIMIT = 1e-4
 
 _HALVINGS = 60

@@ -11,8 +11,7 @@ from occ_model.study.bands.shutter_speeds import shutter_speeds
 
 _MAX_SPEEDS = 2
 
-_SAMPLES = 65
-"""Number of exposures within the error at which the depth is sampled."""
+_SAMPLES = 65  # exposures within the error at which the depth is sampled
 
 
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:

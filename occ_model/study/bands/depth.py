@@ -15,17 +15,11 @@ from occ_model.study.bands.exposed_light import ExposedLight, exposed_light
 from occ_model.study.bands.visibility import contrast_threshold
 from occ_model.transmitter.packet import sent_chips
 
-_DISPLAY_EXPONENT = 2.2
-"""Approximation of sRGB by one power."""
-
-_NODES = 16
-"""Gauss-Legendre nodes in each piece of the light, for the mean of the pixel values."""
-
+_DISPLAY_EXPONENT = 2.2  # approximates sRGB by one power
+_NODES = 16  # Gauss-Legendre nodes in each piece of the light, for the mean of the pixel values
 _FLICKER_PHASES = 32
 
-_HARMONICS_PER_CHIP = 4
-"""Harmonics of the code searched for the strongest, per chip; higher ones are below a quarter."""
-
+_HARMONICS_PER_CHIP = 4  # harmonics of the code that are searched; higher ones are below a quarter
 _ROUNDING_DEPTH = 1e-12
 
 

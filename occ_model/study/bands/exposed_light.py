@@ -14,8 +14,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.transmitter.edges import EdgedWaveform
 from occ_model.transmitter.waveform import Phases
 
-_VARIANCE_NODES = 3
-"""Gauss-Legendre nodes that integrate the square of a quadratic piece exactly."""
+_VARIANCE_NODES = 3  # Gauss-Legendre nodes that integrate the square of a quadratic exactly
 
 
 @dataclass(frozen=True, eq=False, slots=True)

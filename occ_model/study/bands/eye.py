@@ -17,21 +17,12 @@ from occ_model.transmitter.packet import sent_chips
 
 NO_EFFECT, LOW_RISK, ABOVE = "no effect", "low risk", "above low risk"
 
-_BREAK_FREQUENCY = 90.0
-"""Hz below which the limits of IEEE 1789-2015 are stricter."""
-
+_BREAK_FREQUENCY = 90.0  # Hz below which the limits of IEEE 1789-2015 are stricter
 _LOW_RISK = (0.025, 0.08, 1250.0)
-_NO_EFFECT = (0.01, 0.0333, 3000.0)
-"""Percent of modulation per Hz below and above 90 Hz, and the line's end in Hz."""
-
-_SVM_BAND = (80.0, 2000.0)
-"""Hz."""
-
-_SVM_EXPONENT = 3.7
-"""Of the Minkowski sum over the components."""
-
-_MAX_CHIPS = 64
-"""Highest component included, in switching frequencies; higher ones are below 1 %."""
+_NO_EFFECT = (0.01, 0.0333, 3000.0)  # % per Hz below and above 90 Hz, and the line's end in Hz
+_SVM_BAND = (80.0, 2000.0)  # Hz
+_SVM_EXPONENT = 3.7  # of the Minkowski sum over the components
+_MAX_CHIPS = 64  # highest component in switching frequencies; higher ones are below 1 %
 
 
 def eye_flicker(scene: Scene) -> EyeFlicker:

@@ -13,12 +13,8 @@ from occ_model.scene.scene import Scene, check_scene
 from occ_model.study.bands.depth import light_shares
 from occ_model.transmitter.packet import sent_chips
 
-_MAX_NODES = 10_000
-"""Maximum number of nodes evaluated in a range; beyond, bars are invisible."""
-
-_MAP_EXPOSURES = (1e-5, 0.1)
-"""Seconds; to usual shutter speeds, beyond the slider."""
-
+_MAX_NODES = 10_000  # maximum nodes evaluated in a range; beyond, bars are invisible
+_MAP_EXPOSURES = (1e-5, 0.1)  # seconds; to usual shutter speeds, beyond the slider
 _MAP_CELLS = 120
 
 

@@ -8,11 +8,8 @@ _WEBER_FRACTION = 0.01
 """Smallest visible relative difference of luminance. Values from 0.5 to 2 % are in use (C. Poynton,
 Digital Video and HD, 2012)."""
 
-_VIEWING_ANGLE = 40.0
-"""Degrees that the picture's scan axis spans for the viewer."""
-
-_PEAK_FREQUENCY = 7.89
-"""Cycles per degree of the maximum of the sensitivity curve below."""
+_VIEWING_ANGLE = 40.0  # degrees that the picture's scan axis spans for the viewer
+_PEAK_FREQUENCY = 7.89  # cycles per degree of the maximum of the sensitivity curve below
 
 
 def contrast_threshold(scene: Scene, period: float) -> float:

@@ -26,9 +26,7 @@ from occ_model.scene.scene import Scene
 from occ_model.study.bit_error_rate import MOST_BITS, bit_errors_of, with_payload
 from occ_model.transmitter.scheme import scheme_of
 
-_DARK, _SWING = 40.0, 160.0
-"""Grey levels without and with the lamp lit; noise of 10 dB stays within 0 to 255."""
-
+_DARK, _SWING = 40.0, 160.0  # grey levels, lamp off and by how much on: 10 dB of noise fits
 _ROWS_A_SYMBOL = (1.0, 100.0)
 _LONGEST_EXPOSURE = 100.0
 _MAX_DECIBELS = 100.0

@@ -9,8 +9,7 @@ from occ_model.study.theory import gaussian_rate_bound
 
 _CURVE_POINTS = 31
 
-_NULL_EXPOSURE = 2.0
-"""Exposure in symbols of the first null of alternating chips; the others are its multiples."""
+_NULL_EXPOSURE = 2.0  # first null of alternating chips, in symbols; the others are its multiples
 
 
 def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> BenchBounds:

@@ -10,23 +10,14 @@ from fractions import Fraction
 from occ_model.scene.scene import Scene
 from occ_model.study.films.study import FilmRequest, scene_of_films
 
-FRAME_PERIOD = Fraction(333, 10_000)
-"""Seconds from frame to frame."""
-
-GAP = Fraction(1, 5)
-"""Fraction of the frame period."""
-
+FRAME_PERIOD = Fraction(333, 10_000)  # seconds from frame to frame
+GAP = Fraction(1, 5)  # fraction of the frame period
 FREQUENCY = 8000.0
 PACKET_CHIPS = 4 + 2 * (8 + 16)
 
-_EXPOSURE = 25e-6
-"""A fifth of a chip: the example's camera has no exposure time."""
-
-_STEP = Fraction(1, 10_000)
-"""Seconds in whose multiples the published simulator counts time."""
-
-_ERRORS = Fraction(1, 100)
-"""Fraction of the packets in view that it loses."""
+_EXPOSURE = 25e-6  # a fifth of a chip, assumed: the example states no exposure time
+_STEP = Fraction(1, 10_000)  # time step of the published simulator in seconds
+_ERRORS = Fraction(1, 100)  # fraction of the packets in view that it loses
 
 
 def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:

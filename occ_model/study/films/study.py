@@ -24,8 +24,7 @@ from occ_model.video.render import SimulatedVideo, render_video
 
 MOST_POINTS = 10_000
 
-_LARGEST_GAP = 0.9
-"""Largest fraction of a frame period that a gap may take."""
+_LARGEST_GAP = 0.9  # largest fraction of a frame period that a gap may take
 
 
 @dataclass(frozen=True, slots=True)

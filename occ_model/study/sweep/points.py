@@ -13,8 +13,7 @@ from occ_model.scene.parameter_kinds import ParameterValue
 from occ_model.scene.scene import Scene
 from occ_model.study.success_rate import check_rate, right_and_whole
 
-PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]
-"""A point's index and the values of the parameters that are varied."""
+PointValues: TypeAlias = tuple[int, dict[str, ParameterValue]]  # a point's index and varied values
 
 
 @dataclass(frozen=True, slots=True)

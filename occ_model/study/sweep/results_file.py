@@ -17,8 +17,7 @@ from occ_model.errors import OutputError, one_line, shown
 from occ_model.files.writing import check_replaceable, write_whole
 from occ_model.study.sweep.file_lock import is_locked_by_us
 
-_SYNC_SECONDS = 2.0
-"""Maximum seconds of work lost by a power cut."""
+_SYNC_SECONDS = 2.0  # maximum seconds of work lost by a power cut
 
 
 class Indexed(Protocol):

@@ -30,11 +30,8 @@ from occ_model.study.sweep.request_check import checked_request, decoders_of, pr
 from occ_model.study.sweep.results_file import ResultsFile
 from occ_model.study.sweep.workers import measure_anywhere
 
-Progress: TypeAlias = Callable[[int, int, float], object]
-"""Called with the number of points done, of all points, and of seconds left."""
-
-_BEAT = 0.2
-"""Seconds between two calls of the progress while a point takes long."""
+Progress: TypeAlias = Callable[[int, int, float], object]  # points done, of all, seconds left
+_BEAT = 0.2  # seconds between two calls of the progress while a point takes long
 
 
 def sweep(  # noqa: PLR0913 - a study's settings, most of them optional

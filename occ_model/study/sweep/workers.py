@@ -21,14 +21,9 @@ from occ_model.parallel.request import Run
 from occ_model.parallel.scheduler import Scheduler
 from occ_model.study.sweep.results_file import Indexed, Point
 
-_JOB_SECONDS = 0.1
-"""Work in a job: long against the time to send it, short against the patience of who waits."""
-
-_BEAT = 0.2
-"""Seconds between two heartbeats while this process waits for workers."""
-
-_UNKNOWN_WORKERS = 32
-"""Workers assumed of an executor that does not say how many it has."""
+_JOB_SECONDS = 0.1  # seconds of a job: long against sending it, short against anybody's patience
+_BEAT = 0.2  # seconds between two heartbeats while this process waits for workers
+_UNKNOWN_WORKERS = 32  # assumed of an executor that does not say how many it has
 
 
 Measured = TypeVar("Measured", bound=Indexed, covariant=True)

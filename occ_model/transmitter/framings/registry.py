@@ -66,7 +66,7 @@ def _guarded(offered: Framing) -> Framing:
     return replace(offered, title=plugins.title_of(offered), encode=encode, decode=decode)
 
 
-FRAMINGS = Registry(
+FRAMINGS = Registry(  # the framings that a scene chooses among
     parameter="framing",
     kind=Framing,
     constant="FRAMING",
@@ -75,7 +75,6 @@ FRAMINGS = Registry(
     group=plugins.FRAMINGS,
     guarded=_guarded,
 )
-"""The framings that a scene chooses among."""
 
 
 def framings() -> tuple[str, ...]:

@@ -14,11 +14,8 @@ from occ_model.transmitter.framings.framing import (
 
 _MAX_WHOLE_FRAMES = 32  # places of a preamble behind all of which the whole frame is read
 
-_CHECKED_CHIPS = 120
-"""Chips behind other preambles that must obey the line code: whole blocks of 2, 6, 10 and 12."""
-
-ReadData = Callable[[ByteArray], Framed]
-"""Reads the chips after a preamble, to the end of a period or further."""
+_CHECKED_CHIPS = 120  # chips behind preambles that must obey the line code: blocks of 2, 6, 10, 12
+ReadData = Callable[[ByteArray], Framed]  # reads the chips behind a preamble, at least a period
 
 
 def read_repeated(

@@ -33,12 +33,8 @@ _SIX = tuple(
 )  # fmt: skip
 _FOUR = ("1011", "1001", "0101", "1100", "1101", "1010", "0110", "1110")
 
-_ALTERNATE = "0111"
-"""In place of HGF = 111 where it would make a run of five with the six chips before it."""
-
-_ALTERNATE_AFTER = {-1: (17, 18, 20), 1: (11, 13, 14)}
-"""EDCBA before which the alternate is sent, by the running disparity between six and four chips."""
-
+_ALTERNATE = "0111"  # for HGF = 111 where it would make a run of five with the six chips before
+_ALTERNATE_AFTER = {-1: (17, 18, 20), 1: (11, 13, 14)}  # EDCBA before it, by the running disparity
 _COMPLEMENT = str.maketrans("01", "10")
 
 _K28 = "001111"

@@ -7,11 +7,10 @@ words are equally bright and any single wrong chip makes a word that is not in t
 from occ_model.transmitter.line_codes.line_code import LineCode
 from occ_model.transmitter.line_codes.word_table import WordTable, words_of
 
-WORDS = words_of(
+WORDS = words_of(  # of the numbers 0 to 15
     "001110 001101 010011 010110 010101 100011 100110 100101 "
     "011001 011010 011100 110001 110010 101001 101010 101100"
 )
-"""The words of the numbers 0 to 15."""
 
 _TABLE = WordTable(WORDS, "4B6B word")
 

@@ -76,7 +76,7 @@ def _guarded(offered: LineCode) -> LineCode:
     return replace(offered, title=plugins.title_of(offered), encode=encode, decode=decode)
 
 
-LINE_CODES = Registry(
+LINE_CODES = Registry(  # the line codes that a scene chooses among
     parameter="line_code",
     kind=LineCode,
     constant="LINE_CODE",
@@ -92,7 +92,6 @@ LINE_CODES = Registry(
     group=plugins.LINE_CODES,
     guarded=_guarded,
 )
-"""The line codes that a scene chooses among."""
 
 
 def line_codes() -> tuple[str, ...]:

@@ -16,24 +16,14 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
-DECODER_OPTION = "--decoder-of-films"
-"""Tells a program that was bundled with its Python to become a decoder."""
-
-MOST_MEMORY = 400_000_000
-"""Bytes that decoding may take, beyond those that the process has at its start."""
-
-_FRAMES_LEFT = 12
-"""Bytes for each pixel that a decoder which goes on has left: four frames in colours."""
-
+DECODER_OPTION = "--decoder-of-films"  # makes a bundled program a decoder
+MOST_MEMORY = 400_000_000  # bytes that decoding may take, beyond those at the process's start
+_FRAMES_LEFT = 12  # bytes a pixel that a decoder which goes on has left: four frames in colours
 LONGEST = 4.0  # seconds of processor time that one request may take
 TOOK_TOO_LONG = 21  # exit code of a process that took too long
 
-HEADER = struct.Struct("<II")
-"""Before each answer: the bytes of its JSON part and those of its pixels."""
-
-NO_MEMORY = "decoding it takes more memory than is allowed."
-"""End of the sentence about a film whose decoder needs more."""
-
+HEADER = struct.Struct("<II")  # before each answer: the bytes of its JSON and of its pixels
+NO_MEMORY = "decoding it takes more memory than is allowed."  # end of a sentence
 _NO_MEMORY_LEFT = -4  # OpenCV's code of an error where memory lacks: ``cv2.Error.StsNoMem``
 _CHECK = 0.2  # seconds between looks at the processor time
 

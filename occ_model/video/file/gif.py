@@ -15,9 +15,7 @@ from occ_model.errors import OutputError
 _LARGEST_SIDE = 65_535
 _BLOCK = 255  # bytes of a block of data
 
-_LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"
-"""Lets players begin again at the end."""
-
+_LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"  # begin again at the end
 _HEAD, _DESCRIPTION = 13, 10
 """Bytes before the first table of colours, and those that describe a picture."""
 

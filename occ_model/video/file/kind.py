@@ -6,9 +6,7 @@ from occ_model.errors import SceneFileError, VideoError
 from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
 
-_PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")
-"""Brands of pictures that begin as MP4 films do: HEIC, AVIF and Canon's raw files."""
-
+_PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")  # HEIC, AVIF, CR3
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 _ANIMATED = b"acTL"  # the chunk that an animated PNG has before its first picture

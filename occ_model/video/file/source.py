@@ -9,11 +9,8 @@ import numpy as np
 
 from occ_model.arrays import ByteArray
 
-CHANNELS = ("luma", "red", "green", "blue")
-"""The channels of a film; most files keep the luma of each pixel, but colours of 2 x 2 pixels."""
-
-MAX_PIXELS = 36_000_000
-"""Largest frame that is read, if its codec does not take too much memory: that of 8K films."""
+CHANNELS = ("luma", "red", "green", "blue")  # most files keep luma in each pixel, colours in 2 x 2
+MAX_PIXELS = 36_000_000  # largest frame that is read: 8K, if its codec's memory suffices
 
 
 @dataclass(frozen=True, eq=False, slots=True)

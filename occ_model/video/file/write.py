@@ -24,13 +24,12 @@ _CODECS = {".mp4": "mp4v", ".mkv": "FFV1"}  # MPEG-4, which is lossy, and FFV1, 
 LOSSLESS = (".mkv", ".gif", ".png")  # endings of files that keep grey frames exactly
 FILM_ENDINGS = (".mp4", *LOSSLESS)  # endings of the files that films are written to
 
-_RATES = {
+_RATES = {  # frames a second that a file can state; players of GIF files show none faster
     ".mp4": (0.01, 65_535.0),
     ".mkv": (0.01, 1e5),
     ".gif": (0.002, 50.0),
     ".png": (1e-4, 65_535.0),
 }
-"""Frames a second that a file can state; players of GIF files show none faster."""
 
 
 def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: str) -> int:

@@ -7,13 +7,7 @@ from occ_model.program import run_program
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command line; return its exit code.
-
-    Parameters
-    ----------
-    arguments
-        The command line's words; by default those of this process.
-    """
+    """Run the command line, by default this process's; return its exit code."""
     is_process = arguments is None
     return run_program("occ-model", partial(_command, arguments), is_process=is_process)
 

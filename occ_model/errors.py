@@ -28,17 +28,7 @@ class OccError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class RefusedValue:
-    """A value that a parameter cannot have, with its unit, and what is allowed.
-
-    Parameters
-    ----------
-    verb
-        Between the name and the value: "is", "has" or "varies over".
-    condition
-        Of what is allowed, such as "with 10 bits"; empty where it is allowed ever.
-    place
-        Where the value stands, such as "Table [camera]"; empty where that is known.
-    """
+    """A value that a parameter cannot have, with its unit, and what is allowed."""
 
     parameter: str
     verb: str
@@ -168,10 +158,7 @@ class _ShortRepr(reprlib.Repr):
 
 
 def shown(value: object) -> str:
-    """Write any value as part of a sentence, as ``repr`` would but short.
-
-    Long texts, long numbers and deep nesting are cut, control characters escaped.
-    """
+    """Write any value as part of a sentence: as ``repr`` would, but short and in one line."""
     # An array's has several lines.
     text = " ".join(line.strip() for line in _ShortRepr().repr(value).split("\n"))
     half = _LONGEST_VALUE // 2

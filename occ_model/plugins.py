@@ -48,10 +48,7 @@ def all_at_work() -> tuple[str, ...]:
 
 @lru_cache(maxsize=8)
 def _found(group: str) -> "dict[str, EntryPoint]":
-    """Find the entry points of a group, the first of each name that can be one.
-
-    Names stand in scenes, tables and the names of files, so that none may leave a folder.
-    """
+    """Find the entry points of a group by names that cannot leave a folder, the first of each."""
     from importlib.metadata import entry_points
 
     try:
@@ -76,10 +73,7 @@ def plugin_names(group: str) -> tuple[str, ...]:
 
 
 def load_plugin(group: str, name: str, kind: type[_Kind]) -> _Kind:
-    """Import what a plug-in offers under a name, which has to be of a kind and have the name too.
-
-    Raises PluginError where there is no such plug-in, its import fails, or it is something else.
-    """
+    """Import what a plug-in offers under a name, which has to be of a kind and so named too."""
     entry = _found(group).get(name)
     if entry is None:
         raise PluginError(f"There is no plug-in {one_line(name)!r} of {group}.")

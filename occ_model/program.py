@@ -32,26 +32,11 @@ def run_program(
     is_process: bool,
     is_window: bool = False,
 ) -> int:
-    """Run a program; return its exit code.
+    """Run a program; return its exit code, and report an error in one line on standard error.
 
-    An error is reported in one line on standard error.
-
-    Parameters
-    ----------
-    name
-        The program's name.
-    prepare
-        Imports what is needed, reads the command line and returns the work to do.
-    is_process
-        Whether the process is this program's alone; only then its signals and streams are changed.
-    is_window
-        Whether the program has a window: it may have no standard output, and Ctrl-C ends it at
-        once until it answers that itself.
-
-    Raises
-    ------
-    SystemExit
-        The parser of the command line printed its help or refused the command.
+    ``prepare`` imports what is needed, reads the command line and returns the work to do. Only if
+    the process is this program's alone (``is_process``) its signals and streams are changed. A
+    window may have no standard output, and Ctrl-C ends it until it answers that itself.
     """
     if is_process:
         # The matrices are small: threads of linear algebra wait for each other longer than they
@@ -113,14 +98,8 @@ class Interrupts:
 
     During preparation, and during any import, Ctrl-C ends the process at once: no work has begun
     then, and a module that is interrupted while it is imported may print anything. Later it raises
-    ``KeyboardInterrupt`` as usual. A process that was started to ignore Ctrl-C goes on to do so.
-
-    Parameters
-    ----------
-    name
-        The program's name.
-    always_at_once
-        Whether Ctrl-C ends the process at once during its work too.
+    ``KeyboardInterrupt``, unless ``always_at_once``. A process that was started to ignore Ctrl-C
+    goes on to do so.
     """
 
     def __init__(self, name: str, always_at_once: bool) -> None:
@@ -163,10 +142,7 @@ def _is_importing(frame: FrameType | None) -> bool:
 
 
 def _open_streams(needs_output: bool) -> None:
-    """Open the null device in place of standard streams that are closed.
-
-    Otherwise the next file that is opened would be taken for one of them.
-    """
+    """Open the null device for closed standard streams, lest a file is taken for one."""
     for descriptor in range(3):
         try:
             os.fstat(descriptor)

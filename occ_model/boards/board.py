@@ -6,11 +6,7 @@ from fractions import Fraction
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Board:
-    """A microcontroller board, as far as its blinking depends on it.
-
-    A chip lasts ``prescaler * count`` cycles of the clock, both whole numbers: every edge is then a
-    whole number of cycles after the one before.
-    """
+    """A microcontroller board: a chip lasts ``prescaler * count`` whole cycles of its clock."""
 
     name: str
     title: str

@@ -16,11 +16,7 @@ SEIZURES = (
 
 
 def flicker_sentence(sent: Transmission) -> str:
-    """Say which is the lowest frequency in the light, and whether it may be seen.
-
-    A packet that is sent over and over repeats with its own frequency, which is lower than that of
-    any run of chips. How strong it is depends on the packet; it is named however weak it is.
-    """
+    """State the lowest frequency in the light, of the repeated packet, and if it is visible."""
     lowest, run = sent.lowest_frequency, sent.longest_run
     if lowest is None or run is None:
         return "The light does not change: all chips are equal."

@@ -37,10 +37,7 @@ def _lines(octets: Sequence[str]) -> list[Sequence[str]]:
 
 
 def head(sent: Transmission, mark: str) -> str:
-    """Say in comment lines what a sketch sends, each after a mark.
-
-    No line ends in what the user wrote: a backslash there would join the next line to it.
-    """
+    """Say in comment lines what a sketch sends; none ends in the user's text, as a backslash."""
     lines = [
         f"Blinks an LED so that a rolling-shutter camera can read it: {sent.board.title}.",
         "",

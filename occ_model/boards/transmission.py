@@ -59,8 +59,7 @@ class Transmission:
 def transmission(scene: Scene, board: Board) -> Transmission:
     """Prepare what a board sends.
 
-    Raises ParameterError: the board cannot blink that fast or that slowly, the packet does not fit
-    into it, or the scene's line code and framing do not go together.
+    Raises ParameterError: the board cannot blink at that frequency or store the packet.
     """
     chips = packet(scene)
     room = table_size(board, len(chips))
@@ -76,10 +75,7 @@ def transmission(scene: Scene, board: Board) -> Transmission:
 
 
 def table_size(board: Board, chips: int) -> int:
-    """Count the bytes that a packet takes on a board.
-
-    A sketch in MicroPython unpacks whole periods into words of 32 chips; others hold one period.
-    """
+    """Count a packet's bytes on a board: MicroPython unpacks periods into words of 32 chips."""
     if board.language == "MicroPython":
         return chips * repeats_to_words(chips) // 8
     return -(-chips // 8)

@@ -28,10 +28,7 @@ _LARGEST_WAV = 64_000_000  # samples of a file, one byte each
 
 
 def edge_rows(sent: Transmission) -> Iterator[tuple[int, int, str, int]]:
-    """Yield the chips of one period at which the light changes, with exact times.
-
-    The first row is the start, and the last the start of the next period.
-    """
+    """Yield the chips at which a period of light changes, and its two ends, with exact times."""
     count = len(sent.chips)
     places = sorted({0, *sent.edges, count})
     for chip in places:
@@ -48,10 +45,7 @@ def decimal(value: Fraction) -> str:
 
 
 def vcd_text(sent: Transmission) -> str:
-    """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact.
-
-    Raises OutputError: the clock's period is not a whole number of femtoseconds.
-    """
+    """Write one period as a value change dump (IEEE 1364-2005, 18), its edges exact."""
     unit, ticks = _vcd_unit(Fraction(1, sent.timing.clock))
     lines = [
         "$comment one packet, sent over and over $end",
@@ -90,10 +84,9 @@ class WavTiming:
 
 
 def wav_timing(sent: Transmission) -> WavTiming:
-    """Choose the sample rate of a WAV file: whole samples a chip, so that edges are even.
+    """Choose the sample rate of a WAV file, with whole samples a chip so that edges are even.
 
-    The rate is a whole number of Hz. The one whose frequency is nearest to what the board sends is
-    chosen; of several a usual one, then the highest.
+    It is a whole number of Hz, whose frequency is nearest to that sent; a usual one is preferred.
     """
     frequency = sent.timing.frequency
     fewest = max(2, ceil(LOWEST_SAMPLE_RATE / frequency))
@@ -122,10 +115,7 @@ def _wav_timing(frequency: Fraction, samples: int) -> WavTiming:
 
 
 def wav_bytes(sent: Transmission) -> bytes:
-    """Write whole periods of at least one second as a WAV file of 8 bits: 255 is lit, 0 is dark.
-
-    Raises OutputError: no sample rate serves, or the file would be too large.
-    """
+    """Write whole periods of at least one second as a WAV file of 8 bits: 255 is lit, 0 is dark."""
     timing = wav_timing(sent)
     period = len(sent.chips) * timing.samples_a_chip
     periods = ceil(timing.sample_rate / period)

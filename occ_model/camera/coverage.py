@@ -60,11 +60,9 @@ def _shares(parts: list[CoveredPart]) -> list[Pixels]:
 class Coverage:
     """The fraction of the light in each pixel that comes from the panel.
 
-    A pixel belongs to the panel when its centre lies inside the outline. The blur includes light
-    from beyond the picture's rim, as the lens blurs before the sensor cuts.
-
-    ``outline``: shape (corners, 2); (column, row) of each corner, in order round the panel; it may
-    be concave. ``blur``: standard deviation of the blur in pixels; 0 for none.
+    A pixel belongs to the panel when its centre lies inside the outline, in order and possibly
+    concave. The blur (standard deviation in pixels) includes light from beyond the picture's rim,
+    as the lens blurs before the sensor cuts.
     """
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
@@ -99,8 +97,7 @@ class Coverage:
     def parts(self, rows: range) -> list[CoveredPart]:
         """Return some rows part by part, from the left: the rims of the panel and what is between.
 
-        Between its rims the panel covers either all of each pixel or nothing. The parts are
-        remembered for other pictures.
+        Between its rims the panel covers either all of each pixel or nothing.
         """
         return MEMORY.recall((*self._key, rows), lambda: self._parts(rows), _shares)
 
@@ -207,10 +204,7 @@ class Coverage:
         return weighted(weight, wide)
 
     def _between(self, pixels: range) -> tuple[IndexArray, Pixels]:
-        """Return the cell before each pixel's centre, and the distance from it in cells.
-
-        The margins are many cells wide: there are some on either side of each pixel.
-        """
+        """Return the cell before each pixel's centre, and the distance from it in cells."""
         place = (np.asarray(pixels) + (self._margin + 0.5)) / self._cell - 0.5
         before = np.floor(place)
         return before.astype(np.int64), (place - before).astype(np.float32)
@@ -225,10 +219,9 @@ def _height(outline: FloatArray, seen: range) -> int:
 def _crossings(
     outline: FloatArray, seen: range, stride: int
 ) -> tuple[IndexArray, FloatArray, FloatArray]:
-    """Find where the outline crosses the rows seen, or the middle one of every ``stride`` rows.
+    """Return row, column and direction (1 upwards, -1 downwards) of the outline's crossings.
 
-    Returns ``row``, shape (crossings,); in order. Returns shape (crossings,); where, and 1 upwards
-    or -1 downwards.
+    They lie in the rows seen, or in the middle one of every ``stride`` rows.
     """
     (x0, y0), (x1, y1) = outline.T, np.roll(outline, -1, axis=0).T
     # Half open, so that a corner on a row is crossed by one of its two edges only.
@@ -247,11 +240,7 @@ def _crossings(
 
 
 def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
-    """Find the rows of every column between an outline's first edge and its last.
-
-    ``outline``: shape (corners, 2); (column, row) of each corner, in order. Returns shape
-    (columns,); the first row inside and the one after the last; equal where the column has none.
-    """
+    """Return each column's first row in an outline and the one after the last; equal for none."""
     column, row, _ = _crossings(outline[:, ::-1], range(columns), 1)
     top, bottom = np.full(columns, np.inf), np.full(columns, -np.inf)
     np.minimum.at(top, column, row)

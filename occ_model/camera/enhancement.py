@@ -28,16 +28,11 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 class Enhancement:
     """The contrast enhancement of a picture with some column values.
 
-    Its curve gives each of a camera's 256 grey levels another one. It follows from the columns'
-    values alone, and is applied to pixels that a lens, noise or a file has changed since.
-
-    A profile that spans less than one grey level is only rounded. One whose values differ by
-    nothing but rounding errors has the same grey level everywhere, also half-way between two.
-
-    ``profile``: shape (columns,); grey levels. ``method``: ``"equalization"``: histogram
-    equalization of the rounded values, the paper's choice; ``"stretch"``: the smallest rounded
-    value becomes 0, the largest 255; ``"none"``. ``curve``: shape (256,); the enhanced level of
-    each grey level; nowhere falling.
+    Its curve, rising and of shape (256,), follows from the columns' values alone and is applied to
+    pixels that a lens, noise or a file has changed since. ``"equalization"``, the paper's choice,
+    equalizes the histogram of the rounded values; ``"stretch"`` makes the smallest 0 and the
+    largest 255. A profile that spans less than one grey level is only rounded; one whose values
+    differ by rounding errors alone has one grey level, also half-way between two.
     """
 
     def __init__(self, profile: FloatArray, method: str) -> None:
@@ -64,13 +59,9 @@ class Enhancement:
     def moments(self, levels: FloatArray, spread: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the mean and the standard deviation of a noisy pixel after the enhancement.
 
-        A pixel of the mean v and the standard deviation s passes the step of the curve from the
-        level k to the next one where its value exceeds k + 1/2: with the probability
-        Q((k + 1/2 - v) / s), Q being the tail of the normal distribution. The mean is the sum of
-        the steps times these probabilities, and that of the square likewise.
-
-        ``levels``: shape (values,); grey levels from 0 to 255, before rounding. ``spread``: shape
-        as levels; standard deviation of the noise in grey levels. Returns shape as levels.
+        A pixel of mean v and standard deviation s passes the step of the curve from level k to the
+        next with the probability Q((k + 1/2 - v) / s), Q being the tail of the normal distribution.
+        The mean is the sum of the steps times these probabilities, and that of the square likewise.
         """
         mean, deviation, _ = self.smoothed(PassedSteps.of(levels, spread))
         return mean, deviation
@@ -80,10 +71,7 @@ class Enhancement:
         return passed.mean_of(self.curve.astype(np.float64))
 
     def smoothed(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return the same, and the mean of the sum of the squares of all steps that are passed.
-
-        By its slope the mean square of the signal's change grows with a small change of a pixel.
-        """
+        """Return the same, and the mean of the sum of squares of the steps passed."""
         curve = self.curve.astype(np.float64)
         mean = passed.mean_of(curve)
         jumps = np.concatenate([[0.0], np.cumsum(np.diff(curve) ** 2)])
@@ -91,21 +79,12 @@ class Enhancement:
         return mean, deviation, passed.mean_of(jumps)
 
     def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
-        """Enhance grey levels that are rounded already, shape (rows, columns), if wanted in place.
-
-        ``image`` and ``out``: shape (rows, columns); the grey levels, and where the enhanced ones
-        are written.
-        """
+        """Enhance levels that are rounded already, shape (rows, columns), if wanted in place."""
         return np.asarray(cv2.LUT(image, self.curve, dst=out), dtype=np.uint8)
 
 
 def byte_shares(levels: FloatArray, spread: FloatArray, weights: FloatArray) -> FloatArray:
-    """Return the distribution of noisy pixels over the 256 grey levels.
-
-    ``levels`` and ``spread``: shape (values,); mean and standard deviation in grey levels.
-    ``weights``: shape (values,); how often each value occurs. Returns shape (256,); its sum is that
-    of the weights.
-    """
+    """Return how many pixels have each of the 256 levels, by their means, noise and weights."""
     steps = PassedSteps.of(levels, spread)
     edge, passed = steps.edge, steps.passed
     ones, none = np.ones((len(levels), 1)), np.zeros((len(levels), 1))
@@ -149,10 +128,7 @@ class PassedSteps:
 
 
 def _tail(deviations: FloatArray) -> FloatArray:
-    """Return the fraction of a normal distribution above some standard deviations, any shape.
-
-    From a table: exact to 10^-4.
-    """
+    """Return the fraction of a normal distribution above some deviations, exact to 1e-4."""
     place = np.maximum(deviations, -_TABLE_END)
     np.minimum(place, _TABLE_END, out=place)
     place += _TABLE_END
@@ -178,8 +154,5 @@ def _equalization(rounded: ByteArray) -> ByteArray:
 
 
 def enhance(profile: FloatArray, method: str) -> ByteArray:
-    """Enhance the contrast of column values and round them.
-
-    ``profile``: shape (columns,); grey levels. Returns shape (columns,).
-    """
+    """Enhance the contrast of column values and round them."""
     return Enhancement(profile, method)(profile)

@@ -22,17 +22,13 @@ _NO_SHIFT = Fraction(0)
 def column_phases(
     scene: Scene, period: int, shift: Fraction = _NO_SHIFT, columns: int | None = None
 ) -> Phases:
-    """Return the place in the sent period where each column's exposure starts.
+    """Return the place in the sent period, in chips, where each column's exposure starts.
 
-    The start and the step from column to column are reduced to one period in exact arithmetic,
-    as fractions; the columns then follow in floating point. The step is split in whole chips, a
-    part short enough (24 bits) that its product with any column number is exact, and a remainder
-    below 1e-7 chips, so that the error does not grow with the column: about 2e-16 chips after a
-    million columns, however many chips a period has.
-
-    ``period``: the number of chips of one sent period. ``shift``: chips added to all starts.
-    ``columns``: number of columns, by default those of the camera. Returns shape (columns,),
-    read-only.
+    Start and step are reduced to one period in exact arithmetic, as fractions; the columns follow
+    in floating point. The step is split in whole chips, a part short enough (24 bits) that its
+    product with any column number is exact, and a remainder below 1e-7 chips: the error stays about
+    2e-16 chips after a million columns, however many chips a period has. ``shift`` is added to all
+    starts. The result is read-only.
     """
     wanted = scene.camera.columns if columns is None else columns
     # Parts of a picture are read more often than more than a picture: all share its columns.
@@ -70,11 +66,7 @@ def _step(readout_time: float, frequency: float, period: int) -> Fraction:
 
 
 def cycle_phases(scene: Scene, frequency: float, delay: Fraction) -> FloatArray:
-    """Return the phase of a periodic signal at a delay after each column's start, in cycles.
-
-    ``frequency``: of the signal, in Hz. ``delay``: in seconds. Returns shape (columns,), from 0 to
-    below 1.
-    """
+    """Return the phase (0 to 1) of a signal at a delay in seconds after each column's start."""
     cycles = Fraction(frequency)
     start = (Fraction(scene.model.start_time) + delay) * cycles % 1
     step = Fraction(scene.camera.readout_time) * cycles % 1
@@ -128,10 +120,7 @@ def _steps(step: Fraction, count: int) -> _Steps:
 
 
 def lit_fraction(scene: Scene) -> FloatArray:
-    """Return the fraction of each column's exposure in which the LED is on, t_on / t.
-
-    Returns shape (columns,), from 0 to 1; read-only.
-    """
+    """Return the fraction of each column's exposure in which the LED is on, t_on / t; read-only."""
     transmitter, camera = scene.transmitter, scene.camera
     return _lit_fraction(
         sent_chips(transmitter).tobytes(),

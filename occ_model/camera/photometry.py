@@ -28,12 +28,9 @@ def pixel_value(
     camera: Camera,
     power: Callable[[FloatArray, float], FloatArray] = operator.pow,
 ) -> FloatArray:
-    """Return the pixel value of a constant luminance before the sensor saturates.
+    """Return the pixel value of a constant luminance in cd/m2, before the sensor saturates.
 
     PV = 118 (S t L / (K N^2))^(1/gamma), the paper's equations (1) and (2).
-
-    ``camera``: its exposure time, ISO speed, f-number, calibration constant and gamma are used.
-    Returns shape as luminance; grey levels; above 255 the pixel is saturated, see :func:`saturate`.
     """
     return np.asarray(_MID_GREY * power(_gain(camera) * luminance, 1.0 / camera.gamma))
 
@@ -55,10 +52,7 @@ def saturate(values: FloatArray) -> FloatArray:
 
 
 def luminance_levels(scene: Scene) -> FloatArray:
-    """Return the luminance of the panel, dark and lit, in cd/m2, shape (2,).
-
-    What the panel reflects, E_v R / pi, is seen in both states.
-    """
+    """Return the luminance of the panel, dark and lit, in cd/m2, both with E_v R / pi reflected."""
     reflected = scene.surroundings.illuminance * scene.surroundings.reflectance / math.pi
     return np.array([reflected, scene.transmitter.luminance + reflected])
 
@@ -90,11 +84,9 @@ def panel_values(
 ) -> FloatArray:
     """Return the pixel value that each column has on the panel, before saturation.
 
-    With ``averaging = "pixel-value"`` this is the paper's equation (3),
-    PV_sim(i) = (PV_max t_on(i) + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged
-    and the pixel value is taken of their mean, as light adds up in a sensor before gamma encoding.
-
-    Returns shape (columns,); grey levels.
+    With ``averaging = "pixel-value"`` this is the paper's equation (3), PV_sim(i) = (PV_max t_on(i)
+    + PV_min t_off(i)) / t. With ``"light"`` the luminances are averaged and the pixel value is
+    taken of their mean, as light adds up in a sensor before gamma encoding.
     """
     dark, bright = luminance_levels(scene)
     reflected, emitted = dark * light.ambient, bright - dark

@@ -68,11 +68,7 @@ class Rows:
     def combine(
         self, operation: np.ufunc, target: Pixels, nodes: Pixels, rims: Sequence[Pixels]
     ) -> None:
-        """Combine pixels with what is known at the nodes and of the rims, in place.
-
-        ``nodes`` and ``rims``: values in place of those of ``nodes`` and ``rims``, of the same
-        shapes.
-        """
+        """Combine pixels with what is known at the nodes and of the rims, in place."""
         places = [rim.columns for rim in self.rims]
         own = [operation(target[:, at], rim) for at, rim in zip(places, rims, strict=True)]
         operation(target, self._rows_of(nodes), out=target)
@@ -143,8 +139,7 @@ class _Lit:
 class PictureRows:
     """The mean pixel values of a picture, of any rows in any order.
 
-    ``panels``: the panels in the picture, through one lens: it darkens all alike. ``surroundings``:
-    shape (columns,); pixel value of each column beside them before saturation.
+    One lens darkens all ``panels`` alike. ``surroundings``: the columns' values beside them.
     """
 
     def __init__(
@@ -165,10 +160,7 @@ class PictureRows:
         self._plain: tuple[list[tuple[_Panel, slice]], Pixels] = ([], self._surroundings)
 
     def of(self, place: range, stage_ended: Callable[[str], object] = lambda _stage: None) -> Rows:
-        """Compute some rows.
-
-        ``stage_ended``: called with the name of each stage that has just ended.
-        """
+        """Compute some rows; ``stage_ended`` is called with the name of each stage."""
         lit = [
             _Lit(panel, part.columns, None if isinstance(part.fraction, float) else part.fraction)
             for panel in self._panels

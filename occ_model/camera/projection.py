@@ -72,10 +72,7 @@ def rays_at(points: FloatArray, rows: int, columns: int, focal_length: float) ->
 
 
 def pixel_rays(camera: Camera, rows: FloatArray) -> tuple[Pixels, Pixels]:
-    """Return the rays of the pixels in some rows, which may lie between pixels.
-
-    Returns ``x``, shape (1, columns). Returns ``y``, shape (rows, 1); in focal lengths.
-    """
+    """Return x, shape (1, columns), and y, shape (rows, 1), of rays in focal lengths."""
     column, row = _centre(camera)
     x = (np.arange(camera.columns) - column) / camera.focal_length_pixels
     y = (rows - row) / camera.focal_length_pixels
@@ -112,13 +109,10 @@ def rotations(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArra
 
 
 def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
-    """Find the columns of every row that lie inside a convex polygon.
+    """Return each row's first column inside a convex polygon, and the one after the last.
 
-    A pixel lies inside when its centre does, or lies on the left or upper rim, so that each pixel
-    belongs to only one of two adjacent panels. Corners may lie any distance outside the image.
-
-    ``corners``: shape (corners, 2); (column, row) of each, in order. Returns shape (rows,); the
-    first column inside and the one after the last; equal where the row has none.
+    A pixel lies inside when its centre does, or lies on the left or upper rim, so that it belongs
+    to only one of two adjacent panels. Corners may lie any distance outside the image.
     """
     row = np.arange(rows, dtype=np.float64)
     left = np.full(rows, np.inf)
@@ -156,12 +150,7 @@ def check_size(camera: Camera) -> None:
 def paint(
     enhanced: ByteArray, corners: FloatArray, rows: range, surroundings: ByteArray
 ) -> ByteArray:
-    """Make the image: inside the panel every row carries the profile, outside the surroundings.
-
-    ``enhanced``: shape (columns,); the column values. ``corners``: shape (4, 2); the panel's
-    corners. ``surroundings``: shape (columns,); grey levels outside the panel. Returns shape
-    (number of rows, columns).
-    """
+    """Make the image: inside the panel every row carries the profile, outside the surroundings."""
     columns = len(enhanced)
     spans = row_spans(corners, rows.stop, columns)
     first, last = (ends[rows.start :: rows.step] for ends in spans)

@@ -35,18 +35,13 @@ def row_weights(rows: int) -> Pixels:
 def weighted(weights: Pixels, values: Pixels) -> Pixels:
     """Return the matrix product of weights (rows, nodes) and values (nodes, columns).
 
-    Not by BLAS: it shares even so small a product among threads that wait for each other, beside
-    those that compute the bands, and takes many times as long.
+    Not by BLAS, whose threads wait for each other beside those that compute the bands.
     """
     return np.asarray(np.einsum("ij,jk->ik", weights, values))
 
 
 def smooth_columns(values: Pixels, tolerance: float = TOLERANCE) -> NDArray[np.bool_]:
-    """Return in which columns the rows follow from values at the nodes, shape (columns,).
-
-    ``values``: shape (nodes, columns); in grey levels. ``tolerance``: largest error, in grey
-    levels.
-    """
+    """Return in which columns the rows follow from values at the nodes within a tolerance."""
     last = np.abs(weighted(_coefficients()[-2:].astype(np.float32), values))
     return np.asarray(last.sum(axis=0) <= tolerance)
 

@@ -21,10 +21,7 @@ as much again in objects other than arrays."""
 
 
 class RowMemory:
-    """Arrays by what they depend on; those used longest ago are forgotten first.
-
-    ``limit``: most bytes that they have together.
-    """
+    """Arrays by what they depend on, up to ``limit`` bytes; those used longest ago go first."""
 
     def __init__(self, limit: int, entries: int = MOST_ENTRIES) -> None:
         self._limit, self._entries = limit, entries
@@ -38,10 +35,7 @@ class RowMemory:
         make: Callable[[], _Made],
         arrays: Callable[[_Made], Iterable[NDArray[Any]]],
     ) -> _Made:
-        """Return what was made for a key, or make it.
-
-        ``arrays``: returns the arrays that it has, which nobody may write to from now on.
-        """
+        """Return what was made for a key, or make it; its ``arrays`` are read-only from now on."""
         with self._lock:
             if key in self._known:
                 self._known.move_to_end(key)

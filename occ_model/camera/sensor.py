@@ -64,14 +64,10 @@ def deviation(
 ) -> FloatArray:
     """Return the standard deviation of pixels in grey levels from that of their electrons.
 
-    The deviation sigma of n electrons is multiplied by the slope of the gamma encoding,
-    PV / (gamma n) for n electrons. The slope is taken at sqrt(n^2 + sigma^2) electrons, which is n
-    where there is light and finite where there is none. The deviation is at most the distance
-    from saturation: a full pixel shows no noise, and one within a deviation of being full shows
-    less than a sensor that is saturated by its gain alone.
-
-    ``values``: mean pixel values before saturation. ``variance``: gives the variance of electrons
-    for their mean number. Returns shape as values.
+    The deviation sigma of n electrons is multiplied by the slope of the gamma encoding, PV / (gamma
+    n), taken at sqrt(n^2 + sigma^2) electrons: n where there is light, finite where there is none.
+    It is at most the distance from saturation: a full pixel shows no noise, and one within a
+    deviation of being full shows less than a sensor that is saturated by its gain alone.
     """
     electrons = electrons_of(values, scene)
     square = variance(electrons)

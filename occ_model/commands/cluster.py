@@ -18,10 +18,7 @@ class ClusterError(OccError):
 
 @contextmanager
 def cluster_executor(address: str) -> Iterator[Executor]:
-    """Return an executor whose workers are those of a dask cluster.
-
-    ``address``: the address of its scheduler, such as ``tcp://10.0.0.5:8786``.
-    """
+    """Return an executor on the dask cluster of a scheduler such as ``tcp://10.0.0.5:8786``."""
     try:
         from distributed import Client
     except ImportError:

@@ -55,10 +55,9 @@ def folder_of_figures(*names: str) -> Written:
 def check_files(options: argparse.Namespace) -> None:
     """Refuse a command line that would write a file over another one that it names.
 
-    ``options``: the parsed command line. ``options.writes``, if there, maps an option to what is
-    written to its path, or to a function that says so of the parsed command line. Raises
-    OutputError: an output is one of the inputs, by its path or by a link; two outputs are one file;
-    or a file has the ending of another kind.
+    ``options.writes`` maps an option to what is written to its path, or to a function of the parsed
+    command line that says so. Raises OutputError: an output is one of the inputs, by its path or by
+    a link; two outputs are one file; or a file has the ending of another kind.
     """
     inputs, outputs = list(_inputs(options)), list(_outputs(options))
     for place, (name, path) in enumerate(outputs):
@@ -149,10 +148,7 @@ def _is_same_folder(folder: Path, other: Path) -> bool:
 
 
 def ignores_case(folder: Path) -> bool:
-    """Return whether names that differ only in case are the same file in a folder.
-
-    This is tried with the name of a file in the folder, or of the folder itself.
-    """
+    """Try with a name in a folder whether names that differ only in case are the same file."""
     try:
         inside = [path for path in folder.iterdir() if path.name != path.name.swapcase()][:1]
     except OSError:

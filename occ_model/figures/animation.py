@@ -55,16 +55,12 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     decoder: str = PAPER_DECODER,
     progress: Callable[[int], object] = lambda _frames: None,
 ) -> None:
-    """Write an animation of a scene, a parameter of which runs through some values.
+    """Write an animation of a scene, a quantity of which runs through some values in SI units.
 
-    Each frame shows the panel's picture, the profile with the band model's where there is one, and
-    what the decoder reads.
-
-    ``path``: the file: .gif, .mp4 or .png. The scene is kept inside. ``name`` and ``values``: the
-    parameter, a quantity, and its values in SI units, one a frame. ``progress``: called with the
-    number of frames done after each one; what it raises ends the work. Raises ParameterError: the
-    parameter is unknown or no quantity, a value is out of range, there are no values or more than
-    :data:`MOST_FRAMES`, or the rate is not from above 0 to 50 a second.
+    Each frame shows the panel's picture, the profile with the band model's, and what the decoder
+    reads. The file (.gif, .mp4, .png) holds the scene. Raises ParameterError: the parameter is not
+    a quantity, a value is out of range, there are no values or more than :data:`MOST_FRAMES`, or
+    the rate is not above 0 and up to 50 a second.
     """
     check_scene(scene)
     ending = path.suffix.lower()

@@ -23,10 +23,7 @@ _MODEL: dict[str, Any] = {"color": colours.PHOTO, "linestyle": ":"}
 
 
 def decode_drawing(scene: Scene, result: DecodeResult) -> Drawing:
-    """Draw the steps of decoding, up to the code or to the step that failed.
-
-    The table gives columns of the region, as they are drawn, and of the whole picture.
-    """
+    """Draw the steps of decoding, up to the code or to the step that failed."""
     message = printable(result.failure or f"{_read(result)} read by the {result.decoder} decoder")
 
     def draw() -> Figure:

@@ -48,10 +48,7 @@ def house_style() -> AbstractContextManager[None]:
 
 
 def write_figure(path: Path, figure: Figure, provenance: Provenance) -> None:
-    """Write a figure in the format of the file's ending, with its provenance inside.
-
-    Call it within :func:`house_style`, in which the figure was drawn.
-    """
+    """Write a figure drawn in this :func:`house_style`, in the format of the file's ending."""
     write_whole(path, figure_bytes(figure, figure_format(path), provenance))
 
 
@@ -78,10 +75,7 @@ def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> by
 
 
 def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
-    """Write a figure as PDF and as PNG, with its provenance inside.
-
-    Call it within :func:`house_style`, in which the figure was drawn.
-    """
+    """Write a figure drawn in this :func:`house_style` as PDF and as PNG."""
     for ending in ("pdf", "png"):
         write_figure(folder / f"{name}.{ending}", figure, provenance)
 

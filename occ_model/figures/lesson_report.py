@@ -31,12 +31,9 @@ _MATCHED_FIGURE = (7.0, 4.2)
 def write_lesson_report(
     path: Path, lesson: Lesson, steps: Sequence[AnsweredStep], *, author: str = "", date: str = ""
 ) -> None:
-    """Write the report of a lesson.
+    """Write the report of a lesson: .pdf, .md with a folder of figures, or one page as picture.
 
-    ``path``: the file: .pdf, or .md with its figures in a folder beside it; .png or .svg where one
-    page holds it all. ``author`` and ``date``: who wrote it, and when; each may be empty. Raises
-    OutputError: there is no step, the ending is none of these, the report has more than one page
-    and the ending is that of a picture, or a file cannot be written.
+    Raises OutputError: no step, another ending, a second page of a picture, or a failing disk.
     """
     if not steps:
         raise OutputError(f"The lesson {one_line(lesson.title)} has no answers to report.")

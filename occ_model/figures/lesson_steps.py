@@ -47,10 +47,7 @@ def _room(each: AnsweredStep) -> int:
 def draw_page(
     title: str, about: str, foot: str, steps: Sequence[AnsweredStep], first: int
 ) -> Figure:
-    """Draw a page of A4.
-
-    ``first``: the number of the first of them.
-    """
+    """Draw a page of A4; ``first``: the number of its first step."""
     figure = Figure(figsize=_PAGE)
     figure.set_layout_engine("none")
     _write(figure, 0.97, title, FontProperties(size=16, weight="bold"), "0.0", most=1)

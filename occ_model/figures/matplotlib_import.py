@@ -13,11 +13,7 @@ import."""
 
 
 def import_matplotlib() -> None:
-    """Import matplotlib, if it is not imported yet; :func:`house_style` ignores its settings.
-
-    The backend that the environment names is set afterwards, where it exists: a notebook draws its
-    own figures with it.
-    """
+    """Import matplotlib without its user's settings; a notebook keeps its own backend."""
     if "matplotlib" in sys.modules:
         return
     logger = logging.getLogger("matplotlib")

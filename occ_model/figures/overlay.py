@@ -70,11 +70,7 @@ class Difference:
 
 
 def lay_over(ax: Axes, cells: FloatArray, layer: PhotoLayer, shape: tuple[int, ...]) -> None:
-    """Draw a photo over the picture that is drawn already, within that picture's limits.
-
-    ``cells``: shape (cell rows, cell columns); the part of the photo that is seen, averaged for
-    print. ``shape``: rows and columns of the whole photo.
-    """
+    """Draw an averaged part of a photo over the picture drawn, within that picture's limits."""
     limits = ax.get_xlim(), ax.get_ylim()
     rows, columns = shape
     extent = layer.extent(rows, columns, layer.first_row(rows))

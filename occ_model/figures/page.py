@@ -43,7 +43,7 @@ def _inches(line: str, font: FontProperties) -> float:
 
 
 def fit_texts(figure: Figure) -> None:
-    """Break the lines of texts that are wider than their room; the page grows by what is added.
+    """Break the lines of texts that are wider than their room, and let the page grow by them.
 
     Legends get fewer columns where their entries have no room side by side.
     """

@@ -21,10 +21,7 @@ _NUMBERS = tuple(Place.__dataclass_fields__)
 def room_drawing(
     room: Room, image: ByteArray, reading: RoomReading, *, is_photo: bool = False
 ) -> Drawing:
-    """Draw a room and what was read of its picture, or of a photo, whose true place is not known.
-
-    The table has the true place, the one found with its standard errors, and the lamps read.
-    """
+    """Draw a room and what was read of its picture, or of a photo of an unknown place."""
 
     def rows() -> Iterable[tuple[object, ...]]:
         found = reading.located

@@ -43,8 +43,8 @@ _CELLS_WITH_NUMBERS = 14  # largest number of cells on a side at which each hold
 def write_sweep_figure(path: Path, table: SweepTable, shown: Shown = "rate") -> None:
     """Draw a table's success rates, or bits a second, in the format of the file's ending.
 
-    One axis: a curve for each decoder, with its 95 % intervals. Two axes: a map for each decoder,
-    the first axis from left to right. Points that the model refuses are gaps, or grey.
+    One axis: a curve for each decoder with its 95 % intervals. Two axes: a map for each decoder,
+    the first axis from left to right; points that the model refuses are grey.
     """
     figure_format(path)  # before anything is drawn
     names = list(table.axes)

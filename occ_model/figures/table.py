@@ -12,10 +12,7 @@ from occ_model.scene.provenance import Provenance
 def write_table(
     path: Path, header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
 ) -> None:
-    """Write a table.
-
-    ``rows``: the rows; None becomes an empty cell.
-    """
+    """Write a table; None becomes an empty cell."""
     write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
 
 

@@ -15,13 +15,9 @@ from occ_model.scene.provenance import Provenance
 
 
 def write_transmitter_files(folder: Path, sent: Transmission) -> tuple[list[Path], str]:
-    """Write the files into a folder, which is made where there is none.
+    """Write the files into a folder, all or none; the scene has the frequency that is really sent.
 
-    The scene is the one with the frequency that is really sent. All files are made before the first
-    is written.
-
-    Returns ``paths``, the files. Returns ``missing``, why there is no WAV file, a sentence; empty
-    where there is one.
+    Returns their paths, and a sentence on why there is no WAV file, or an empty one.
     """
     contents, missing = _contents(folder, sent)
     make_folder(folder)

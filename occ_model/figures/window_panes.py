@@ -44,10 +44,7 @@ def _named_values(scene: Scene) -> list[str]:
 
 
 def write_caption(figure: Figure, scene: Scene, about: str = "") -> None:
-    """Write the caption of a figure: its scene, and what is known of its photo.
-
-    ``about``: a sentence on the photo; empty without one.
-    """
+    """Write the caption of a figure: its scene, and a sentence ``about`` its photo."""
     # Spaces that may not break: lines end after a comma only.
     values = [value.replace(" ", "\xa0") for value in _named_values(scene)]
     text = "\n".join(filter(None, (", ".join(values), about)))
@@ -67,13 +64,9 @@ def picture_drawing(
     layer: PhotoLayer | Difference | None = None,
     about: str = "",
 ) -> Drawing:
-    """Draw a simulated picture, with the decoder's region and a photo beside it or over it.
+    """Draw a simulated picture, with the decoder's region and a photo beside it or in a ``layer``.
 
     The table holds the means of cells of pixels, as small as print can resolve.
-
-    ``region``: the rectangle that the decoder read, None where it read none. ``whose``: whose
-    picture is drawn, the ``"camera"``'s or the ``"receiver"``'s. ``layer``: how the photo lies over
-    the picture, or their difference; None for a photo beside it.
     """
     image, name = frame.picture(whose), frame.picture_title(whose)
     cells, size = _cells(image)
@@ -163,13 +156,10 @@ def profile_drawing(  # noqa: PLR0913 - all but the first two have defaults
     decoded: DecodeResult | None = None,
     about: str = "",
 ) -> Drawing:
-    """Draw the column profiles, and the photo's residual under them.
+    """Draw the column profiles, and the photo's residual under them; the table holds all columns.
 
-    ``band``: shape (columns,), or None; the band model's profile, None where it is undefined.
-    ``undefined``: why it is undefined, a sentence; empty where it is defined. ``columns``: the
-    columns to draw, by default all. The table holds all. ``enhanced``: whether the profiles are
-    those after the receiver's enhancement; ``band`` and ``comparison`` then are so already.
-    ``about``: what is known of the photo: its name, and what its match has found.
+    ``undefined``: why there is no ``band``. ``enhanced``: whether the profiles are those after the
+    receiver's enhancement; ``band`` and ``comparison`` are so already.
     """
     simulated = frame.signal if enhanced else frame.profile
     lines: dict[str, FloatArray | None] = {

@@ -24,8 +24,8 @@ _FLAGS = (
 def read_bytes(path: Path, largest: int) -> bytes:
     """Read a regular file of at most so many bytes.
 
-    A pipe is not waited for and a device is not read: the file is opened without blocking, and the
-    kind checked is that of the open file, not of whatever has the name by then.
+    A pipe is not waited for and a device is not read: the kind checked is that of the open file,
+    not of whatever has the name by then.
     """
     content = read_start(path, largest + 1)
     if len(content) > largest:

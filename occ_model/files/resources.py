@@ -20,10 +20,7 @@ def resource_text(*parts: str) -> str:
 
 
 def resource_path(*parts: str) -> Path:
-    """Return the path of a file or folder that comes with the package.
-
-    For a package in an archive a copy is made, which is removed when the program ends.
-    """
+    """Return the path of a resource; a package in an archive has a copy until the program ends."""
     resource = _resource(*parts)
     return resource if isinstance(resource, Path) else _copy_of(parts)
 

@@ -31,10 +31,7 @@ LONGEST_SIDE = {"JPEG": 65_500, "WEBP": 16_383}
 
 
 def write_whole(path: Path, content: bytes) -> None:
-    """Write a file, complete or not at all.
-
-    A symbolic link is followed, and a file that is there keeps its permissions.
-    """
+    """Write a file, complete or not at all; a link is followed, and permissions are kept."""
     permissions = check_replaceable(path)
     try:
         _replace(path.resolve(), content, permissions)
@@ -43,19 +40,16 @@ def write_whole(path: Path, content: bytes) -> None:
 
 
 def write_image(path: Path, image: ByteArray, description: str = "") -> None:
-    """Write a grey image in the format that the file's ending names.
+    """Write a grey image in the format of the file's ending.
 
-    ``description``: what it shows: the text ``Description`` of a PNG file, the EXIF tag
-    ``ImageDescription`` of other formats. BMP files hold no texts.
+    ``description`` becomes the text ``Description`` of a PNG file, the EXIF tag
+    ``ImageDescription`` of other formats; BMP files hold no texts.
     """
     write_whole(path, _encoded(path, image, description))
 
 
 def check_replaceable(path: Path) -> int | None:
-    """Refuse a path that no file can be written to.
-
-    Returns the permissions of the file that is there, None where there is none yet.
-    """
+    """Refuse a path that no file can be written to; return the permissions of the file there."""
     try:
         mode = path.stat().st_mode
     except FileNotFoundError:
@@ -97,10 +91,9 @@ def _replace(path: Path, content: bytes, permissions: int | None) -> None:
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Return a temporary file to write to, which replaces another when the context ends well.
+    """Return a temporary file beside the path, which replaces it when the context ends well.
 
-    It is in the same folder and has the same ending. Where the context is left by an exception it
-    is removed, and an older file is unchanged.
+    Where the context is left by an exception it is removed, and an older file is unchanged.
     """
     permissions = check_replaceable(path)
     try:

@@ -21,10 +21,7 @@ class Abandoned(Exception):  # noqa: N818 - no error: the result is no longer wa
 
 
 class WorkersLostError(OccError):
-    """Workers ended, and no others could take over their jobs.
-
-    ``times``: how often workers ended one after the other without a result.
-    """
+    """Workers ended ``times`` in a row without a result, and no others could replace them."""
 
     def __init__(self, reason: str, times: int) -> None:
         super().__init__(f"Processes in the background ended {times} times without a result.")
@@ -41,7 +38,7 @@ class Job:
 
 @dataclass(frozen=True, slots=True)
 class JobResult:
-    """What a job gives: a value, an error, or neither where the job was abandoned.
+    """A job's value, or its error, or neither where it was abandoned.
 
     An error is a value here, so that an exception of a future is always the workers' own.
     """
@@ -132,10 +129,7 @@ def counting_heartbeat(
     first_runs: MutableSequence[int],
     counts: MutableSequence[int],
 ) -> Heartbeat:
-    """Make a heartbeat that counts itself and ends a job of an abandoned run.
-
-    ``first_runs``: the earliest run of each channel that is still wanted.
-    """
+    """Make a heartbeat that counts itself and ends a job of a run before ``first_runs``."""
 
     def heartbeat() -> None:
         if first_runs[channel] > run:

@@ -27,8 +27,8 @@ _EXIT_SECONDS = 0.2  # seconds that processes get to end by themselves
 class ProcessPool:
     """Processes that live until the pool is closed, and are started by the first job.
 
-    ``preload``: a module that the jobs need: where it can be shared it is imported only once.
-    ``niceness``: how far the processes yield to others, as for :func:`os.nice`.
+    ``preload``: a module that is imported once for all, where possible. ``niceness``: as
+    :func:`os.nice`.
     """
 
     lost_by: tuple[type[Exception], ...] = (BrokenExecutor, CancelledError, *NO_PROCESSES)

@@ -23,10 +23,7 @@ _FILES_OF_SERVER, _FILES_OF_WORKER = 16, 4
 
 
 def process_context(preload: Sequence[str]) -> Any:
-    """Choose the way in which processes are started.
-
-    ``preload``: modules that they need; where possible they are imported only once for all.
-    """
+    """Choose how processes are started; ``preload``: what they import, if possible only once."""
     # A process forked from one with threads copies locks that no thread will ever release. So it
     # is forked from a server without threads, or started anew where there is no such server.
     has_server = "forkserver" in get_all_start_methods() and _socket_path_fits()
@@ -38,10 +35,7 @@ def process_context(preload: Sequence[str]) -> Any:
 
 
 def check_open_files(workers: int) -> None:
-    """Refuse to start so many processes where the system lets this one open too few files.
-
-    Started all the same, some would die half-way, each with a traceback on the terminal.
-    """
+    """Refuse to start processes that would die half-way, as this one may open too few files."""
     opened: list[int] = []
     try:
         for _ in range(_FILES_OF_SERVER + _FILES_OF_WORKER * workers):
@@ -65,9 +59,8 @@ def _socket_path_fits() -> bool:
 def worker_start() -> Iterator[None]:
     """Prepare the start of workers within the context.
 
-    They do linear algebra in one thread, as they are several themselves, and Ctrl-C never reaches
-    them. In this process it is answered when all are started: an interrupted start would leave
-    workers that nothing ends.
+    They do linear algebra in one thread, and Ctrl-C never reaches them. In this process it is
+    answered when all are started: an interrupted start would leave workers that nothing ends.
     """
     with interrupts_held(), _interrupts_blocked(), _single_threads():
         yield
@@ -107,8 +100,8 @@ def _interrupts_blocked() -> Iterator[None]:
 def _start_resource_tracker() -> None:
     """Start Python's process that removes the semaphores of a program that was ended by force.
 
-    The first worker would start it, and that would unblock Ctrl-C again. It also warns of each
-    semaphore on standard error, where a program that was interrupted prints one line only.
+    The first worker would start it, and that would unblock Ctrl-C again; and it would warn of each
+    semaphore on standard error.
     """
     from multiprocessing import resource_tracker
 

@@ -7,10 +7,7 @@ from occ_model.parallel.request import Run, StageProgress
 
 
 class Reports:
-    """Reports the results of each channel at intervals.
-
-    ``interval``: seconds between two reports of a channel, at least.
-    """
+    """Reports the results of each channel, at most once in an ``interval`` of seconds."""
 
     def __init__(
         self,

@@ -29,13 +29,12 @@ class Scheduler:
     it would delay what somebody waits for. Each channel does its newest request only: a newer one
     takes the place of the older at once, or when the older has completed its uninterruptible stage.
 
-    :meth:`put`, :meth:`cancel` and :meth:`close` may be called from any thread; they only leave a
-    message. The messages are answered by :meth:`step` or :meth:`run`, in one thread.
+    :meth:`put`, :meth:`cancel` and :meth:`close` may be called from any thread; they leave a
+    message for :meth:`step` or :meth:`run`, in one thread.
 
-    ``start``: starts the workers; called at the first job. ``fallback``: starts workers that
-    replace processes where none can be started. None: the runs fail. ``interval``: seconds between
-    two reports of a channel's results, at least. ``stage_interval``: the same during an
-    uninterruptible stage, which is short enough to be reported whole.
+    ``start`` starts the workers at the first job; ``fallback`` replaces processes where none can be
+    started, else the runs fail. ``interval`` and ``stage_interval``: minimum seconds between two
+    reports of a channel's results, and during an uninterruptible stage.
     """
 
     def __init__(
@@ -80,10 +79,7 @@ class Scheduler:
             self.end_workers()
 
     def step(self, timeout: float | None = None) -> bool:
-        """Wait for a message and answer it; say whether more may come.
-
-        ``timeout``: seconds to wait at most; None: without limit.
-        """
+        """Answer a message, waiting up to ``timeout`` seconds for it; say whether more may come."""
         try:
             message = self._inbox.get(timeout=timeout)
         except Empty:

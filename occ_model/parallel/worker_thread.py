@@ -7,10 +7,7 @@ from occ_model.parallel.job import CHANNELS, Job, JobResult, counting_heartbeat,
 
 
 class WorkerThread:
-    """A thread of this process, started by the first job.
-
-    It shares the processor with the other threads, which are slower meanwhile.
-    """
+    """A thread of this process, started by the first job; it slows the others meanwhile."""
 
     count = 1
     lost_by: tuple[type[Exception], ...] = (CancelledError,)

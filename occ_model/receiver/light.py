@@ -39,11 +39,9 @@ def is_curve_known(scene: Scene) -> bool:
 
 
 def in_light(signal: FloatArray, scene: Scene) -> Light:
-    """Return a signal in light.
+    """Return a signal of grey levels in light, by the averaging, gamma and enhancement of a scene.
 
-    ``signal``: shape (columns,); grey levels. ``scene``: what a receiver knows of it is used:
-    averaging, gamma and enhancement, and where the curve is estimated, exposure time, switching
-    frequency and number of bits.
+    Where the curve is estimated, exposure time, frequency and number of bits are used too.
     """
     model = scene.model
     # Above white, the signal's levels are not those of a picture, and none is the largest.
@@ -59,11 +57,7 @@ def in_light(signal: FloatArray, scene: Scene) -> Light:
 
 
 def by_rank(signal: FloatArray, levels: FloatArray) -> FloatArray:
-    """Return the light of each value of a signal by its rank among the columns.
-
-    ``signal``: shape (columns,); grey levels, which rise with the light. ``levels``: the light of
-    many exposures.
-    """
+    """Return the light of each value of a signal by its rank among the light of many exposures."""
     _, place, counts = np.unique(signal, return_inverse=True, return_counts=True)
     fraction = (np.cumsum(counts) - 0.5 * counts) / len(signal)
     ordered = np.sort(levels, axis=None)

@@ -82,11 +82,7 @@ def _histogram(image: ByteArray) -> IndexArray:
 
 
 def bright_level(counts: IndexArray, bright_fraction: float) -> int | None:
-    """Find the grey level from which a pixel counts as bright.
-
-    ``counts``: shape (256,); pixels of each grey level in the image. Returns None where all pixels
-    have the same value.
-    """
+    """Return the grey level from which a pixel counts as bright; None where all are equal."""
     split = otsu_split(counts)
     if split is None:
         return None

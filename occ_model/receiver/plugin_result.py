@@ -19,10 +19,7 @@ _LONGEST_PAYLOAD = 4 * MAX_PAYLOAD_BITS  # letters: bits, as text, are the longe
 
 
 def problem_of(result: object, columns: int) -> str | None:
-    """Say what is wrong with a result, as the end of a sentence; None if nothing is.
-
-    ``columns``: length of the signal that the plug-in was given.
-    """
+    """Say what is wrong with a plug-in's result, as the end of a sentence; None if nothing is."""
     if not isinstance(result, DecodeResult):
         return f"no DecodeResult but a {type(result).__name__}"
     return (

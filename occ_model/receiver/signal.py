@@ -13,10 +13,7 @@ _WHOLE_ROWS = 2**23  # most rows whose sum of bytes fits an integer of 32 bits
 
 
 def column_means(image: ByteArray, region: Region) -> FloatArray:
-    """Average each column of a region.
-
-    Returns shape (columns of the region,); grey levels.
-    """
+    """Average each column of a region, in grey levels."""
     part = region.crop(image)
     sums = np.zeros(region.columns)
     for first in range(0, region.rows, _WHOLE_ROWS):
@@ -34,12 +31,10 @@ def why_flat(signal: FloatArray) -> str | None:
 
 
 def otsu_split(counts: IndexArray) -> int | None:
-    """Find the last bin of the lower class.
+    """Find the last bin of the lower class of a histogram; None where fewer than two are filled.
 
     The split maximises the variance between the classes (Otsu, IEEE Trans. SMC 9:62, 1979). Where
     several splits do, as when empty bins lie between the classes, the middle one is taken.
-
-    ``counts``: shape (bins,); the histogram. Returns None where fewer than two bins are filled.
     """
     filled = np.flatnonzero(counts)
     if filled.size < 2:
@@ -57,10 +52,7 @@ def otsu_split(counts: IndexArray) -> int | None:
 
 
 def otsu_threshold(signal: FloatArray) -> float:
-    """Find the grey level that separates ones from zeros in a signal that is not flat.
-
-    The histogram has 256 bins from the signal's smallest value to its largest.
-    """
+    """Find the grey level, in 256 bins, that separates ones from zeros in a signal."""
     low, high = float(signal.min()), float(signal.max())
     bins = np.rint((signal - low) * ((_BINS - 1) / (high - low))).astype(np.int64)
     split = otsu_split(np.bincount(bins, minlength=_BINS))

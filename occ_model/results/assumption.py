@@ -8,10 +8,7 @@ _FREQUENCY = "switching_frequency"
 
 
 def assumption(name: str, value: float, chips: int) -> str:
-    """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``.
-
-    ``chips``: chips of a period: a plainly blinking lamp is described by its cycles.
-    """
+    """Return the condition under which estimated times hold, as ``"if f = 10 kHz: "``."""
     known = quantity(name)
     if name == _FREQUENCY and chips == CHIPS_OF_A_CYCLE:
         cycles = HERTZ.format(value / CHIPS_OF_A_CYCLE)

@@ -92,7 +92,6 @@ def bits_a_second(
 ) -> float:
     """Return the net bits a second of a video in which each picture shows a new payload.
 
-    ``right_fraction`` is that of the pictures without a wrong bit. The readout time of a picture
-    in seconds limits the frame rate: a picture begins after the end of the one before.
+    The readout time in seconds limits the frame rate: pictures do not overlap.
     """
     return right_fraction * bits * min(frames_a_second, 1.0 / readout_time)

@@ -109,10 +109,7 @@ class MeasuredCosts:
 
     @property
     def is_comparable(self) -> bool:
-        """Whether the picture's times were measured alternately with the others.
-
-        A first picture takes longer than a repetition, and all do under load.
-        """
+        """Whether the picture was timed in turn with the others: a first one takes longer."""
         return any(shares is self.picture for shares in self.others)
 
     def seconds_of(self, effect: str) -> float | None:

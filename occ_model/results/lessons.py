@@ -54,10 +54,7 @@ class Step:
         return self.scene if self.check is None else self.check.scene
 
     def judged_at(self, shown: Scene) -> Scene:
-        """Return the scene at which an answer is checked, by the scene shown when it was given.
-
-        At the step's own scene nothing has been set yet: the answer predicts the question's scene.
-        """
+        """Return the scene of a check: the question's as long as the step's own is shown."""
         return self.asked if shown == self.scene else shown
 
     def with_unit(self, given: str) -> str:

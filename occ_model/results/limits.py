@@ -36,10 +36,7 @@ def stated_end(works: Trial, interval: tuple[float, float] | None) -> float:
 
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
-    """One end of an interval in which a decoder reads.
-
-    Other images confirmed it than found it.
-    """
+    """One end of an interval in which a decoder reads, confirmed by other images than found it."""
 
     works: Trial
     # A value beyond, with a 95 % interval below the required rate; None at the end of the search.

@@ -78,8 +78,7 @@ class FilmPart:
 class SentPackets(Sequence[PacketReading]):
     """The packets that were sent while a film ran, in the order of their numbers.
 
-    A packet of which no frame shows a chip is made when it is asked for: a film of hours has
-    millions of them.
+    One that no frame shows is made when it is asked for: a film of hours has millions of them.
     """
 
     parts: tuple[FilmPart, ...] = ()
@@ -138,9 +137,9 @@ class SentPackets(Sequence[PacketReading]):
     def cut(self, edges: FloatArray) -> tuple[tuple[int, tuple[PacketReading, ...]], ...]:
         """Divide the packets by how long the film had run when each began.
 
-        ``edges``: shape (windows + 1,); rising times from the film's start, without what lies
-        between its parts, in seconds; all packets lie between the outermost two. Returns of each
-        window how many packets were sent, and those in view.
+        ``edges``: rising times in seconds without what lies between the film's parts; all packets
+        lie between the outermost two. Returns how many were sent, and those in view, in each
+        window.
         """
         bounds = [0, *(self._before(edge) for edge in edges[1:-1].tolist()), len(self)]
         found = []
@@ -150,10 +149,9 @@ class SentPackets(Sequence[PacketReading]):
         return tuple(found)
 
     def time_at(self, elapsed: float, is_end: bool = False) -> float:
-        """Return the film's time when it had run for so long: at a cut, where the next part begins.
+        """Return the film's time when it had run for so many seconds, without gaps.
 
-        ``elapsed``: seconds from the start, without what lies between the parts. ``is_end``:
-        whether a part's end is meant where the next one begins.
+        At a cut it is where the next part begins, or with ``is_end`` where the part before ends.
         """
         search = bisect_left if is_end else bisect_right
         place = min(max(search(self._elapsed, elapsed) - 1, 0), len(self.parts) - 1)

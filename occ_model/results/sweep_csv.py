@@ -55,11 +55,7 @@ def _column(name: str) -> str:
 def point_text(
     request: SweepRequest, point: SweepPoint, intervals: Sequence[tuple[float, float]]
 ) -> str:
-    """Write the rows of a point.
-
-    ``intervals``: the interval of each decoder's rate, percent; not a number where the model
-    refuses the scene.
-    """
+    """Write the rows of a point with each decoder's interval, percent; nan where refused."""
     settings = request.settings
     values = [_written(value) for value in request.values(point.index).values()]
     text = ""
@@ -84,8 +80,7 @@ class PointReader:
     def read(self, lines: Sequence[str]) -> SweepPoint | None:
         """Read the rows of a point, one line a decoder; None where they cannot be read.
 
-        The caller checks the rest: :func:`point_text` of the point gives the same text again where
-        the rows are right.
+        The caller writes the point again and compares.
         """
         first = len(self._axes) + 3
         try:

@@ -75,8 +75,7 @@ class SweepRequest:
     def bits_a_second(self, point: "SweepPoint", decoder: int) -> float | None:
         """Return the net bits a second of a point; None where the model refuses the scene.
 
-        Counted as if each image showed another payload, and these were read as often as the scene's
-        own; an image counts where all its bits are right.
+        Counted as if each image showed another payload, read as often as the scene's own.
         """
         if not point.sent or not point.whole:
             return None

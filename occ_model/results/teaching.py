@@ -34,10 +34,7 @@ class Equation:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExposureWindow:
-    """One column's exposure on the waveform of the LED.
-
-    Times are in seconds from the start of the first chip that is drawn.
-    """
+    """One column's exposure on the LED's waveform, in seconds from the first chip drawn."""
 
     column: int
     start: float
@@ -56,11 +53,7 @@ class ExposureWindow:
 
     @property
     def lit_parts(self) -> FloatArray:
-        """Starts and ends of the times that the LED is on within the exposure, shape (parts, 2).
-
-        Each chip is a part of its own. Together they are the time on, unless the drawing is
-        shortened.
-        """
+        """Starts and ends of the lit times within the exposure, shape (parts, 2), a part a chip."""
         begins = np.maximum(self.edges[:-1], self.start)
         ends = np.minimum(self.edges[1:], self.end)
         seen = (self.lit == 1) & (ends > begins)

@@ -141,8 +141,7 @@ class EdgeFinder:
     def _inner_light(self, corners: FloatArray) -> tuple[IndexArray, FloatArray, float]:
         """Return the columns well within some corners, the light there above the dark, its fall.
 
-        The light is that at the corners' middle row. From row to row it grows by a fraction of it
-        that is the same in all columns: the fall.
+        The light is that at the middle row; per row it grows by a fraction, the fall.
         """
         first, last = column_spans(corners, *self._image.shape)
         first, last = first + _EDGE_REACH, last - _EDGE_REACH
@@ -214,12 +213,9 @@ def _counts(
 ) -> tuple[FloatArray, float, BoolArray]:
     """Return how many pixels about an edge are lit, the error that all counts share, and which.
 
-    The light about an edge is as much as its innermost pixels would hold, so many and a part of
-    the next. A count is valid only where that one is bright.
-
-    ``light``: shape (points, 2 _EDGE_REACH + 2 _LEVEL_PIXELS + 1); from outside to inside.
-    ``expected``: the lamp's own light there, shape as ``light`` or (points, 1). ``bright``:
-    expected light from which a pixel is bright.
+    The light about an edge is as much as its innermost pixels would hold, so many and a part of the
+    next; a count is valid only where that one is bright. ``light`` runs from outside to inside;
+    ``expected`` is the lamp's own.
     """
     full = np.broadcast_to(expected, light.shape)
     dark = light[:, :_LEVEL_PIXELS].mean(axis=0)
@@ -307,10 +303,7 @@ class _Line:
         return found, expected
 
     def edge(self, alike: float) -> Edge:
-        """Return the edge; the errors of neighbouring points add up as so many times unlike ones'.
-
-        One standard deviation before and behind the middle a line's errors are independent.
-        """
+        """Return the edge; ``alike``: the variance of sums relative to independent errors."""
         ends = self.x.mean() + np.array([-1.0, 1.0]) * self.x.std()
         at = self.y.mean() + np.array([-1.0, 1.0]) * self.slope
         slope = self.slope / float(self.x.std())
@@ -324,10 +317,7 @@ class _Line:
 
 
 def _alike(lines: Sequence[_Line]) -> float:
-    """Return how many times the variance of sums over neighbours is that of unlike errors.
-
-    Over all edges of a lamp: one has too few blocks.
-    """
+    """Return the variance of sums over neighbours relative to independent errors, of all edges."""
     sums = np.array([line.sums_of_blocks() for line in lines]).reshape(-1, 2).sum(axis=0)
     return max(1.0, float(sums[0] / sums[1])) if sums[1] > 0.0 else 1.0
 
@@ -360,9 +350,8 @@ def _fitted(side: int, found: _Points, scene: Scene) -> _Line | None:
 def _of_grid(grid: FloatArray, slope: float, blur: float) -> FloatArray:
     """Return the covariance that whole pixels leave beyond what the points' scatter shows.
 
-    A pixel is lit, or not, by its centre. Counted over the edge's places on the grid: where it runs
-    along the grid, all points are off by the same. A blur of s pixels leaves exp(-2 pi^2 s^2) of
-    the first harmonic of that error.
+    A pixel is lit, or not, by its centre: where an edge runs along the grid, all points are off by
+    the same. A blur of s pixels leaves exp(-2 pi^2 s^2) of the first harmonic of that error.
     """
     apart = grid - grid.mean()
     phase = (np.arange(_PHASES) + 0.5)[:, None] / _PHASES

@@ -31,13 +31,11 @@ class RoomPhoto:
 def read_room_photo(photo: Photo, room: Room, focal_length: float | None = None) -> RoomPhoto:
     """Name the lamps in a photo of a room, and find where it was taken.
 
-    Exposure time, ISO speed and aperture are those of the EXIF data, where there are any, all else
-    is the room's. A photo in which the stripes lie is turned by a right angle, and one in which no
-    lamp is named is also tried the other way round.
+    Exposure time, ISO speed, aperture and, unless given, the equivalent focal length (in metres)
+    are those of the EXIF data, else the room's; an error includes its rounding. A photo is turned
+    by a right angle where the stripes lie, and by half a turn where no lamp is named.
 
-    ``focal_length``: equivalent focal length in metres; None for that of the EXIF data, whose
-    rounding the place's errors then include, or else for the room's. Raises ParameterError: the
-    focal length is out of range. Raises ProjectionError: the photo is too large.
+    Raises ParameterError, ProjectionError: the focal length is out of range; too large a photo.
     """
     check_room(room)
     upright: ByteArray = np.ascontiguousarray(photo.image[::-1] if photo.turned else photo.image)

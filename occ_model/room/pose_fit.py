@@ -54,8 +54,8 @@ class Located:
 class LampEdges:
     """The edges of some lamps in a picture, as arrays.
 
-    A place is six numbers, those of :class:`occ_model.Place`. Where the focal length is not known
-    exactly, a seventh is its share above the one assumed.
+    A place is six numbers, those of :class:`occ_model.Place`, and a seventh where the focal length
+    is not known exactly: its fraction above the one assumed.
     """
 
     outlines: FloatArray  # Shape (lamps, 4, 3): the lamps' corners in the room
@@ -88,10 +88,7 @@ class LampEdges:
         )
 
     def fitted(self, start: FloatArray) -> tuple[Located, FloatArray] | None:
-        """Refine a place; with it each edge's squared deviation, None where there is no such place.
-
-        ``start``: shape (6,).
-        """
+        """Return a place refined with each edge's squared deviation; None where there is none."""
         numbers = np.append(start, 0.0) if self.focal_share else start
         inverse = np.eye(len(numbers))
         for _ in range(_ROUNDS):
@@ -131,10 +128,7 @@ class LampEdges:
         return located, (off[: 2 * len(self.lamp)] ** 2).reshape(-1, 2).sum(axis=1)
 
     def _outlines_at(self, numbers: FloatArray) -> FloatArray | None:
-        """Return the corners in the picture from some places; None where one is behind the camera.
-
-        ``numbers``: shape (places, 6 or 7). Returns shape (places, lamps, 4, 2).
-        """
+        """Return corners in the picture, shape (places, lamps, 4, 2); None behind the camera."""
         placed = self.outlines[None] - numbers[:, None, None, :3]
         placed = np.einsum("plci,pij->plcj", placed, rotations(*numbers[:, 3:6].T))
         depth = placed[..., 2:]
@@ -154,10 +148,7 @@ class LampEdges:
         return np.asarray(np.argmin(np.abs(off).max(axis=-1), axis=-1))
 
     def _deviations(self, numbers: FloatArray, sides: IndexArray) -> FloatArray | None:
-        """Return how far edges are from where places put them, in standard errors.
-
-        Returns shape (places, 2 edges), or one more for the focal length.
-        """
+        """Return edges' distances from places', and the focal length's, in standard errors."""
         outlines = self._outlines_at(numbers)
         if outlines is None:
             return None
@@ -170,11 +161,7 @@ class LampEdges:
 
 
 def _off(outlines: FloatArray, points: FloatArray) -> FloatArray:
-    """Return how far points are from each side of an outline, to its left.
-
-    ``outlines``: shape (..., edges, 4, 2). ``points``: shape (edges, 2, 2). Returns shape (...,
-    edges, 4, 2); of each edge and each side both points' distances.
-    """
+    """Return the distances of both points of each edge to the left of an outline's sides."""
     along = np.roll(outlines, -1, axis=-2) - outlines
     along = along / np.hypot(along[..., 0], along[..., 1])[..., None]
     apart = points[:, None] - outlines[..., None, :]

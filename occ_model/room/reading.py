@@ -211,13 +211,7 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
 
 
 def _may_reach_sides(result: DecodeResult, scene: Scene, region: Region, bright: BoolArray) -> bool:
-    """Whether no column between a lamp and one side of the picture lacks the light of a lit chip.
-
-    Parameters
-    ----------
-    bright
-        Whether a column is lit in some of the lamp's rows.
-    """
+    """Whether no column from a lamp to one side lacks a lit chip's light."""
     if result.model is None:
         return False
     camera, sent = scene.camera, scene.transmitter

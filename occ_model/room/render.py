@@ -141,9 +141,9 @@ def _dark_view(scene: Scene) -> PaperView:
 def _extreme(views: Sequence[PaperView]) -> list[PaperView]:
     """Return the lamps among which any effect is largest.
 
-    Of lamps in one picture effects differ by what is listed here: the depth (defocus), the place in
-    the picture (vignetting, distortion), the lamp's tilt and order (emission), its light (noise),
-    the number of its pixels, its frequency and its edges (and what a stretch makes of all).
+    They are extreme in what effects of one picture depend on: depth (defocus), place in the picture
+    (vignetting, distortion), tilt and order (emission), light (noise), number of pixels, frequency
+    and edges (and what a stretch makes of all).
     """
 
     def features(view: PaperView) -> tuple[float, ...]:

@@ -305,9 +305,6 @@ def _check_keys(table: Mapping[str, Any], known: tuple[str, ...], where: str) ->
 
 
 def check_room(value: object) -> None:
-    """Refuse a value that is not a room.
-
-    Raises ParameterError: naming the value and how to load a room.
-    """
+    """Refuse a value that is not a room."""
     if not isinstance(value, Room):
         raise ParameterError.of("room", shown(value), "a Room, such as load_room('office') gives")

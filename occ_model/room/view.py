@@ -87,8 +87,7 @@ def angles_of(turned: FloatArray) -> tuple[float, float, float]:
 def lamps_in_view(room: Room) -> tuple[LampView, ...]:
     """Return the lamps whose front any pixel can show, in the room's order.
 
-    Raises ProjectionError: a lamp is partly in the picture and partly behind the camera, or its
-    plane is turned from the picture's by 90 degrees and more.
+    Raises ProjectionError: one is partly behind the camera, or turned by 90 degrees or more.
     """
     return tuple(seen for lamp in room.lamps if (seen := _seen(room, lamp)) is not None)
 
@@ -141,12 +140,7 @@ def _clipped(points: FloatArray) -> FloatArray:
 
 
 def seen_outline(room: Room, height: float) -> FloatArray:
-    """Return the part of a level plane that the camera sees, shape (corners, 2): x and y.
-
-    Empty where no whole picture of it is above the camera.
-
-    ``height``: of the plane, metres.
-    """
+    """Return the corners (x, y) of what the camera sees of a level plane; empty for none whole."""
     camera, place = room.scene.camera, room.camera
     right, bottom = camera.columns - 1.0, camera.rows - 1.0
     corners = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])

@@ -16,10 +16,7 @@ class Declaration:
     meaning: str
 
     def refuse(self, problem: str, allowed: str) -> ParameterError:
-        """Return the error that names the parameter, the problem and what is allowed.
-
-        ``problem``: a verb and the value, such as "is 3 m".
-        """
+        """Return the error; ``problem``: a verb and the value, such as "is 3 m"."""
         verb, _, value = problem.partition(" ")
         return ParameterError.of(self.name, value, allowed, verb=verb, parameters=(self.name,))
 

@@ -28,10 +28,7 @@ def read_scene_file(path: Path) -> Scene:
 
 
 def check_scene_path(path: Path) -> None:
-    """Refuse to save a scene to a file that would not be opened as one.
-
-    Other endings are those of figures, tables and photos.
-    """
+    """Refuse to save a scene to a file with the ending of a figure, table or photo."""
     if path.suffix.lower() != SCENE_ENDING:
         raise OutputError(
             f"{one_line(str(path))} has no ending of a scene file; use {SCENE_ENDING}."
@@ -44,11 +41,7 @@ def write_scene_file(path: Path, scene: Scene) -> None:
 
 
 def with_settings(scene: Scene, settings: Iterable[str]) -> Scene:
-    """Change a scene by texts such as ``"switching_frequency=10kHz"``.
-
-    Raises ParameterError: a text has no ``=``, its name is unknown, or its value cannot be read or
-    is out of range.
-    """
+    """Change a scene by texts such as ``"switching_frequency=10kHz"``."""
     changes: dict[str, ParameterValue] = {}
     for setting in settings:
         name, equals, text = setting.partition("=")

@@ -47,8 +47,7 @@ _LIMIT_DIGITS = 12  # digits up to which a limit is written without a power of t
 class Quantity(Declaration):
     """A real number with a unit.
 
-    ``low`` and ``high`` bound what is accepted; ``slider`` is the part of that range that a
-    slider offers, on a ``scale`` that suits it.
+    ``low`` and ``high`` bound it; a ``slider`` offers a part of that on a ``scale``.
     """
 
     unit: Unit
@@ -202,11 +201,7 @@ class Choice(Declaration):
 
 @dataclass(frozen=True, slots=True)
 class OpenChoice(Choice):
-    """One of a few words, or the name of a plug-in.
-
-    ``choices`` are the built-in ones. Plug-ins of the entry point ``group`` are looked up when a
-    value is none of these.
-    """
+    """One of a few words, or the name of a plug-in of the entry point ``group``."""
 
     group: str
 

@@ -28,10 +28,7 @@ _REPLACEMENT_LETTER = "?"  # in place of bytes that are not text
 
 
 def canonical(value: object) -> str:
-    """Return a payload in its shortest form: no spaces between digits, small letters in hex.
-
-    Raises ValueError: it is not a payload; the message is the part of a sentence that says why.
-    """
+    """Return a payload in its shortest form, or raise a ValueError with a part of a sentence."""
     if not isinstance(value, str):
         raise ValueError(f"is {shown(value)}")  # noqa: TRY004 - a wrong value as any other
     if len(value) > 4 * MAX_PAYLOAD_BITS:
@@ -62,10 +59,7 @@ def _form_and_content(typed: str) -> tuple[str, str]:
 
 
 def typed_form(payload: str) -> str:
-    """Return what somebody would type for a payload: a text as it is, where it reads as one.
-
-    Digits alone could be meant as bits or as a number, so that the form stays before them.
-    """
+    """Return what somebody would type for a payload: a text that no other form has as it is."""
     form, _, content = payload.partition(":")
     if form != "text" or not content.strip() or _DIGITS_ALONE.fullmatch(content):
         return payload
@@ -95,10 +89,9 @@ def bits_of_payload(payload: str) -> tuple[int, ...]:
 
 
 def payload_of_bits(bits: Sequence[int], form: str) -> str:
-    """Write bits in a form: ``text``, ``hex`` or ``bits``, without the form's name.
+    """Write bits as ``text``, ``hex`` or ``bits``, without the form's name, from whole bytes.
 
-    Bits after the last whole byte are left out of a text and of hex. Bytes that are not text are
-    written as question marks, and so are characters that cannot be shown.
+    Bytes that are not text are written as question marks, and so are hidden characters.
     """
     if form == "bits":
         return "".join(str(int(bit)) for bit in bits)
@@ -135,10 +128,7 @@ class Piece:
 
 
 def compared(payload: str, received: Sequence[int]) -> tuple[Piece, ...]:
-    """Compare a payload with the bits received, letter by letter or byte by byte.
-
-    Returns empty for a payload that is written as bits, or none.
-    """
+    """Compare a payload with received bits, letter by letter or byte by byte; empty for bits."""
     if form_of(payload) not in ("text", "hex"):
         return ()
     bits, pieces, start = bits_of_payload(payload), [], 0

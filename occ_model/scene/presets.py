@@ -61,11 +61,7 @@ def all_presets() -> tuple[Preset, ...]:
 
 
 def unreadable_presets() -> dict[str, str]:
-    """List the user's own preset files that cannot be used.
-
-    Returns the reason, a sentence, by the file's name without its ending, control characters
-    escaped.
-    """
+    """Return why preset files of the user cannot be used, by name, control characters escaped."""
     return _read_own()[1]
 
 

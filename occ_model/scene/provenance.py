@@ -78,10 +78,7 @@ def first_scene_in(text: str) -> Scene | None:
 
 
 def scene_inside(path: Path) -> Scene:
-    """Read the scene that an exported figure or table carries, the first of several.
-
-    ``path``: a PNG, SVG, PDF or CSV file that this package wrote.
-    """
+    """Read the first scene that an exported figure or table (PNG, SVG, PDF, CSV) carries."""
     where = one_line(str(path))
     try:
         text = _READERS[path.suffix.lower()](path)

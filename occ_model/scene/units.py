@@ -61,21 +61,14 @@ class Unit:
         return _PREFIXES.get(stem) if stem else None
 
     def parse(self, text: str, plain: float = 1.0) -> float | None:
-        """Read a quantity.
-
-        ``text``: a number or a fraction, with a decimal point or comma, with or without a unit.
-        ``plain``: the SI value of 1 without a unit. Returns the value in SI, None if the text is no
-        quantity of this unit, is too long, or can mean two values.
-        """
+        """Read a number or fraction with a unit, or of ``plain`` SI units; None if unclear."""
         readings = self.readings(text, plain)
         return readings[0] if len(readings) == 1 else None
 
     def readings(self, text: str, plain: float = 1.0) -> tuple[float, ...]:
         """Return the values in SI that a text can mean: none, one, or two.
 
-        A comma is a decimal comma; with one to three digits before it and three after it, as in
-        ``1,000 Hz``, it may separate thousands as well. The first value is then that of the decimal
-        comma.
+        A comma is a decimal comma; in ``1,000 Hz`` it may separate thousands, the second value.
         """
         # Stripped before: the search for a unit's end among n spaces takes a time as n^2.
         match = _QUANTITY.fullmatch(text.strip()) if len(text) <= LONGEST_TEXT else None
@@ -112,10 +105,7 @@ class Unit:
         return chosen + self.symbol, _PREFIXES[chosen]
 
     def format_estimate(self, value: float, deviation: float | None) -> str:
-        """Write a value with its standard deviation, to the digits that are significant.
-
-        Without a deviation, or with one that says nothing, the value alone is written.
-        """
+        """Write a value with its standard deviation to significant digits."""
         if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return self.format(value)
         symbol, factor = self.display(max(abs(value), deviation))
@@ -136,10 +126,7 @@ class Unit:
         return f"{text} {symbol}".rstrip()
 
     def rounded_estimate(self, value: float, deviation: float | None) -> float:
-        """Round a value to the digits that :meth:`format_estimate` writes, at least to a whole one.
-
-        The step is at most a tenth of the deviation: no more is known.
-        """
+        """Round a value to a tenth of its deviation or finer, as :meth:`format_estimate` does."""
         if deviation is None or not _ROUNDING_ERROR * abs(value) < deviation < math.inf:
             return value
         _, factor = self.display(value)

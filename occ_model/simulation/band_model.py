@@ -80,9 +80,8 @@ def band_drift(scene: Scene) -> float:
     """Return by how many columns the band model is ahead of what is sent after each packet.
 
     The literal reading rounds every band, and between two equal chips it has no columns for the
-    exposure: a run of n of them lasts n t_LED, but n h_c + h_t are (n - 1) t less.
-
-    Returns below zero where the model's packet is longer; 0 for the aligned reading.
+    exposure: a run of n of them lasts n t_LED, but n h_c + h_t are (n - 1) t less. It is below zero
+    where the model's packet is longer; 0 for the aligned reading.
     """
     complete, transition = band_lengths(scene)
     if scene.model.band_reading == "aligned":
@@ -93,10 +92,7 @@ def band_drift(scene: Scene) -> float:
 
 
 def enhanced_band_profile(scene: Scene, profile: FloatArray) -> FloatArray:
-    """Return the band model's column profile as the scene's receiver would enhance it.
-
-    Returns shape (columns,); grey levels, 0 to 255, by the profile's own histogram.
-    """
+    """Return the band model's profile as the receiver would enhance it, by its own histogram."""
     return enhance(profile, scene.model.enhancement).astype(np.float64)
 
 

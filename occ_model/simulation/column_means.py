@@ -15,10 +15,7 @@ class ColumnMeans:
         self._counts = np.zeros(columns, dtype=np.int64)
 
     def add(self, rows: Rows, values: Pixels | ByteArray) -> None:
-        """Add the panel's pixels of some rows.
-
-        ``values``: shape (rows, columns); grey levels.
-        """
+        """Add the panel's pixels of some rows, in grey levels."""
         for columns in rows.inside:
             self._sums[columns] += _column_sums(values[:, columns])
             self._counts[columns] += len(values)

@@ -51,10 +51,7 @@ class DraftedMeans:
 
 
 def draft_errors(panel: DraftedPanel, means: Mapping[str, DraftedMeans]) -> dict[str, float]:
-    """Return how far column means of a draft may lie from those of the whole picture, by name.
-
-    Returns root mean square over the columns of the panel's bounding rectangle, in grey levels.
-    """
+    """Return RMS sampling errors of a draft's columns on the panel, in grey levels, by name."""
     whole = [ends[panel.columns] for ends in column_spans(panel.outline, *panel.size)]
     first, last = (_rows_before(ends, panel.rows) for ends in whole)
     seen = whole[1] > whole[0]
@@ -100,8 +97,7 @@ def _of_parts(
 ) -> tuple[FloatArray, FloatArray]:
     """Estimate the variance of each column's mean by successive parts, and what its rim adds.
 
-    Returns shape (columns,); not a number and 0 where a column has fewer than two whole parts
-    within the panel.
+    Not a number and 0 where a column has fewer than two whole parts within the panel.
     """
     count = len(image) // _BLOCK
     if not count:

@@ -23,17 +23,13 @@ class Noise(Protocol):
     """A source of the deviation of every pixel from its mean."""
 
     def draw(self, rows: int) -> Drawn:
-        """Draw the numbers of the next rows.
-
-        Rows are drawn in order; what is drawn may be used at any time, in any thread.
-        """
+        """Draw the numbers of the next rows, in order; any thread may use them at any time."""
 
 
 def stream(effect: NoiseEffect, seed: int) -> np.random.Generator:
-    """Return an effect's own stream of random numbers.
+    """Return an effect's own stream of random numbers: switching others on does not change it.
 
-    It depends on the seed and the effect alone: switching another effect on or off does not change
-    it. That of an effect of the camera itself does not depend on the seed either.
+    That of an effect of the camera itself does not depend on the seed either.
     """
     entropy = 0 if effect.of_the_camera else seed
     own = np.random.SeedSequence(entropy, spawn_key=(crc32(effect.name.encode()),))
@@ -60,8 +56,7 @@ class ReusedNoise:
     """Noise reused: each row is a piece of one long row of numbers, from a random place.
 
     Much faster than drawing. All effects share the numbers, scaled to their total deviation. The
-    pieces overlap at random, which shows neither in the rows of a picture nor in its columns'
-    means.
+    pieces overlap at random, which shows neither in rows nor in columns' means.
     """
 
     def __init__(self, effects: Sequence[NoiseEffect], scene: Scene, seed: int) -> None:

@@ -72,10 +72,9 @@ class MeanRows(Protocol):
 class PixelExposure:
     """The pixels of a picture.
 
-    ``bands``: the rows that are exposed, in order, each a whole number of blocks of a JPEG file but
-    the last; None for the whole picture. ``panel_only``: whether the file is made of the blocks
-    that show the panel only. What becomes of a block does not depend on others. ``mean``: the mean
-    pixel values, where they are not those of one panel.
+    ``bands``: the rows exposed, in order and whole blocks of a JPEG file but the last; None for
+    all. ``panel_only``: whether the file has only the blocks that show the panel, which do not
+    depend on others. ``mean``: the mean pixel values, where they are not those of one panel.
     """
 
     def __init__(
@@ -182,10 +181,7 @@ class PixelExposure:
         source: NoiseSource | NoiseMaker,
         heartbeat: Heartbeat = lambda: None,
     ) -> Pictures:
-        """Make the camera's picture and the receiver's, of the exposed rows.
-
-        The heartbeat is called before each band; what it raises ends the work.
-        """
+        """Make the camera's picture and the receiver's, of the exposed rows."""
         camera_image = np.empty(self._shape, dtype=np.uint8)
         image = np.empty_like(camera_image)
         spreads: dict[Sequence[NoiseEffect], NoiseSpread] = {}
@@ -230,12 +226,9 @@ class PixelExposure:
         return slice(first // _BLOCK * _BLOCK, min(-(-last // _BLOCK) * _BLOCK, self._shape[1]))
 
     def observed(self, observable: Observable, seed: int, source: NoiseSource) -> Pixels:
-        """Return the observable: pixel values before enhancement and rounding.
+        """Return pixel values before enhancement and rounding, of all bands or the panel's.
 
-        The bands are those that show the panel, or all.
-
-        Returns ``"image"``: the panel's bounding rectangle, shape (rows, columns) of it;
-        ``"profile"``: the means of its columns.
+        ``"image"``: of the panel's bounding rectangle; ``"profile"``: the means of its columns.
         """
         image = np.empty(self._shape, dtype=np.float32)
         for exposed in self.rows(seed, source):

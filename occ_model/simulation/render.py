@@ -111,8 +111,7 @@ def render_with(
 ) -> Frame:
     """Simulate the picture that the scene's camera takes with some settings: see :func:`render`.
 
-    The heartbeat is called before each band of rows that differ; what it raises ends the work.
-    What :func:`plan_scene` gave for the same scene and settings need not be found again.
+    The heartbeat is called before each band of rows; ``planned`` spares :func:`plan_scene`.
     """
     check_scene(scene)
     check_count("rows_step", rows_step, 1, scene.camera.rows)
@@ -141,10 +140,7 @@ def render_plan(
     timer: StageTimer | None = None,
     heartbeat: Heartbeat = lambda: None,
 ) -> Frame:
-    """Simulate a picture whose effects are chosen.
-
-    ``heartbeat``: called before each band of rows that differ; what it raises ends the work.
-    """
+    """Simulate a picture whose effects are chosen."""
     scene = view.scene
     check_size(scene.camera)
     timer = timer or StageTimer()
@@ -208,11 +204,10 @@ def observe(
     noise: NoiseSource = "exact",
     timer: StageTimer | None = None,
 ) -> Pixels:
-    """Simulate the observable that a plan's tolerance refers to.
+    """Simulate the observable that a plan's tolerance refers to, in grey levels.
 
-    Returns grey levels of the panel's bounding rectangle. ``"image"``: the camera's pixels before
-    rounding, shape (rows, columns) of it; ``"profile"``: the means of its columns; ``"signal"``:
-    the means of its columns in the receiver's picture.
+    ``"image"``: the camera's pixels of the panel's bounding rectangle before rounding;
+    ``"profile"``, ``"signal"``: the means of its columns, and those of the receiver's picture.
     """
     check_size(scene.camera)
     view, timer = paper_view_of(scene), timer or StageTimer()

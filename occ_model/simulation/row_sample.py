@@ -53,12 +53,10 @@ class _Part:
 
 
 def sample_picture(view: PaperView, plan: Plan, seed: int) -> SampledPicture | None:
-    """Simulate the receiver's picture of some rows.
+    """Simulate the receiver's picture of some rows; None where it would save little.
 
     Its noise is spread evenly over the bands, so that a column's mean over the panel has hardly any
     sampling error; that of the whole picture has to be added.
-
-    Returns None where a sample would not be much smaller than the picture.
     """
     across = _span(view)
     rows_each = len(across) / (BANDS * BAND)

@@ -7,10 +7,7 @@ from typing import Self
 
 
 class StageTimer:
-    """Adds up the seconds that each stage takes, by its name.
-
-    Every moment since the timer was made counts to one stage: the times of all stages add up to the
-    time between the first moment and the end of the last stage.
+    """Adds up the seconds of each stage: every moment since the timer was made counts to one.
 
     ``before``: seconds of stages that ended before the timer was made, which count too.
     """
@@ -30,10 +27,9 @@ class StageTimer:
         self._last = perf_counter()
 
     def parallel_stages_ended(self, timers: Sequence[Self]) -> None:
-        """Divide the time since the last stage ended among stages that ran at the same time.
+        """Divide the time since the last stage among stages that ran at the same time.
 
-        Each stage counts in proportion to the time that it took in all threads together, so that
-        the sum stays the time that has passed.
+        Each counts in proportion to the time that it took in all threads together.
         """
         now = perf_counter()
         passed, self._last = now - self._last, now

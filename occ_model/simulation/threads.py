@@ -17,10 +17,7 @@ _ITEMS_AHEAD = 2  # items for each thread that are prepared before their turn
 
 
 def threads() -> int:
-    """Return how many threads compute: one a core, or fewer if OMP_NUM_THREADS says so.
-
-    Worker processes, of which there is one a core, are started with one thread each.
-    """
+    """Return how many threads compute: one a core, or fewer if OMP_NUM_THREADS says so."""
     cores = os.cpu_count() or 1
     wanted = os.environ.get("OMP_NUM_THREADS", "")
     return max(1, min(cores, int(wanted))) if wanted.isdecimal() else cores
@@ -30,7 +27,7 @@ def each_in_threads(work: Callable[[_Item], _Result], items: Iterable[_Item]) ->
     """Do the work for each item, in threads; yield the results in the order of the items.
 
     Items are taken in the calling thread, a few ahead of the work: what is drawn there at random
-    does not depend on the threads. A single item is not worth starting one.
+    does not depend on the threads.
     """
     count, left = threads(), iter(items)
     begun = list(islice(left, 2 if count > 1 else 0))

@@ -85,10 +85,7 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
 
 
 def _shared_plan(scene: Scene, settings: RateSettings, root: np.random.Generator) -> Plan | None:
-    """Return the effects that all pictures are simulated with, None where they are not alike.
-
-    A picture of less than a packet can show one run of equal chips or many stripes.
-    """
+    """Return the effects that all pictures are simulated with, None where they are not alike."""
     transmitter = scene.transmitter
     packet = len(sent_chips(transmitter)) * transmitter.switching_period
     if panel_readout_time(scene) < packet:
@@ -129,10 +126,10 @@ def bit_errors_of(scene: Scene, decoder: str, wrong: Sequence[int], right: int) 
 def error_interval(wrong: Sequence[int], length: int) -> tuple[float, float]:
     """Return the 95 % interval of a bit error rate whose bits fail together in pictures.
 
-    Wilson's interval for the effective number of independent bits: bits / D, with the
-    design effect D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates
-    (L. Kish, Survey Sampling, 1965). Where all or no bits are wrong, D is unknown and each picture
-    counts as one bit.
+    Wilson's interval for the effective number of independent bits: bits / D, with the design effect
+    D = s^2 / (p (1 - p) / length) and s^2 the variance of the pictures' own rates (L. Kish, Survey
+    Sampling, 1965). Where all or no bits are wrong, D is unknown and each picture counts as one
+    bit.
     """
     pictures, errors = len(wrong), sum(wrong)
     rate = errors / (pictures * length)

@@ -52,13 +52,7 @@ class Cause:
 
 
 def cause_of(scene: Scene, decoder: str, region: Region | None = None) -> Cause | None:
-    """Find why a decoder cannot read a scene; None where the scene gives no reason.
-
-    Parameters
-    ----------
-    region
-        The rectangle that the receiver takes for the panel; None where that is not known.
-    """
+    """Find why a decoder cannot read a scene from a region; None without a reason."""
     if scene.transmitter.pattern:
         return None
     try:

@@ -50,10 +50,7 @@ class CodeLength:
         return 1 << self.bits
 
     def named_wrongly(self, lamps: int) -> float:
-        """Return how many of the misread lamps are expected to be named as another one of many.
-
-        A misread code is taken as uniformly distributed over the others.
-        """
+        """Return the expected number of lamps misread as another one, by uniform codes."""
         return self.misread * (lamps - 1) / (self.codes - 1)
 
 
@@ -66,15 +63,11 @@ def code_lengths(
     jobs: int = 1,
     progress: Progress | None = None,
 ) -> tuple[CodeLength, ...]:
-    """Compare lengths of codes for many lamps in a room.
+    """Compare lengths of codes, by default the shortest for so many lamps, and 2 and 4 bits more.
 
     The lamps' codes are drawn at random among all of a length, those of the room among them; its
-    lamps are read in pictures over its floor.
-
-    ``request``: the map of the room, a part of the house that has so many lamps. ``lamps``: lamps
-    that have a code each. ``bits``: lengths of code; by default the shortest that suffices, and 2
-    and 4 bits more. Returns in the order of the lengths. Raises ParameterError: a length has fewer
-    codes than there are lamps, or an argument is out of range.
+    lamps are read in pictures over its floor. Raises ParameterError: a length has fewer codes than
+    there are lamps, or an argument is out of range.
     """
     room = request.room
     check_count("lamps", lamps, max(len(room.lamps), 2), MOST_CODES)
@@ -133,10 +126,7 @@ def _chips(room: Room, sent: IndexArray) -> ByteArray:
 
 
 def least_distance(packets: ByteArray) -> int:
-    """Return in how many chips two packets sent over and over differ at the least.
-
-    ``packets``: shape (packets, chips).
-    """
+    """Return in how many chips two packets, shape (packets, chips), differ at least."""
     signs, chips = 2.0 * packets - 1.0, int(packets.shape[1])
     most = -float(chips)
     for shift in range(chips):

@@ -50,10 +50,9 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
 def interval_of_pictures(right: int, sent: int, pictures: int) -> tuple[float, float]:
     """Return the 95 % interval of the fraction of right bits, in percent; not a number of no bits.
 
-    The bits of a picture are read together or not at all, so that the pictures are the trials: it
-    is Wilson's interval of as many successes as the pictures' fraction of right bits adds up to.
-    Where pictures are read in part the rate scatters less, and the interval is wider than it need
-    be.
+    A picture's bits are read together or not at all, so that pictures are the trials: it is
+    Wilson's interval of as many successes as their fractions of right bits add up to. Where
+    pictures are read in part the rate scatters less, and the interval is wider than need be.
     """
     if not sent:
         return math.nan, math.nan

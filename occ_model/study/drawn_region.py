@@ -76,8 +76,7 @@ class BrightShares:
     def _bright_bounds(self, marked: BoolArray, least: int, random: np.random.Generator) -> Region:
         """Draw the rows and the columns from the first bright pixel to the last.
 
-        ``marked``: shape (rows, columns) of the grid; the cells with at least ``least`` bright
-        pixels: these lie where brightness is likely. In and beside the marked cells further pixels
+        ``marked``: cells with at least ``least`` bright pixels; in and beside them further ones
         count.
         """
         span = self.span

@@ -22,12 +22,7 @@ _SIZE_PER_MARGIN = 16  # the panel's size in margins
 
 
 class CompleteSimulation:
-    """The simulation of a scene with all its effects, which others are compared with.
-
-    What has been compared once is known from then on.
-
-    ``seed``: seed of the noise, which is drawn for every pixel, each effect from its own stream.
-    """
+    """The simulation of a scene with all its effects, and what has been compared with it."""
 
     def __init__(
         self, scene: Scene, observable: Observable, seed: int = 1, timer: StageTimer | None = None
@@ -76,10 +71,7 @@ class CompleteSimulation:
         return EffectDifference(effect, error, change, crop, icon)
 
     def _alone(self, effect: str, timer: StageTimer | None) -> tuple[Pixels, Pixels]:
-        """Return the paper's model with one effect, and without it.
-
-        Beside all the others, noise and file above all, many effects could not be seen.
-        """
+        """Return the paper's model with one effect, and without it: noise and file hide many."""
         alone = self._simulated((effect,), "image", timer)
         if rms(alone - self._bare) >= _VISIBLE_CHANGE:
             return alone, self._bare

@@ -30,11 +30,9 @@ _MAX_LOST_FRACTION = 0.999  # of pictures at the end, where each loses no more t
 def interval_of_end(
     lost: Mapping[float, Sequence[float]], rate: float, inside: float, outside: float
 ) -> tuple[float, float]:
-    """Return between which values an end lies, with 95 %, the nearer to ``inside`` first.
+    """Return the 95 % interval of an end, between two values, the nearer to ``inside`` first.
 
-    ``lost``: the fraction of bits lost in each picture, by the value at which it was taken.
-    ``rate``: the success rate in percent that is reached inside of the end. ``inside`` and
-    ``outside``: values between which the end surely lies.
+    ``lost``: the fraction of bits lost in each picture, by value; ``rate``: that reached inside.
     """
     direction = math.copysign(1.0, outside - inside)
     span = abs(math.log(outside / inside))
@@ -60,9 +58,8 @@ def _likelihoods(
 ) -> FloatArray:
     """Return the logarithm of each end's greatest likelihood.
 
-    ``beyond``: shape (ends, values); how far beyond an end values lie, as logarithms. ``pictures``
-    and ``gone``: shape (values,); pictures at each value, and how many of them are lost.
-    ``fraction``: of the pictures that are lost at the end.
+    ``beyond``, shape (ends, values): log distance of values from an end. ``gone``: lost pictures at
+    each value. ``fraction``: of the pictures that are lost at the end.
     """
     at_end = math.log(fraction / (1.0 - fraction))
     scaled = np.geomspace(_FLATTEST, _STEEPEST, _SLOPES)[:, None] / span * beyond[:, None]

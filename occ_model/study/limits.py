@@ -104,8 +104,7 @@ def limits_of(  # noqa: PLR0913 - a study's settings, most of them optional
 ) -> tuple[Limits, ...]:
     """Find the limits of several decoders, as :func:`limits` does for each of them.
 
-    ``found``: called with the limits of each decoder as soon as they are known, before it is known
-    how surely.
+    ``found``: called with each decoder's limits at once, before it is known how surely.
     """
     check_scene(scene)
     wanted = _checked(rate)
@@ -182,10 +181,7 @@ class _Ways:
     def answers(
         self, work: Callable[..., _Answer], asked: Sequence[tuple[Any, ...]], counts: Sequence[int]
     ) -> Iterator[_Answer]:
-        """Do some work on each of several requests, and yield the answers in their order.
-
-        ``counts``: the processes of each pool; the pools take the requests in turn.
-        """
+        """Yield the answers to requests, which pools of so many processes take in turn."""
         from occ_model.parallel.process_pool import ProcessPool
 
         done = 0

@@ -34,10 +34,7 @@ def _noise_of(effects: tuple[NoiseEffect, ...], camera: Camera, sensor: Sensor) 
 
 
 class NoisyColumns:
-    """The columns of a level panel, their pixels noisy and enhanced.
-
-    ``plan``: its noise, and its limits of a pixel's value, are simulated.
-    """
+    """The columns of a level panel, their pixels noisy and enhanced as a plan says."""
 
     def __init__(
         self, scene: Scene, columns: Columns, plan: Plan, span: Region, enhancement: Enhancement
@@ -57,10 +54,7 @@ class NoisyColumns:
         return saturate(values), spread.astype(np.float64)
 
     def means(self, region: Region, random: np.random.Generator) -> FloatArray:
-        """Return the means of a rectangle's columns, with their sampling error.
-
-        The panel's pixels are enhanced, those beside it are not.
-        """
+        """Return the means of a rectangle's columns with their sampling error."""
         span = self._span
         crossed = min(region.last_row, span.last_row) - max(region.first_row, span.first_row)
         first = max(region.first_column, span.first_column)
@@ -107,8 +101,8 @@ class NoisyColumns:
     def plain_means(self, span: Region) -> FloatArray:
         """Return the expected means of some columns' pixels before enhancement and rounding.
 
-        Noise is cut off at black and at white, and so moves the mean of columns near them: by
-        s (phi(u) - u Q(u)), u being the distance to the limit in standard deviations s, phi the
+        Noise is cut off at black and at white, and so moves the mean of columns near them: by s
+        (phi(u) - u Q(u)), u being the distance to the limit in standard deviations s, phi the
         density of the normal distribution and Q its tail.
         """
         panel = self._columns.panel[span.first_column : span.last_column]

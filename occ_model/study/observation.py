@@ -27,10 +27,7 @@ from occ_model.study.noisy_columns import NoisyColumns
 
 
 def panel_span(scene: Scene) -> Region | None:
-    """Return the rectangle that the panel fills in the image, empty without a panel in view.
-
-    None where its outline is not a rectangle.
-    """
+    """Return the panel's rectangle, empty without a panel in view; None for another outline."""
     return _span_of(panel_corners(scene).tobytes(), scene.camera.rows, scene.camera.columns)
 
 
@@ -70,13 +67,9 @@ class Observation:
 def decode_profile(
     scene: Scene, decoder: str, plan: Plan, random: np.random.Generator
 ) -> DecodeResult | None:
-    """Decode the column means of an image without the image.
+    """Decode the column means of an image without the image; None where rows differ.
 
-    The decoder's region is drawn as it is found in the image: see
-    :mod:`occ_model.study.drawn_region`.
-
-    Returns None where rows differ by more than noise: the panel is not level, or the plan holds an
-    image effect.
+    The region is drawn as it is found in the image: see :mod:`occ_model.study.drawn_region`.
     """
     span = panel_span(scene)
     if span is None or "image" in plan.kinds:
@@ -87,10 +80,9 @@ def decode_profile(
 def observe_profile(
     view: PaperView, span: Region, plan: Plan, random: np.random.Generator
 ) -> Observation:
-    """Compute the column means of an image that every decoder reads, without the image.
+    """Compute the column means that every decoder reads, without the image.
 
-    ``span``: the rectangle that the panel fills, as :func:`panel_span` gives it: it is the same at
-    any start time.
+    ``span``: that of :func:`panel_span`, which is the same at any start time.
     """
     columns = expose_columns(view, plan)
     if span.columns == 0:
@@ -106,10 +98,7 @@ def observe_profile(
 
 
 def region_without_noise(scene: Scene, span: Region, panel: ByteArray, around: ByteArray) -> Region:
-    """Find the rectangle that a receiver finds in a picture without noise.
-
-    ``panel`` and ``around``: shape (columns,); grey levels on the panel, enhanced, and beside it.
-    """
+    """Find the rectangle that a receiver finds in a picture without noise."""
     rows, seen = scene.camera.rows, slice(span.first_column, span.last_column)
     counts = np.bincount(around, minlength=256) * rows
     counts += np.bincount(panel[seen], minlength=256) * span.rows
@@ -136,8 +125,7 @@ def means_without_noise(
 def shows_region(sample: SampledPicture, view: PaperView) -> bool:
     """Return whether a sample of the rows shows which region is found in the whole picture.
 
-    It does where noise beside the panel, as the sample shows it, is nowhere in the whole picture
-    expected to be as bright as the brightest pixels.
+    Noise beside the panel must nowhere be expected to be as bright as its brightest pixels.
     """
     scene, image = view.scene, sample.image
     found = locate(image, scene.receiver.bright_fraction)
@@ -161,10 +149,7 @@ def shows_region(sample: SampledPicture, view: PaperView) -> bool:
 def observe_sample(
     sample: SampledPicture, scene: Scene, plan: Plan, random: np.random.Generator
 ) -> Observation | None:
-    """Compute the column means of a whole picture from a sample of its rows.
-
-    Returns None where no panel is found.
-    """
+    """Return the column means of a whole picture from a sample; None where no panel is found."""
     found = locate(sample.image, scene.receiver.bright_fraction)
     if found is None:
         return None

@@ -32,11 +32,7 @@ def grid_request(
 
 
 def ceases_at(table: SweepTable, decoder: str, readable: float = 60.0) -> float | None:
-    """Find the lowest frequency from which on no distance is read at ``readable`` percent.
-
-    ``readable``: success rate in percent from which a point counts as read. Returns hz; None where
-    the highest frequency is still read.
-    """
+    """Find the lowest frequency in Hz from which on no distance is read; None for none."""
     ceased = None
     best = table.rates(decoder).max(axis=1).tolist()
     for frequency, rate in zip(reversed(FREQUENCIES), reversed(best), strict=True):

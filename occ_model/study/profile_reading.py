@@ -49,10 +49,9 @@ def read_profile(
     decoders: Sequence[str] = QUICK_DECODERS,
     view: PaperView | None = None,
 ) -> ProfileReading | None:
-    """Read a scene by the profile path.
+    """Read a scene by the profile path; None where only pixels show what is read there.
 
-    ``settings``: how its picture is simulated; the effects are planned for the signal all the same.
-    Returns None where rows differ by more than noise: only pixels show what is read there.
+    ``settings``: of its picture; the effects are planned for the signal all the same.
     """
     check_scene(scene)
     check_size(scene.camera)

@@ -13,10 +13,7 @@ _RATE = Unit("Hz/s")
 
 
 def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, ...]:
-    """List the facts of a film that is being read.
-
-    ``whole``: what the frames said together when they were last looked at; None before.
-    """
+    """List the facts of a film that is being read; ``whole``: what was last read of all frames."""
     facts = [
         Fact(
             "placed",
@@ -123,10 +120,7 @@ def clock_facts(clock: Clock) -> Iterator[Fact]:
 
 
 def error_rate(count: int, total: int, what: str) -> tuple[str, str]:
-    """Write a rate of errors in percent, and its 95 % interval.
-
-    The rate is written to the first digit that chance could change.
-    """
+    """Write a rate of errors in percent with its 95 % interval, to digits that it allows."""
     fraction = count / total
     deviation = _PERCENT * math.sqrt(fraction * (1.0 - fraction) / total)
     decimals = max(0, -math.floor(math.log10(deviation))) if deviation else 0

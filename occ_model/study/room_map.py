@@ -37,10 +37,7 @@ _LAMP_MARGIN = 20.0  # pixels around a lamp's rectangle within which a reading i
 
 @dataclass(frozen=True, slots=True)
 class RoomMapRequest:
-    """What a map over a floor measures: at each place the camera is as the room says otherwise.
-
-    Raises ParameterError: there are too many places, or a value is out of range.
-    """
+    """A map over a floor: at each place the camera is as the room says otherwise."""
 
     room: Room  # The room
     # Places in x and y, in metres
@@ -95,10 +92,7 @@ class _MeasuredPlaces:
 
 
 def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return evenly spaced places in x and y below a room's lamps, so many on each side.
-
-    A single one is in the middle.
-    """
+    """Return evenly spaced places below a room's lamps, ``count`` a side; one is the middle."""
     check_count("places on a side", count, 1, MOST_PLACES)
     sides = []
     for places in ([lamp.x for lamp in room.lamps], [lamp.y for lamp in room.lamps]):
@@ -245,11 +239,9 @@ def room_map(
     progress: Progress | None = None,
     results: str | Path | None = None,
 ) -> tuple[RoomPoint, ...]:
-    """Measure the places of a map.
+    """Measure the places of a map, in their order.
 
-    ``executor``, ``jobs``, ``progress``, ``results``: as for :func:`occ_model.sweep`: a file that
-    was left half full is gone on with. Returns in the order of the places. Raises ParameterError,
-    OutputError: as for :func:`occ_model.sweep`.
+    ``executor``, ``jobs``, ``progress``, ``results`` and errors: as for :func:`occ_model.sweep`.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     found: dict[int, RoomPoint] = {}

@@ -12,12 +12,7 @@ _SAMPLES_AT_ONCE = 1_000_000
 
 
 def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
-    """Return t_on / t of every column from ``samples`` samples of the light in its exposure.
-
-    The samples lie in the middle of equal parts of the exposure, as in other simulators.
-
-    Returns shape (columns,).
-    """
+    """Return t_on / t of every column from samples in the middle of equal parts of its exposure."""
     chips = sent_chips(scene.transmitter)
     camera, frequency = scene.camera, scene.transmitter.switching_frequency
     within = (np.arange(samples) + 0.5) * (camera.exposure_time / samples)
@@ -32,10 +27,7 @@ def sampled_lit_fraction(scene: Scene, samples: int) -> FloatArray:
 
 
 def exact_lit_fraction(scene: Scene, columns: IndexArray) -> FloatArray:
-    """Return t_on / t of some columns in rational arithmetic, rounded once at the end.
-
-    ``columns``: shape (chosen,); the columns. Returns shape (chosen,).
-    """
+    """Return t_on / t of some columns in rational arithmetic, rounded once at the end."""
     chips = sent_chips(scene.transmitter).tolist()
     frequency = Fraction(scene.transmitter.switching_frequency)
     exposure = Fraction(scene.camera.exposure_time) * frequency

@@ -12,13 +12,11 @@ _MAX_NULLS = 100
 
 
 def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
-    """Compute the spectrum of a profile.
+    """Compute the spectrum of a profile of at least 8 columns.
 
-    The mean is taken off, and both ends are faded out by a Hann window, so that a profile that does
-    not hold whole periods has clean lines.
-
-    ``profile``: shape (columns,); the profile, at least 8 columns. Returns the response is that of
-    a box of the exposure's length (arXiv 2602.08474).
+    The mean is taken off, and a Hann window fades out both ends, so that a profile that does not
+    hold whole periods has clean lines. The response is that of a box of the exposure's length
+    (arXiv 2602.08474).
     """
     check_scene(scene)
     values = np.asarray(profile, dtype=np.float64)

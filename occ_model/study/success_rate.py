@@ -96,22 +96,14 @@ def success_rate(
 def right_bits(
     scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[int, ...]:
-    """Count the bits that each decoder reads rightly, all from the same images.
-
-    A decoder's count does not depend on the other decoders: :func:`success_rate` with that decoder
-    alone rests on the same count.
-    """
+    """Count the bits that each decoder reads rightly, all from the same images."""
     return right_and_whole(scene, settings, heartbeat)[0]
 
 
 def right_and_whole(
     scene: Scene, settings: RateSettings, heartbeat: Heartbeat = lambda: None
 ) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Count the bits that each decoder reads rightly, and the images whose payload it reads.
-
-    A payload is read if all its bits are. The arguments and errors are those of
-    :func:`right_bits`.
-    """
+    """Count the bits that each decoder reads rightly, and the images without a wrong bit."""
     correct, whole = [0] * len(settings.decoders), [0] * len(settings.decoders)
     length = scene.transmitter.payload_length
     for counts in right_bits_of_images(scene, settings, heartbeat):
@@ -139,11 +131,9 @@ def right_bits_of_images(
     heartbeat: Heartbeat = lambda: None,
     chosen: Plan | None = None,
 ) -> Iterator[tuple[int, ...]]:
-    """Count the bits that each decoder reads rightly, one image after the other.
+    """Count the bits that each decoder reads rightly, image by image, whatever follows.
 
-    The arguments and errors are those of :func:`right_bits`; an image does not depend on how many
-    follow it. ``chosen``: the effects that are simulated, by default those that the scene's own
-    signal calls for.
+    ``chosen``: the effects to simulate, by default those that the scene's own signal calls for.
     """
     sent = np.array(scene.transmitter.payload_bits, dtype=np.uint8)
     force = tuple(sorted(settings.force.items()))
@@ -182,11 +172,7 @@ def _kept(pictures: _Pictures, image: int) -> Observation | None:
 
 
 def _right_bits(seen: DecodeResult, sent: ByteArray) -> int:
-    """Count the bits that are right and accepted.
-
-    Bits can come with a failure, such as that they are not certain enough: the decoder has them and
-    does not accept them, and the window says of them that no code is read.
-    """
+    """Count the bits that are right and accepted: with a failure, such as uncertainty, none are."""
     if seen.failure is not None or seen.bits.size != sent.size:
         return 0
     return int(np.count_nonzero(seen.bits == sent))

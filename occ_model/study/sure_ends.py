@@ -37,10 +37,7 @@ _STAKES = (0.03, 0.1, 0.3)  # of the betting test, of the maximum: small ones de
 
 
 def images_to_be_sure(rate: float) -> int:
-    """Return how many images, all of them read, show a rate in percent; 0 where too many would.
-
-    The lower end of the interval of n images is n / (n + z^2).
-    """
+    """Return how many images n, all read, show a rate in percent, n / (n + z^2); 0 for too many."""
     fraction = rate / 100.0
     if fraction >= 1.0:
         return 0
@@ -61,10 +58,7 @@ def with_sure_ends(
     settings: RateSettings,
     heartbeat: Heartbeat = lambda: None,
 ) -> WorkingRange:
-    """Find, for each bisected end, values on both sides that are sure, and its interval.
-
-    ``heartbeat``: called before each image; what it raises ends the search.
-    """
+    """Find, for each bisected end, values on both sides that are sure, and its interval."""
     name = found.parameter
     ends = [sure_end(scene, name, rate, settings, pair, heartbeat) for pair in pairs_of(found)]
     return with_ends(found, ends)
@@ -109,10 +103,9 @@ def sure_end(
 
 
 class _Pictures:
-    """What is read in pictures at values about an end.
+    """What is read in pictures at values about an end, others at each value.
 
-    The pictures of each value are others: those of one seed begin at the same parts of a packet, so
-    that near values lose the same ones.
+    Pictures of one seed begin at the same parts of a packet, and are lost together.
     """
 
     def __init__(
@@ -187,9 +180,9 @@ def _between(first: float, last: float, part: float) -> float:
 def _until_refuted(counts: Iterable[int], bits: int, least: float) -> list[int] | None:
     """Count right bits until they refute that a fraction of them is read; None if they do not.
 
-    Whoever stakes on each image that less is read, at odds that are fair if the share is reached,
-    has c times the first stake at any time with a chance of at most 1 / c (J. Ville, *Etude
-    critique de la notion de collectif*, 1939): the images may be ended by their own result.
+    Whoever stakes on each image that less is read, at odds that are fair if the fraction is
+    reached, has c times the first stake at any time with a chance of at most 1 / c (J. Ville,
+    *Etude critique de la notion de collectif*, 1939): the images may be ended by their own result.
     """
     wealth, seen = [1.0] * len(_STAKES), []
     for right in counts:

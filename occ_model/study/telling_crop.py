@@ -18,13 +18,10 @@ _MIDDLE_GREY = 128.0
 
 
 def telling_crop(with_effect: Pixels, without: Pixels, most: tuple[int, int] = CROP) -> EffectCrop:
-    """Choose the crop.
+    """Choose the crop of the panel's bounding rectangle that shows a difference best.
 
-    A difference that varies slowly is shown on the whole panel, reduced by averaging areas. A fine
-    one would be averaged away: it is shown in real pixels, where it is largest.
-
-    ``with_effect`` and ``without``: shape (rows, columns); grey levels of the panel's bounding
-    rectangle in both pictures.
+    One that varies slowly is shown on the whole panel, reduced by averaging areas. A fine one would
+    be averaged away: it is shown in real pixels, where it is largest.
     """
     difference = with_effect - without
     size = (min(most[0], len(difference)), min(most[1], difference.shape[1]))

@@ -19,58 +19,45 @@ _BOUND_BINS = 2**14  # frequencies at which the bound of the rate is summed up
 
 
 def band_model_frequency(scene: Scene) -> float:
-    """Return the switching frequency from which the band model is undefined: t_LED = t, f = 1/t.
+    """Return the frequency in Hz from which the band model is undefined: t_LED = t, f = 1/t.
 
-    Beyond it every column's exposure holds a change of state, and no column shows one state alone:
-    h_c = (t_LED - t) / t_r is negative (the paper's section II.B).
-
-    Returns hz.
+    Beyond it no column shows one state alone: h_c = (t_LED - t) / t_r is negative (II.B).
     """
     return 1.0 / scene.camera.exposure_time
 
 
 def null_frequency(scene: Scene) -> float:
-    """Return the switching frequency at which an alternating pattern has no stripes: f = 2/t.
+    """Return the frequency in Hz at which an alternating pattern has no stripes: f = 2/t.
 
-    Chips that alternate have the period 2 t_LED. An exposure as long as that, t = 2/f, collects the
-    same light wherever it starts: the first null of sinc(t f / 2), the exposure's response to the
-    square wave's fundamental f/2.
-
-    Returns hz.
+    An exposure of t = 2 t_LED collects the same light wherever it starts: the first null of sinc(t
+    f / 2), the exposure's response to the square wave's fundamental f/2.
     """
     return 2.0 / scene.camera.exposure_time
 
 
 def panel_readout_time(scene: Scene) -> float:
-    """Return the readout time of the columns that show the panel: t_r times their number.
-
-    Returns seconds; 0 where the image shows no panel.
-    """
+    """Return the readout time of the columns that show the panel, in seconds; 0 without any."""
     camera = scene.camera
     region = region_of(panel_corners(scene), camera.rows, camera.columns)
     return 0.0 if region is None else region.columns * camera.readout_time
 
 
 def two_packets_frequency(scene: Scene) -> float | None:
-    """Return the switching frequency below which no two packets fit the panel's image.
+    """Return the frequency in Hz below which no two packets fit the panel's image, or None.
 
     The columns that show the panel are read out within t_r times their number; two packets of L
     chips take 2 L / f: f = 2 L / (t_r x columns). The paper's decoder needs two headers, and so a
     packet and a header at the least, two packets to find them wherever a packet starts.
-
-    Returns hz; None where the image shows no panel.
     """
     seen = panel_readout_time(scene)
     return 2.0 * len(sent_chips(scene.transmitter)) / seen if seen else None
 
 
 def row_rate_frequency(scene: Scene) -> float:
-    """Return the highest frequency that the columns can show: f = 1/(2 t_r), half the row rate.
+    """Return the highest frequency in Hz that columns can show: f = 1/(2 t_r), half the row rate.
 
-    The columns sample the light each t_r; of anything faster they show another frequency. Chips
-    that alternate at a switching frequency f have the frequency f/2, so that 1/t_r is its limit.
-
-    Returns hz.
+    Of anything faster they show an alias. Chips that alternate at a switching frequency f have the
+    frequency f/2, so that 1/t_r is its limit.
     """
     return 1.0 / (2.0 * scene.camera.readout_time)
 
@@ -85,10 +72,7 @@ def gaussian_rate_bound(
     integral the light's power (R. G. Gallager, Information Theory and Reliable Communication, 1968,
     section 8.3). N t_r is the part of a second's pictures in which columns are read out; of the
     light in the gap nothing is seen. A lamp with two levels and a limited switching frequency
-    carries less.
-
-    ``scene``: its exposure time, readout time and number of columns are used. ``signal_to_noise``:
-    the light's variance over that of a column's noise. Returns bits a second.
+    carries less. ``signal_to_noise``: the light's variance over that of a column's noise.
     """
     camera = scene.camera
     half_rate = row_rate_frequency(scene)
@@ -107,12 +91,10 @@ def gaussian_rate_bound(
 
 
 def saturation_exposure(scene: Scene) -> float:
-    """Return the exposure time at which the lit panel reaches the largest pixel value.
+    """Return the exposure in seconds at which the lit panel reaches the largest pixel value.
 
-    The paper's equations (1) and (2) with PV_max = 255, solved for t:
-    t = (255 / 118)^gamma K N^2 / (S (L_v + E_v R / pi)).
-
-    Returns seconds; infinite where there is no light.
+    The paper's equations (1) and (2) with PV_max = 255, solved for t: t = (255 / 118)^gamma K N^2 /
+    (S (L_v + E_v R / pi)); infinite without light.
     """
     brightest = float(luminance_levels(scene)[1])
     if not brightest:

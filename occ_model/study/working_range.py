@@ -48,7 +48,7 @@ def working_range(
 ) -> WorkingRange:
     """Find the intervals of values of a parameter at which a decoder reads a scene.
 
-    ``settings``: checked, with one decoder; the images are those of each value that is reported.
+    ``settings``: checked, with one decoder; the images are those of each value reported.
     """
     return _Search(scene, name, rate, settings, heartbeat).working_range()
 
@@ -182,11 +182,7 @@ class _Search:
         return [*(float(f"{value:.5g}") for value in between.tolist()), end]
 
     def _end(self, place: int, beyond: int, is_wanted: bool) -> RangeEnd | None:
-        """Find an end of an interval; None where its last coarse value is refuted.
-
-        ``place`` and ``beyond``: the last coarse value that is read, and the first that is not,
-        which may lie outside the search.
-        """
+        """Find an end after the last coarse value read; None if that is refuted."""
         works = first = self._values[place]
         fails = outer = self._values[beyond] if 0 <= beyond < len(self._values) else None
         if fails is not None and is_wanted:
@@ -257,10 +253,7 @@ class _Search:
             fails, step = moved(fails, outer, step), step * step
 
     def _whole(self, value: float, settings: RateSettings) -> Trial:
-        """Return a trial of all images.
-
-        A count that was ended by its own result would not have the interval that is stated.
-        """
+        """Return a trial of all images: a count ended by its own result has another interval."""
         return trial_of(value, list(self._images_at(value, settings)), self._bits)
 
     def _try(

@@ -18,17 +18,12 @@ _ROUNDING = 1e-9  # relative difference of two values that are the same
 def check_answer(
     step: Step, text: str, match: Match | None = None, scene: Scene | None = None
 ) -> CheckedAnswer:
-    """Check what a student typed.
+    """Check what a student typed against the model's value.
 
-    The model's value is that of the scene which the student sees, or that of the question while
-    nothing has been changed: a prediction. Where the question names values and the student has set
-    others, nothing is judged: they are to be set first. Where the step is about
-    a photo of the student's, the value is that of the photo's match. A wrong answer does not give
-    it away.
-
-    ``text``: the answer; a number without a unit is in the quantity's ``asked_in``. ``match``: the
-    match of the photo that is open, None where there is none. ``scene``: the scene that is shown;
-    None: the one that the question is about.
+    That is of the scene which the student sees, of the question's scene while nothing has been
+    changed (a prediction), or of the ``match`` where the step is about a photo of the student's.
+    Where the question names values and the student has set others, nothing is judged: they are to
+    be set first. A wrong answer does not give the value away.
     """
     text = text.strip()
     check = step.check

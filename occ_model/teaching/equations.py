@@ -26,9 +26,8 @@ _TIMES = Term("×")  # noqa: RUF001 - a multiplication sign
 def equations(scene: Scene) -> tuple[Equation, ...]:
     """Return the equations that determine a scene's stripes, with its numbers in them.
 
-    Returns the paper's equations (1) to (3), the band model's lengths, the columns of a chip, the
-    time in which a picture is read out, and the frequency at which an alternating pattern has no
-    stripes.
+    They are the paper's equations (1) to (3), the band model's lengths, the columns of a chip, the
+    readout time of a picture, and the frequency of an alternating pattern's null.
     """
     return (
         *_pixel_values(scene),

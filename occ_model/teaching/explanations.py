@@ -8,11 +8,7 @@ _MAX_NAMED = 2
 
 
 def explanation(step: Step, scene: Scene) -> str:
-    """Return a step's explanation beside another scene than its own.
-
-    Returns as it is where its numbers are those of the scene, or of a photo of the student's; else
-    it begins with the scene that they are of.
-    """
+    """Return a step's explanation, which begins with the scene of its numbers if not this one."""
     if step.own_photo or scene == step.asked:
         return step.answer
     names = (name for names in GROUPS.values() for name in names)

@@ -16,10 +16,7 @@ _MAX_CHIPS = 400  # largest number of chips that a drawing resolves
 
 
 def exposure_window(scene: Scene, column: int) -> ExposureWindow:
-    """Return the chips that a column's exposure covers.
-
-    Returns with a chip before the exposure and one after it.
-    """
+    """Return the chips that a column's exposure covers, and one before and one after it."""
     check_scene(scene)
     check_count("column", column, 0)
     if column >= scene.camera.columns:

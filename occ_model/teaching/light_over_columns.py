@@ -17,15 +17,11 @@ _ROUNDING = 1e-12  # relative error of a whole ratio, by how its parts are writt
 def light_over_columns(
     scene: Scene, first: float, last: float, most: int, edged: bool = False
 ) -> LightCurve | None:
-    """Return the light while some columns begin their exposures.
+    """Return the light while some columns begin their exposures; None for more than ``most`` chips.
 
-    Column ``i`` begins at ``t_0 + i t_r``, and so does every point ``i`` of this axis, also one
-    between two columns.
-
-    ``first`` and ``last``: the columns from which and to which the light is given. ``edged``:
-    whether the light rises and falls within the scene's edge time: linearly, from the start of a
-    chip on, as the mean of the chips over the last edge time. Returns with all chips that the
-    interval touches; None where they are more than ``most``.
+    Column ``i`` begins at ``t_0 + i t_r``, and so does every point ``i`` of this axis, also between
+    columns. ``edged``: whether the light rises and falls linearly within the scene's edge time,
+    from the start of a chip on.
     """
     check_scene(scene)
     if not first < last:

@@ -10,11 +10,10 @@ from occ_model.transmitter.packet import sent_chips
 
 
 def marked_values(scene: Scene, parameter: str) -> tuple[MarkedValue, ...]:
-    """Return the values to mark on the slider of a parameter, all else as in a scene.
+    """Return the values to mark on a parameter's slider; of frequency and exposure time only.
 
-    Returns of the switching frequency and the exposure time: where both are equal, t = t_LED; of
-    codes the first null of alternating chips, t = 2 t_LED; and where the exposure is a whole period
-    of what is sent, so that there are no bars. Of others none.
+    Where t = t_LED, where t = 2 t_LED (of codes, the first null of alternating chips), and where
+    the exposure is a whole period of what is sent, so that there are no bars.
     """
     check_scene(scene)
     exposure, transmitter = scene.camera.exposure_time, scene.transmitter

@@ -24,10 +24,9 @@ class PacketField:
 
 
 def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
-    """Return header and bits of the packet that a scene sends.
+    """Return header and bits of the packet that a scene sends, in chips from the packet's first.
 
-    Returns chips are counted from the packet's first; empty where the packet is no header with the
-    bits sent behind it, or where a bit has no chips of its own.
+    Empty where it is not a header and the bits sent, or a bit has no chips of its own.
     """
     check_scene(scene)
     sent = scene.transmitter
@@ -46,10 +45,9 @@ def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
 
 
 def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ...]:
-    """Return header and bits of the packet that a decoder read.
+    """Return header and bits of the packet that a decoder read, in places of ``result.chips``.
 
-    Returns chips are counted as in ``result.chips``; empty where no packet was read from chips, or
-    where all packets together were.
+    Empty where no packet was read from chips, or where all packets together were.
     """
     fields = packet_fields(scene) if scene.transmitter.framing == FRAMING.name else ()
     if not fields or not result.chips.size or not result.bits.size or len(result.headers) < 2:
@@ -64,13 +62,11 @@ def received_fields(result: DecodeResult, scene: Scene) -> tuple[PacketField, ..
 
 
 def received_edges(result: DecodeResult) -> FloatArray | None:
-    """Return where each chip received begins in the picture, and where the last one ends.
+    """Return where each received chip begins in the picture, and where the last one ends, or None.
 
     Column ``i`` of the picture reaches from ``i - 0.5`` to ``i + 0.5``, and a chip found by its
     columns begins and ends with them. A decoder that finds the chips by their light gives the time
     at which each is sent; the exposure of column ``i`` begins at the time that lies at ``i``.
-
-    Returns shape (chips + 1,), or None where no chips were read.
     """
     if result.chip_starts is None or result.region is None or not result.chips.size:
         return None
@@ -81,15 +77,11 @@ def received_edges(result: DecodeResult) -> FloatArray | None:
 
 
 def threshold_levels(profile: FloatArray, result: DecodeResult) -> tuple[float, float] | None:
-    """Return the levels of another profile between which a decoder's threshold lies.
+    """Return the neighbouring levels of another profile between which a decoder's threshold lies.
 
-    The decoder compares its signal, which is enhanced, with the threshold. A profile before the
-    enhancement has a level, too, that parts the columns as the decoder does. Columns that show
-    more than the panel, at its sides, can be on the other side of both.
-
-    ``profile``: shape (columns,); the profile of the whole picture. Returns neighbouring levels of
-    columns: any level between them parts zeros from ones with the fewest exceptions. None without a
-    threshold of the signal, or where more than one column in twenty is an exception.
+    The decoder compares its enhanced signal with the threshold. Any level between those returned
+    parts the columns before the enhancement as the decoder does, with the fewest exceptions:
+    columns at the panel's sides. None without a threshold of the signal, or with more than 5 %.
     """
     region, signal = result.region, result.signal
     if result.threshold is None or region is None or signal is None:

@@ -13,10 +13,7 @@ _MAX_CHIPS = 400  # maximum number of chips that a drawing resolves; only these 
 
 
 def rolling_shutter(scene: Scene, shown: int = 25) -> RollingShutter:
-    """Return the exposures of some of the first columns, which begin within four chips.
-
-    ``shown``: number of columns; fewer where the picture has fewer.
-    """
+    """Return the exposures of up to ``shown`` first columns, which begin within four chips."""
     check_scene(scene)
     camera, period = scene.camera, scene.transmitter.switching_period
     last = min(camera.columns - 1, max(int(_CHIPS * period / camera.readout_time), 1))

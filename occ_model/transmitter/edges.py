@@ -17,10 +17,7 @@ PhasesAt = Callable[[Fraction], Phases]  # of all windows' starts, shifted by ch
 
 
 class EdgedWaveform:
-    """The light of a chip sequence sent repeatedly by an LED with edges.
-
-    ``chips``: shape (chips,); one period. ``edge``: the edge time tau in chips, above 0.
-    """
+    """The light of chips sent repeatedly by an LED with an edge time tau above 0, in chips."""
 
     def __init__(self, chips: ByteArray, edge: Fraction) -> None:
         self.period = period = len(chips)
@@ -47,8 +44,6 @@ class EdgedWaveform:
 
         As in :meth:`.Waveform.lit_chips` no term is the difference of two much larger numbers: the
         error stays that of the phases, also in windows far shorter than a chip.
-
-        ``exposure``: length of every window, in chips.
         """
         duration = Duration.of(exposure, self.period)
         now = starts(Fraction(0))
@@ -63,8 +58,7 @@ class EdgedWaveform:
     def _kept_back(self, starts: Phases, duration: Duration) -> FloatArray:
         """Light that the ramps keep back within windows, for edges within one chip.
 
-        A ramp of height h keeps back h (x - x^2 / (2 tau)) within the time x after its start, and
-        h tau / 2 in all.
+        A ramp of height h keeps back h (x - x^2 / (2 tau)) within the time x, h tau / 2 in all.
         """
         # A fraction of a ramp that is not a normal number would be divided with an overflow.
         edge = max(float(self._edge), float(np.finfo(np.float64).tiny))
@@ -81,9 +75,9 @@ class EdgedWaveform:
     def _swing_integral(self, starts: Phases, duration: Duration) -> FloatArray:
         """Integral over windows of the running integral of the chips less their mean.
 
-        The mean is taken out before both integrations, so that they are periodic and stay small
-        for any edge time. In chips^2, times 2 period^2: I x + H x^2 within a chip whose tables
-        are I and H.
+        The mean is taken out before both integrations, so that they are periodic and stay small for
+        any edge time. In chips^2, times 2 period^2: I x + H x^2 within a chip whose tables are I
+        and H.
         """
         windows = Windows.of(starts, duration)
         first, last, fraction = windows.first, windows.last, starts.fraction

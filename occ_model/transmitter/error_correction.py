@@ -21,20 +21,13 @@ def protected_bits(bits: int) -> int:
 
 
 def protect(bits: ByteArray) -> ByteArray:
-    """Add the parity to a payload, which is filled up with zeros to whole bytes.
-
-    Returns shape (protected_bits,).
-    """
+    """Add the parity to a payload, which is filled up with zeros to whole bytes."""
     sent = _codec().encode(bytearray(np.packbits(bits).tobytes()))
     return np.unpackbits(np.frombuffer(bytes(sent), dtype=np.uint8))
 
 
 def correct(bits: ByteArray, count: int) -> ByteArray | None:
-    """Correct a payload with its parity.
-
-    ``bits``: shape (protected_bits,); as received. Returns shape (count,), or None; None where too
-    many bytes are wrong.
-    """
+    """Correct a payload of ``count`` bits with its parity; None where too many bytes are wrong."""
     codec = _codec()
     from reedsolo import ReedSolomonError
 

@@ -31,10 +31,7 @@ def packet_length(bits: int) -> int:
 
 
 def sent_chips(transmitter: Transmitter) -> ByteArray:
-    """Return one period of the chips sent: the raw pattern if there is one, else the packet.
-
-    Returns shape (chips,), read-only.
-    """
+    """Return one period of the chips sent, raw pattern or packet; read-only."""
     if transmitter.pattern:
         return _pattern_chips(transmitter.pattern)
     return _payload_chips(
@@ -68,10 +65,7 @@ def sends_paper_code(transmitter: Transmitter) -> bool:
 
 
 def packets(codes: IndexArray, bits: int) -> ByteArray:
-    """Return the packets of some codes by the paper's scheme.
-
-    Returns shape (codes, chips).
-    """
+    """Return the packets of some codes by the paper's scheme, shape (codes, chips)."""
     places = np.arange(bits)[::-1]
     data = differential_manchester.encode(codes[:, None] >> places & 1, level=HEADER[-1])
     header = np.broadcast_to(np.array(HEADER, dtype=np.uint8), (len(codes), len(HEADER)))

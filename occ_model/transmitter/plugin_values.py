@@ -11,10 +11,7 @@ MOST_CHIPS = 65_536  # of a plug-in's period or result: more than any built-in p
 
 
 def excess(what: str, values: object, most: int) -> str | None:
-    """Say that there are more values than anything shows or counts; None if there are not.
-
-    To be asked first: to look at each of millions of values takes as long as to show them.
-    """
+    """Say that there are more values than anything shows or counts, before looking at each."""
     if isinstance(values, np.ndarray):
         count = values.size
     else:

@@ -70,10 +70,7 @@ class Windows:
 
 
 class Waveform:
-    """The light of a chip sequence that is sent repeatedly.
-
-    ``chips``: shape (chips,); one period.
-    """
+    """The light of one period of chips that is sent repeatedly."""
 
     def __init__(self, chips: ByteArray) -> None:
         self.period = len(chips)
@@ -87,8 +84,6 @@ class Waveform:
 
         The difference is taken term by term, the exact whole chips separately: the error stays that
         of the phases, about 2e-16 chips, for windows of any length.
-
-        Returns shape as starts.
         """
         windows = Windows.of(starts, duration)
         first, last, crosses = windows.first, windows.last, windows.crosses

@@ -46,10 +46,7 @@ class ChipLattice:
     values: ByteArray  # Shape (chips,): the chips
 
     def lit(self, columns: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return each column's lit fraction, and the chips at its exposure's start and end.
-
-        Returns shape (columns,).
-        """
+        """Return each column's lit fraction, and the chips at its exposure's start and end."""
         starts = self.phase - self.first + self.step * np.arange(columns)
         ends = starts + self.exposure
         chips = self.values.astype(np.float64)
@@ -77,12 +74,7 @@ class ChipTiming:
 
 
 def fit_timing(light: FloatArray, start: ChipLattice) -> ChipTiming | None:
-    """Fit the timing of chips to the light of columns.
-
-    ``light``: shape (columns,); proportional to the light of each column, up to a constant.
-    ``start``: the chips as they were decoded, with a rough timing. Returns None where the light
-    does not follow the chips.
-    """
+    """Fit the timing of decoded chips to the columns' light; None where it does not follow them."""
     if start.values.size == 0:
         return None
     tried = [replace(start, phase=start.phase + shift) for shift in _SHIFTS]
@@ -167,8 +159,7 @@ class _Levels:
 def _freedom(light: FloatArray, lattice: ChipLattice) -> int:
     """Return the number of polynomials of either level that explains light best.
 
-    By the Bayesian information criterion (Schwarz, Ann. Stat. 6:461, 1978), over independent
-    columns.
+    By the Bayesian information criterion (Schwarz, Ann. Stat. 6:461, 1978), of independent columns.
     """
     most = len(lattice.values) / _CHIPS_A_FREEDOM
     tried = [_MIN_FREEDOM, *(freedom for freedom in _FREEDOMS if freedom <= most)]
@@ -235,8 +226,7 @@ def _improved(
 def _unseen(lattice: ChipLattice, count: int) -> FloatArray:
     """Return the covariance of middle and step by edges that fall between two exposures.
 
-    An exposure shorter than the time from column to column leaves a part of it out: wherever an
-    edge lies there, the columns are the same.
+    With exposures shorter than the time between columns, columns do not show where edges lie.
     """
     left_out = max(lattice.step - lattice.exposure, 0.0)
     edges = max(1, int(np.count_nonzero(np.diff(lattice.values.astype(np.int64)))))

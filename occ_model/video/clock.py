@@ -20,11 +20,7 @@ _MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames from wh
 def fits_of(
     phases: Phases, readout_time: float, tolerance: float, columns: int, period: float
 ) -> tuple[ClockFit, ...]:
-    """Fit the clock to phases, with what a rough readout time allows.
-
-    ``readout_time``: a rough value in seconds. ``tolerance``: the fraction by which it may be
-    wrong. ``period``: the frame period in seconds: reading out a frame takes no longer.
-    """
+    """Fit the clock to phases, by a readout time known to a fraction, below a frame period."""
     if len(phases.times) < _MIN_FRAMES:
         return ()
     step, _ = mean_step(phases)
@@ -37,11 +33,7 @@ def fits_of(
 def state(
     fits: tuple[ClockFit, ...], phases: Phases, times: FrameTimes, part: Part, columns: int
 ) -> Clock:
-    """State what fits say of a film's clock.
-
-    ``fits``: the likeliest first; at least one. ``times`` and ``part``: the frames' times, and the
-    part of the film that the phases are those of.
-    """
+    """State what fits, the likeliest first, say of a film's clock in one part of its times."""
     best = fits[0]
     readout = best.step / best.frequency
     relative = np.hypot(best.step_error / best.step, best.frequency_error / best.frequency)

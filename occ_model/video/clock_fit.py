@@ -30,11 +30,7 @@ _MAX_CHI_SQUARED_EXCESS = 9.0  # up to which an alias is not excluded: three sta
 
 
 def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
-    """Fit the frequency to the phases of frames.
-
-    ``low`` and ``high``: the frequencies between which it lies, in Hz. Returns the likeliest, and
-    others that are about as likely; none where the phases follow no frequency.
-    """
+    """Return the frequencies, ``low`` to ``high`` Hz, that fit phases, the likeliest first."""
     step, _ = mean_step(phases)
     turned = np.mod(phases.places - step * phases.columns, phases.period)
     fits = []

@@ -32,11 +32,7 @@ class ShutterTiming:
 
     @classmethod
     def of(cls, scene: Scene, columns: tuple[int, int] | None = None) -> "ShutterTiming":
-        """Return the timing of a scene.
-
-        ``columns``: the first column that shows the panel and the one after the last; by default
-        all.
-        """
+        """Return the timing of a scene for columns from the panel's first to before its last."""
         first, end = columns or (0, scene.camera.columns)
         if not 0 <= first < end:
             raise ParameterError.of(
@@ -72,10 +68,7 @@ class ShutterTiming:
 
 
 def chips_seen(timings: Iterable[tuple[ShutterTiming, Fraction]], period: int) -> IndexArray:
-    """Count how often frames show each chip of what is sent repeatedly.
-
-    ``period``: chips after which what is sent repeats. Returns shape (period,).
-    """
+    """Count how often frames show each chip of what is sent repeatedly, shape (period,)."""
     counts = np.zeros(period, dtype=np.int64)
     for timing, start in timings:
         first, end = timing.whole_chips(start)
@@ -88,8 +81,8 @@ def packets_received_on_average(
 ) -> Fraction:
     """Return the fraction of packets that frames show whole, on average over the time of the start.
 
-    A view of V chips holds a packet of L chips whole from V - L of all starts, of every L where
-    V >= L: the mean number is (V - L) / L.
+    A view of V chips holds a packet of L chips whole from V - L of all starts, of every L where V
+    >= L: the mean number is (V - L) / L.
     """
     view = timing.view * timing.frequency
     return max(view - length, Fraction(0)) / (timing.frequency * frame_period)

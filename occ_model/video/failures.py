@@ -50,11 +50,7 @@ def why_unplaced(frames: Sequence[TimedFrame]) -> str:
 
 
 def why_not_read(soft: SoftFrame | None, joined: Joined, period: SentPeriod) -> str | None:
-    """Say why the chips of all frames together give no payload; None where they do.
-
-    ``soft``: what the framing reads from them; None where some chips were not in view. ``joined``
-    and ``period``: the chips, and what is sent.
-    """
+    """Say why the chips of all frames, joined, give no payload; None where they do."""
     if period.scheme is None:
         return "A raw chip pattern is sent, which holds no packets."
     if soft is None:

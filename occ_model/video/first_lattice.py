@@ -19,12 +19,10 @@ _STEPS_A_TURN = 8.0  # lengths of a chip tried while the last edge moves by a ch
 def first_lattice(
     result: DecodeResult, signal: FloatArray, before: int, scene: Scene
 ) -> ChipLattice | None:
-    """Put the chips of a decoder on a regular lattice.
+    """Put the chips of a decoder on a regular lattice; None where it found none.
 
-    ``result``: with the chips and where each starts. ``signal``: shape (columns,); the columns to
-    put chips on: those of the result, and some to either side. ``before``: how many of them lie
-    before those of the result. ``scene``: its exposure time and switching frequency are a first
-    guess. Returns None where the decoder found no chips.
+    ``before``: how many columns of the signal lie before the result's region. The scene's exposure
+    time and switching frequency are a first guess.
     """
     starts = result.chip_starts
     if starts is None or result.chips.size < _MIN_EDGES:

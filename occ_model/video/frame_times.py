@@ -61,10 +61,9 @@ class FrameTimes:
 
 
 def frame_times(times: FloatArray, rounded_to: float = 0.0) -> FrameTimes | None:
-    """Find the period of frame times.
+    """Find the period of frame times in seconds; None where fewer than two differ.
 
-    ``times``: shape (frames,); in seconds. ``rounded_to``: the step that they are whole multiples
-    of, in seconds. Returns None where fewer than two times differ.
+    ``rounded_to``: the step that they are whole multiples of, in seconds.
     """
     intervals = np.diff(times)
     ahead = intervals[intervals > _MIN_INTERVAL]

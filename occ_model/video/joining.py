@@ -74,12 +74,10 @@ class Joined:
         deviation: float = 0.0,
         part_unknown: bool = False,
     ) -> Place | None:
-        """Find the place of a frame's first chip.
+        """Find the place of a frame's first chip; None where none is far likelier than others.
 
-        ``foretold`` and ``deviation``: the place that the clock foretells, and its standard
-        deviation in chips; None where it does not. ``part_unknown``: whether places are right but
-        for a whole number of parts: a frame's own number of its part then says nothing. Returns
-        None where no place is far likelier than others.
+        ``foretold`` and ``deviation``: the place by the clock and its standard deviation, in chips.
+        ``part_unknown``: whether places are right but for a whole number of parts.
         """
         length = self._period.length
         first, last = frame.whole

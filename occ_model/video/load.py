@@ -72,10 +72,7 @@ def load_video(path: str | Path, scan_axis: str = "auto", *, channel: str = "lum
 
 
 class VideoFile(Video):
-    """A film in a file: see :func:`load_video`.
-
-    ``turned``: whether the film's lines became the columns.
-    """
+    """A film in a file: see :func:`load_video`; ``turned``: its lines became the columns."""
 
     path: Path
 
@@ -123,11 +120,7 @@ class VideoFile(Video):
             self.close()
 
     def frame(self, index: int) -> VideoFrame:
-        """Read one frame.
-
-        One that was not read before is looked for at the time that the frame rate gives it, and
-        decoded from the start of the film where no frame has that time.
-        """
+        """Read one frame: as read before, at its time by the frame rate, or from the start."""
         check_count("index", index, 0)
         with self._lock:
             return self._read_one(int(index))

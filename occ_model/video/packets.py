@@ -35,9 +35,8 @@ def packets_of(
 ) -> SentPackets:
     """Count the packets that were sent while a film ran, and read those in view.
 
-    ``parts``: the parts of the film. Of each count the packets that start after its first chip and
-    end before its last one. ``bits``: the payload, joined from all frames; empty where it was not
-    read.
+    Of each part count those that start after its first chip and end before its last one. ``bits``:
+    the payload joined from all frames; empty where it was not read.
     """
     found: list[FilmPart] = []
     packets: list[PacketReading] = []

@@ -14,10 +14,7 @@ UNKNOWN = "·"  # in place of a letter, a byte or a bit that has not been in vie
 
 
 def known_bits(joined: Joined, period: SentPeriod) -> IndexArray:
-    """Return the payload's bits known from the chips in view.
-
-    Returns shape (bits,); 0 or 1, and -1 where it is not known.
-    """
+    """Return the payload's bits by the chips in view: 0, 1, or -1 where unknown."""
     scheme = period.scheme
     if scheme is None or scheme.correction != "none":
         return np.full(0 if scheme is None else scheme.bits, -1, dtype=np.int64)
@@ -62,11 +59,7 @@ def _of_blocks(chips: ByteArray, known: BoolArray, period: SentPeriod) -> IndexA
 
 
 def written(bits: IndexArray, scene: Scene) -> str:
-    """Write bits of which some are unknown, in the form of the scene's payload.
-
-    ``bits``: shape (bits,); as :func:`known_bits` gives them. ``scene``: its payload's form is
-    used; a code is written in bits.
-    """
+    """Write bits, unknown ones -1, in the form of the scene's payload, a code in bits."""
     form = form_of(scene.transmitter.payload) if scene.transmitter.payload else "bits"
     if form == "bits":
         return "".join(UNKNOWN if bit < 0 else str(bit) for bit in bits.tolist())

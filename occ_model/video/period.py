@@ -109,9 +109,8 @@ class SentPeriod:
     def places(self, chips: ByteArray) -> tuple[int, ...]:
         """Return the places in the period that a frame's first chip can have, as headers show it.
 
-        ``chips``: shape (chips,); those in view, none of them cut off. Returns one where a header
-        shows it, several where it may be any of them, none where no header is in view, or several
-        contradict each other.
+        One where a header shows it, several where it may be any of them, none where no header is in
+        view, or several contradict each other. None of ``chips`` is cut off.
         """
         if self.scheme is None:
             return ()
@@ -155,11 +154,7 @@ class SentPeriod:
         return tuple((part * length - found[0]) % self.length for part in range(self.parts))
 
     def part_bits(self, chips: ByteArray) -> tuple[int, ByteArray] | None:
-        """Read one part by itself.
-
-        ``chips``: shape (part_length,); its chips. Returns which part it says it is, and its bits;
-        None where it is not read.
-        """
+        """Read one part by itself: which it says it is, and its bits; None where it is not read."""
         if self.scheme is None:
             return None
         if self.parts > 1:

@@ -69,10 +69,7 @@ class ClockFit:
     noise: float  # Standard deviation of a phase about the fit, in chips
 
     def at_start(self, times: FloatArray) -> FloatArray:
-        """Return the phase in column 0 of frames at some times, in chips counted on over periods.
-
-        ``times``: in seconds.
-        """
+        """Return the phase in column 0 of frames at some times, in chips counted over periods."""
         later = np.asarray(times, dtype=np.float64) - self.middle
         phase = self.start + self.frequency * later + 0.5 * self.drift * later**2
         for jump in self.jumps:
@@ -89,10 +86,7 @@ class ClockFit:
 
 
 def mean_step(phases: Phases) -> tuple[float, float]:
-    """Return the weighted mean of the chips a column, and its standard deviation.
-
-    The deviation is that of the frames' scatter, where there are enough of them.
-    """
+    """Return the weighted mean of the chips a column, and its deviation by the frames' scatter."""
     weights = 1.0 / np.maximum(phases.step_errors, 1e-12) ** 2
     # A single frame that is surer than all others may be so by mistake.
     weights = np.minimum(weights, 4.0 * float(np.median(weights)))

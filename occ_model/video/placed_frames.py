@@ -26,11 +26,7 @@ _ROUNDS = 4  # maximum rounds over unplaced frames at the end
 
 
 class PlacedFrames:
-    """Frames, in the order of time, and their places.
-
-    ``readout_time`` and ``tolerance``: a rough readout time in seconds, and the fraction by which
-    it may be wrong.
-    """
+    """Frames, in the order of time, and their places, by a readout time known to a fraction."""
 
     def __init__(self, period: SentPeriod, readout_time: float, tolerance: float) -> None:
         self.joined = Joined(period)

@@ -45,22 +45,13 @@ class TimedFrame:
 
 
 def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray:
-    """Return the panel of a camera's picture as a receiver enhances it.
-
-    ``image``: shape (rows, columns); the camera's picture. ``method``: the enhancement, as a scene
-    names it; its curve follows from the columns' means. Returns shape (rows of the region, columns
-    of the region).
-    """
+    """Return the panel of a camera's picture as a receiver enhances it, by its columns' means."""
     enhancement = Enhancement(column_means(image, region), method)
     return enhancement.of_bytes(np.ascontiguousarray(region.crop(image)))
 
 
 def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
-    """Read one frame as a single picture: as the camera gives it, else as the receiver enhances it.
-
-    ``image``: shape (rows, columns); the camera's picture. Returns that of the enhanced picture
-    where this one alone shows the payload, else of the camera's.
-    """
+    """Read one frame as a single picture: enhanced, where this one alone shows the payload."""
     plain = decode(image, scene.replace(enhancement="none"), decoder)
     method, region = scene.model.enhancement, plain.region
     if plain.failure is None or region is None or method == "none":
@@ -75,10 +66,9 @@ def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER)
 class FrameReader:
     """Reads frames one after the other, as the camera gives them and as the receiver enhances them.
 
-    The timing of chips is fitted to the light, which the camera's picture shows. Their values are
-    read from either, as of a single picture: an enhancement moves the threshold, so that chips can
-    be distinguished in one picture that cannot in the other. Those count that explain the light
-    better.
+    Chips' timing is fitted to the light of the camera's picture. Their values are read from either,
+    and those count that explain the light better: an enhancement moves the threshold, so that chips
+    can be distinguished in one picture that cannot in the other.
     """
 
     def __init__(self, scene: Scene, decoder: str) -> None:

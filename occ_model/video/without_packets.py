@@ -94,10 +94,7 @@ class WithoutPackets:
         return float(np.median([look.period_error / look.period for look in seen]))
 
     def described(self, readout_time: float) -> str:
-        """Say what the frames show, in a sentence or two; nothing where it is neither of these.
-
-        ``readout_time``: a rough value in seconds, by which a frequency is estimated.
-        """
+        """Say what the frames show in a sentence or two, by a rough readout time; or nothing."""
         seen = [look for look in self._looks if look.repeats]
         count = len(self._looks)
         if not seen:

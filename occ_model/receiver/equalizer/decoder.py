@@ -35,9 +35,7 @@ _MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that is un
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code from a signal whose exposure is undone.
 
-    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its number of bits,
-    switching frequency, exposure time, readout time, averaging, gamma and enhancement are used, and
-    its deconvolution. The result holds the deconvolved light and the threshold decoder's steps.
+    The result holds the deconvolved light and the threshold decoder's steps.
     """
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:
@@ -65,8 +63,7 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
 def _agreed(read: DecodeResult, scene: Scene) -> DecodeResult:
     """Read every packet that the picture shows, and keep what most of them say.
 
-    The paper reads the first one alone. Light that is undone has errors of its own; what they
-    make of one packet is rarely what they make of another.
+    The paper reads the first one alone; errors of undone light differ from packet to packet.
     """
     if scene.transmitter.pattern:
         return read

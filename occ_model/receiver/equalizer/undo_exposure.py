@@ -22,20 +22,14 @@ _TAPER_EXPOSURES = 4.0  # exposures over which either end fades out, before the 
 
 
 def box(columns: float) -> FloatArray:
-    """Return a moving average over a number of columns, as an impulse response about its middle.
-
-    Their sum is 1. A column that is covered in part counts as much.
-    """
+    """Return a moving average over columns, also a part of one, as an impulse response of sum 1."""
     reach = max(0, math.ceil((columns - 1.0) / 2.0))
     covered = np.clip(columns / 2.0 - np.abs(np.arange(-reach, reach + 1)) + 0.5, 0.0, 1.0)
     return np.asarray(covered / covered.sum())
 
 
 def response(columns: float, length: int) -> FloatArray:
-    """Return the frequency response of :func:`box` at the frequencies of a spectrum.
-
-    Returns shape (length // 2 + 1,); real, as the box is even.
-    """
+    """Return the real frequency response of :func:`box`, shape (length // 2 + 1,)."""
     taps = box(columns)
     circle = np.zeros(length)
     np.add.at(circle, np.arange(len(taps)) - len(taps) // 2, taps)
@@ -45,12 +39,7 @@ def response(columns: float, length: int) -> FloatArray:
 def undo_exposure(
     light: FloatArray, exposure: float, chip: float, method: str = MMSE
 ) -> FloatArray:
-    """Return the light before it was averaged over the exposure.
-
-    ``light``: shape (columns,); proportional to light. ``exposure``: exposure time in columns, t /
-    t_r. ``chip``: length of a chip in columns, whose spectrum the light has. Returns shape as
-    light; at each column the light in the middle of its exposure.
-    """
+    """Return the light before it was averaged over ``exposure`` columns, at its middle."""
     from scipy.fft import next_fast_len  # both slow to import, and for this decoder alone
     from skimage.restoration import wiener
 
@@ -83,8 +72,8 @@ def _noise_over_light(
 ) -> float:
     """Measure the noise's power beside the nulls, relative to the light's at low frequencies.
 
-    What the signal has there cannot be light of chips. It is the noise, the rounding, an error of
-    the tone curve, and what the ends of the picture cut off.
+    What the signal has there cannot be light of chips: it is noise, rounding, an error of the tone
+    curve, and what the ends of the picture cut off.
     """
     power = np.abs(np.fft.rfft(faded)) ** 2 / len(faded)
     count = max(1, int(_NULL_FRACTION * len(power)))

@@ -21,9 +21,9 @@ _ROUNDING = 1e-12  # variance in lit fractions squared below which it is roundin
 class CodeTemplates:
     """The profile of a packet of each code at an exposure time.
 
-    A profile is a sum of the chips' responses: that of code c at bin b is the sum over its lit
-    chips j of ``response[b - j * BINS_PER_CHIP]``. So a correlation with every code is one
-    correlation with the response, and its sums over the lit chips (:func:`sums_of_halves`).
+    That of code c at bin b is the sum over its lit chips j of ``response[b - j * BINS_PER_CHIP]``.
+    So a correlation with every code is one correlation with the response, and its sums over the lit
+    chips (:func:`sums_of_halves`).
     """
 
     bits: int  # Int: bits of a code
@@ -42,10 +42,7 @@ class CodeTemplates:
 
 @lru_cache(maxsize=16)
 def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
-    """Make the forward model of every code.
-
-    ``exposure``: the exposure time in chips, exactly.
-    """
+    """Make the forward model of every code; ``exposure`` in chips, exactly."""
     response = chip_response(packet_length(bits), exposure)
     bins = np.arange(len(response))
     some = np.arange(0, 2**bits, max(1, 2**bits // _TONE_CODES))
@@ -60,10 +57,7 @@ def code_templates(bits: int, exposure: Fraction) -> CodeTemplates:
 
 
 def chip_response(period: int, exposure: Fraction) -> FloatArray:
-    """Return the lit fraction of an exposure that starts in each bin, when chip 0 alone is lit.
-
-    ``exposure``: the exposure time in chips, exactly. Returns shape (period * BINS_PER_CHIP,).
-    """
+    """Return the lit fraction of an exposure (in chips) from each bin, when chip 0 alone is lit."""
     first_chip = np.zeros(period, dtype=np.uint8)
     first_chip[0] = 1
     bins = np.arange(period * BINS_PER_CHIP)
@@ -73,17 +67,13 @@ def chip_response(period: int, exposure: Fraction) -> FloatArray:
 
 
 def sums_of_halves(values: FloatArray, bits: int) -> tuple[FloatArray, FloatArray]:
-    """Sum values over the chips that are lit, in each half of every packet.
+    """Sum values, shape (chips, n), over the chips that are lit, in each half of every packet.
 
     A bit lights one of its two chips: the first where the level after the bit is 0, the second
     where it is 1. So a bit's chips depend on no level but the one after it, and the sum over a
-    packet is that over its first half, of which there are only 2^(bits / 2), plus that over its
-    second half.
-
-    ``values``: shape (chips, n); values for each chip of a packet. Returns ``first``, shape (2 **
-    (bits // 2), n); over the header and the first ``bits // 2`` bits, by the levels after each of
-    them, read as a binary number. Returns ``second``, shape (2 ** (bits - bits // 2), n); over the
-    other bits, in the same way.
+    packet is that over its first half, header and ``bits // 2`` bits, of which there are only
+    2^(bits // 2), plus that over its second half. Rows are numbered by the levels, read as a binary
+    number.
     """
     header = np.array(HEADER, dtype=np.float64) @ values[: len(HEADER)]
     pairs = values[len(HEADER) :].reshape(bits, 2, -1)
@@ -102,10 +92,7 @@ def _add_bits(sums: FloatArray, pairs: FloatArray) -> FloatArray:
 
 @lru_cache(maxsize=4)
 def codes_by_levels(bits: int) -> IndexArray:
-    """Return the code with these levels after its bits, the levels read as a binary number.
-
-    Returns shape (2 ** bits,), read-only.
-    """
+    """Return the code with these levels after its bits, the levels read as a binary number."""
     after = np.arange(2**bits)
     before = after >> 1 | HEADER[-1] << (bits - 1)
     codes: IndexArray = after ^ before  # a bit is 1 where the level changes
@@ -123,8 +110,7 @@ def _profiles(codes: IndexArray, bits: int, response: FloatArray) -> FloatArray:
 def _energies(bits: int, response: FloatArray) -> FloatArray:
     """Return each profile's sum of squares about its mean, from the response's autocorrelation.
 
-    It is the sum of the autocorrelation over all pairs of lit chips: within the first half of a
-    packet, within the second, and across.
+    It is summed over all pairs of lit chips: within each half of a packet, and across.
     """
     period = packet_length(bits)
     spectrum = np.abs(np.fft.rfft(response)) ** 2

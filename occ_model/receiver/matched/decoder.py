@@ -63,10 +63,6 @@ def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     With r1 and r2 the correlations of the best and the second best code with the signal, the
     confidence is 1 - (1 - r1^2) / (1 - r2^2): 0 where both explain the same fraction of the
     variance, near 1 where the best alone explains all of it.
-
-    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its scheme, number of
-    bits, switching frequency, exposure time and readout time are used. The result holds correlation
-    and confidence, the folded signal and the best code's profile.
     """
     result = DecodeResult(DECODER.name, signal=signal, failure=why_flat(signal))
     if result.failure is not None:
@@ -198,10 +194,7 @@ def _why_ambiguous(code: int, likely: IndexArray, scene: Scene) -> str | None:
 
 
 def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArray, IndexArray]:
-    """Find the codes that correlate best with the signal over all phases, and their phases.
-
-    Returns shape (_CANDIDATE_CODES,) or fewer; a phase is the bin at which a code's packet starts.
-    """
+    """Return the codes that correlate best with the signal, and the bins where they start."""
     bins, period = len(signal), packet_length(templates.bits)
     about_mean = signal - signal.mean()
     spectrum = np.fft.rfft(about_mean) * np.conj(np.fft.rfft(templates.response))
@@ -217,10 +210,7 @@ def most_likely(signal: FloatArray, templates: CodeTemplates) -> tuple[IndexArra
 
 
 def _largest_sums(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Return the largest value of each sum of a row of one array and a row of the other.
-
-    Returns shape (rows of first, rows of second).
-    """
+    """Return the largest value of each sum of a row of one array and a row of the other."""
     columns, shape = first.shape[1], (len(first), len(second))
     # Neighbours in memory are different sums, which the processor adds several at a time.
     first, second = first.T[:, :, None].copy(), second.T[:, None].copy()

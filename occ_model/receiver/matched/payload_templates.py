@@ -43,15 +43,11 @@ class PayloadTemplates:
     def most_likely(
         self, rank: IndexArray, count: int, sure: float
     ) -> tuple[IndexArray, IndexArray]:
-        """Find the payloads that correlate best with a signal over all phases, and their phases.
+        """Return the ``count`` payloads, and phases, that correlate best with a signal.
 
-        Each payload is compared with the signal that has its own levels: one may light most chips
-        and another one hardly any, so that no levels are those of all.
-
-        ``rank``: shape (bins,); the place of each bin of the signal, folded over one period, in the
-        order of its values. ``count``: how many payloads, or all if there are fewer. ``sure``:
-        correlation from which a payload is among them, however many there are. Returns shape
-        (count,) or more.
+        Each payload is compared with the signal that has its own levels, as it may light most chips
+        or hardly any. ``rank``: shape (bins,); the order of the bins of the folded signal. All with
+        a correlation of ``sure`` are among them.
         """
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)
@@ -70,11 +66,7 @@ class PayloadTemplates:
 
 @lru_cache(maxsize=2)
 def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
-    """Make the forward model of every payload.
-
-    ``scheme``: the scheme, of at most :data:`MOST_BITS` bits. ``exposure``: the exposure time in
-    chips, exactly.
-    """
+    """Make the forward model of every payload of up to :data:`MOST_BITS` bits."""
     codes = range(2**scheme.bits)
     response = np.fft.rfft(chip_response(scheme.length, exposure))
     spectra = np.empty((len(codes), len(response)), dtype=np.complex64)
@@ -100,10 +92,7 @@ def payload_templates(scheme: Scheme, exposure: Fraction) -> PayloadTemplates:
 
 
 def same_chips(code: int, others: IndexArray, scheme: Scheme) -> int | None:
-    """Find another payload whose chips, sent repeatedly, are the same from another start.
-
-    Its profile is the same too, so among the likeliest it is found if there is one.
-    """
+    """Find another payload whose chips, sent repeatedly, are the same from another start."""
     twice = np.tile(scheme.encode(bits_of(code, scheme.bits)), 2).tobytes()
     for other in others.tolist():
         if other != code and scheme.encode(bits_of(other, scheme.bits)).tobytes() in twice:

@@ -18,10 +18,8 @@ _BEAM_WIDTH = 256  # paths kept at each chip
 def beam_chips(words: tuple[Word, ...], memory: int, statistics: ChipStatistics) -> Chips:
     """Find chips whose light is near to the rows, and the margins of each.
 
-    A margin is that to the best way kept with the opposite chip, some memories later; where none
-    is kept, that to the worst way kept.
-
-    ``memory``: chips that an exposure reaches back to.
+    A margin is that to the best way kept with the opposite chip, some memories later; where none is
+    kept, that to the worst way kept.
     """
     chip_after, place_after = _steps(words)
     reach = memory + 1

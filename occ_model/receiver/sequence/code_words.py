@@ -35,12 +35,10 @@ class CodeWords:
 
 
 def code_words(transmitter: Transmitter, memory: int) -> CodeWords:
-    """Return the words that a transmitter can send, as a trellis of some memory can hold them.
+    """Return the words that a transmitter can send, as a trellis of ``memory`` chips can hold them.
 
-    Where the trellis of the code itself would have too many states, only its longest run is
-    kept, and where that has too many, the code: its best ways alone are followed.
-
-    ``transmitter``: its scheme is used, not what it sends. ``memory``: chips that a state holds.
+    Where the trellis of the code itself would have too many states, only its longest run is kept,
+    and where that has too many, the code: its best ways alone are followed.
     """
     if transmitter.pattern:
         return CodeWords(FREE_CHIPS)

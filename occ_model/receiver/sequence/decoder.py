@@ -50,10 +50,8 @@ _MAX_UNEXPLAINED = 0.05  # of the signal's variance that is neither the chips' l
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the code from the chips whose exposures are most like the signal.
 
-    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its scheme, number of
-    bits, switching frequency, exposure time, readout time, averaging, gamma and enhancement are
-    used. The result holds the chips, the light of each column beside that of the chips' model, and
-    the probability that each bit is right.
+    The result holds the chips, the light of each column beside that of the chips' model, and the
+    probability that each bit is right.
     """
     result = DecodeResult("sequence", signal=signal, failure=why_flat(signal))
     if result.failure is not None:

@@ -36,9 +36,7 @@ class Timing:
 def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
     """Return the chip that each exposure ends in, and the fractions of that and the chips before.
 
-    ``starts``: where the exposures start, in chips. Returns ``last``, shape as starts; the chips.
-    Returns ``shares``, shape (..., memory + 1); the fractions of the chip and of those before it,
-    the latest first; their sum is 1.
+    Those have the shape (..., memory + 1), the latest first; their sum is 1.
     """
     ends = starts + timing.exposure
     last = np.floor(ends)
@@ -51,8 +49,8 @@ def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
 class ChipStatistics:
     """All that a squared distance of rows from chips depends on, gathered by the last chip.
 
-    The squared distance of the rows that end in a chip from the light of chips c is
-    c' G c - 2 v' c, and a number that does not depend on the chips.
+    The squared distance of the rows that end in a chip from the light of chips c is c' G c - 2 v'
+    c, and a number that does not depend on the chips.
     """
 
     first: int  # The first chip that a row ends in
@@ -76,11 +74,9 @@ def _pairs(count: int) -> tuple[IndexArray, IndexArray]:
 def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
     """Return how the chips of an exposure share their sums over rows.
 
-    Between its first chips and its last ones all have the same share.
-
-    Returns ``chosen``, shape (kinds,); a chip of each kind. Returns shape (products,); the kinds
-    whose shares are multiplied. Returns ``sums``, shape (features,); the sum that is each feature:
-    first those of a kind and the light, then those products.
+    Between its first chips and its last ones all have the same share. Returns a chip of each kind,
+    the pairs of kinds whose shares are multiplied, and which sum each feature is: first those of a
+    kind and the light, then those products.
     """
     kind = np.clip(np.arange(reach), None, 1)
     kind[-2:] = np.arange(reach)[-2:] if reach < _KINDS else (2, 3)
@@ -95,10 +91,7 @@ def _kinds(reach: int) -> tuple[IndexArray, IndexArray, IndexArray, IndexArray]:
 
 
 def gather(light: FloatArray, timing: Timing) -> ChipStatistics:
-    """Gather rows by the chip that each of them ends in.
-
-    ``light``: shape (rows,); the fraction of full light of each row.
-    """
+    """Gather rows, each a fraction of full light, by the chip that each of them ends in."""
     last, shares = taps(timing, timing.starts(len(light)))
     first, reach = int(last[0]), shares.shape[1]
     chosen, one, other, sums = _kinds(reach)

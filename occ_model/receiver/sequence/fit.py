@@ -58,8 +58,7 @@ class Fit:
     def noise_of_sums(self) -> float:
         """Variance a row of the residual's sum over rows, up to an exposure apart.
 
-        It is the noise where the residual of neighbours is independent. What the model does not
-        explain is alike in neighbours and does not average out: then it is more.
+        It exceeds the noise where the residual is alike in neighbours and does not average out.
         """
         reach = min(round(self.timing.exposure / self.timing.step), len(self.residual) // 4)
         own = _autocorrelation(self.residual, reach)
@@ -70,10 +69,7 @@ class Fit:
         return np.asarray(self.chips.margins / (2.0 * self.noise_of_sums()))
 
     def unexplained(self) -> float:
-        """Fraction of the signal's variance that is neither the model's nor noise.
-
-        Noise is independent from row to row; so it is the residual's covariance of neighbours.
-        """
+        """Fraction of the variance, as neighbours share it, that is neither model nor noise."""
         own = _autocorrelation(self.residual, 1)
         variance = float((self.model + self.residual).var())
         return float(own[1:].sum()) * float(self.residual.var()) / max(variance, _MIN_NOISE)

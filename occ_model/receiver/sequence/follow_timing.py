@@ -25,10 +25,7 @@ _CONVERGED_CHIPS = 0.01  # motion of a part's ends in chips below which the fit 
 def follow_timing(
     rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
 ) -> Timing:
-    """Improve a timing whose time from row to row may be some percent off.
-
-    ``timing``: its phase is not used.
-    """
+    """Improve a timing of any phase whose time from row to row may be some percent off."""
     count = len(rows.light)
     timing = find_phase(rows, timing, brightness, words)
     size = round((TRIED_CHIPS + timing.exposure) / timing.step)

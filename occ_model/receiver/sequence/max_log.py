@@ -45,10 +45,7 @@ def best_chips(trellis: Trellis, statistics: ChipStatistics) -> Chips:
 
 
 def least_distances(trellis: Trellis, statistics: Sequence[ChipStatistics]) -> FloatArray:
-    """Return the least squared distance of rows from any chips, for several timings.
-
-    Returns shape (timings,).
-    """
+    """Return the least squared distance of rows from any chips, for several timings."""
     count = max(len(one.features) for one in statistics)
     features = np.zeros((count, len(statistics), statistics[0].features.shape[1]))
     for place, one in enumerate(statistics):
@@ -83,11 +80,7 @@ class _Parts:
 
 
 def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
-    """Return the squared distance of each step of the trellis.
-
-    ``features``: shape (chips, ..., features); what the rows say. Returns shape (chips, ..., steps,
-    states).
-    """
+    """Return the squared distance of each step, shape (chips, ..., steps, states)."""
     of_words = features @ features_of(trellis.words).T
     costs = of_words.take(trellis.word_of, axis=-1)
     costs[..., trellis.before == NO_STATE] = _UNREACHABLE_COST
@@ -97,8 +90,7 @@ def _costs(trellis: Trellis, features: FloatArray) -> FloatArray:
 def _forward(trellis: Trellis, costs: FloatArray, parts: _Parts) -> FloatArray:
     """Return the least distance of the ways to each state, shape (chips, parts, states).
 
-    ``costs``: shape (chips + 1, steps, states); those of the whole sequence, and of a chip that no
-    row shows.
+    ``costs``: those of the whole sequence, and last of a chip that no row shows.
     """
     shape = (parts.chips.shape[1], *costs.shape[1:])
     least = np.empty((len(parts.chips), shape[0], trellis.states))

@@ -29,11 +29,7 @@ class SoftFrame:
 
 
 def read_frame(ratios: FloatArray, scheme: Scheme, header: tuple[int, ...]) -> SoftFrame:
-    """Read the likeliest frame.
-
-    ``ratios``: shape (chips,); log-likelihood ratio of each chip. ``header``: the chips at the
-    start of every frame, as far as they are known.
-    """
+    """Read the likeliest frame by each chip's log-likelihood ratio; ``header``: known chips."""
     length = scheme.length
     if len(ratios) < length:
         return SoftFrame(scheme.decode((ratios > 0.0).astype(np.uint8)))
@@ -52,11 +48,7 @@ def read_frame(ratios: FloatArray, scheme: Scheme, header: tuple[int, ...]) -> S
 
 
 def likeliest_packet(folded: FloatArray, bits: int) -> SoftFrame:
-    """Find the likeliest packet of the paper's scheme.
-
-    ``folded``: shape (chips of a packet,); log-likelihood ratio of each chip of a period, which
-    starts anywhere.
-    """
+    """Find the likeliest packet of the paper's scheme in a folded period, which starts anywhere."""
     length = packet_length(bits)
     rotated = folded[(np.arange(length)[:, None] + np.arange(length)) % length]
     # Either chip of a pair follows from the other one, so that both say the same: half of each.
@@ -84,10 +76,7 @@ def _start(folded: FloatArray, sent: ByteArray) -> int:
 def _sureness(
     ratios: FloatArray, framed: Framed, scheme: Scheme, header: tuple[int, ...]
 ) -> tuple[float, FloatArray | None]:
-    """Return the probability that all bits are right, and that of each.
-
-    ``ratios``: shape (chips of a frame,); log-likelihood ratios from the start of the frame on.
-    """
+    """Return the probability that all bits are right, and that of each."""
     sent, code = scheme.encode(framed.bits), scheme.line_code
     right = probability(np.where(sent == 1, ratios, -ratios))
     # The chips of a block say the same, so that the least sure of them stands for it.

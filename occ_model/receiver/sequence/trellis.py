@@ -31,8 +31,7 @@ FREE_CHIPS = (Word(0, (0,), 0), Word(0, (1,), 0))  # any chip may follow any oth
 class Trellis:
     """The states of a code whose exposures reach over some chips, and the steps between them.
 
-    A step adds a chip. The steps into one state are numbered; those that are missing are
-    ``NO_STATE``.
+    A step adds a chip. The steps into one state are numbered; missing ones are ``NO_STATE``.
     """
 
     memory: int  # Chips that a state holds
@@ -102,10 +101,7 @@ def most_states(words: tuple[Word, ...], memory: int) -> int:
 
 @lru_cache(maxsize=16)
 def trellis_of(words: tuple[Word, ...], memory: int) -> Trellis:
-    """Make the trellis of a code.
-
-    ``memory``: chips that a state holds, one less than an exposure can touch.
-    """
+    """Make the trellis of a code; ``memory``: one chip less than an exposure can touch."""
     steps = places_of(words)
     reached: set[tuple[int, tuple[int, ...]]] = {(place, ()) for place in range(len(steps))}
     for _ in range(memory):

@@ -30,9 +30,8 @@ _LONGEST_UNCHECKED = 1.0  # exposure in chips up to which single chips reach the
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
     """Read the payload from a signal, as :func:`read_stripes` does, as long as it shows the chips.
 
-    Of other schemes than the paper's the exposure time is known as well. Where it is so long that
-    several chips can be misread alike in every packet, and the framing does not check the payload,
-    the bits are given with a failure.
+    Where the known exposure is so long that several chips can be misread alike in every packet, and
+    the framing does not check the payload, the bits are given with a failure.
     """
     result = read_stripes(signal, scene)
     unsure = None if result.failure is not None else _why_unsure(scene)
@@ -56,14 +55,10 @@ def _why_unsure(scene: Scene) -> str | None:
 
 
 def read_stripes(signal: FloatArray, scene: Scene) -> DecodeResult:
-    """Read the payload from a signal; of the scene scheme and number of bits are known.
+    """Read the payload from a signal; of the scene, scheme and number of bits are known.
 
     For a raw pattern, whose runs have no scale, and for other schemes than the paper's the length
-    of a chip is known too.
-
-    ``signal``: shape (columns,); mean grey level of each column. ``scene``: its transmitter says by
-    which scheme how many bits are sent, or that no packets are. The result holds every step that
-    was reached; the caller adds the region.
+    of a chip is known too. The result holds every step that was reached, without the region.
     """
     result = _read(signal, scene)
     if result.failure is None or _knows_length(scene):

@@ -41,8 +41,8 @@ def short_run(histogram: RunHistogram) -> float:
 class ChipFit:
     """The relation of run lengths to chips.
 
-    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros
-    ``n * chip_length - widening``: a threshold off the middle moves every edge by the same amount.
+    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros ``n * chip_length
+    - widening``: a threshold off the middle moves every edge by the same amount.
     """
 
     chip_length: float
@@ -56,7 +56,7 @@ class ChipFit:
 
 
 def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> ChipFit:
-    """Find the length of one chip from whole runs.
+    """Find the length of one chip from whole runs of both kinds.
 
     The paper splits the histogram of the ones' run lengths, and that of the zeros', by Otsu's
     threshold; the average of the short runs is one chip. That misreads a code whose short runs are
@@ -65,13 +65,8 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
     the header, as three chips and as four, and the zeros' short runs as one chip and as two (an odd
     number of bits, all of them 1, leaves no single zero). Each trial is refined by least squares.
     The best trial is the one whose runs are nearest to whole chips, no longer than the framing
-    allows, and include a header.
-
-    A widening may exceed a chip. A single chip of the other kind then vanishes, but a packet
-    without such chips can still be read.
-
-    ``runs``: runs that are not cut off by the region's edges, of both kinds. ``histograms``: their
-    lengths, of zeros and of ones.
+    allows, and include a header. A widening may exceed a chip: a packet without single chips can
+    still be read.
     """
     short_zero, short_one = (short_run(histogram) for histogram in histograms)
     longest_one = float(len(histograms[1].counts) - 1)
@@ -86,15 +81,11 @@ def fit_chips(runs: Runs, histograms: tuple[RunHistogram, RunHistogram]) -> Chip
 
 
 def fit_pattern(runs: Runs, nominal: float) -> ChipFit:
-    """Find the length of one chip of a raw pattern, near a length that is known.
+    """Find the length of one chip of a raw pattern, near a nominal one.
 
-    Without packets the runs do not distinguish one chip from two, so the scale must be known: the
-    switching period over the readout time. Several widenings are tried, of which smaller ones are
-    likelier. Where an enhancement has moved the threshold by more than half a chip, the runs of one
-    pattern can equal those of another.
-
-    ``runs``: runs that are not cut off by the region's edges, of both kinds. ``nominal``: expected
-    columns of a chip.
+    Without packets the runs do not distinguish one chip from two, so the scale must be known.
+    Several widenings are tried, of which smaller ones are likelier. Where an enhancement has moved
+    the threshold by more than half a chip, the runs of one pattern can equal those of another.
     """
     widening = nominal * np.linspace(-0.9, 0.9, _WIDENINGS)
     # A threshold is rarely far off the middle.
@@ -112,8 +103,8 @@ def _best_fit(
 ) -> ChipFit:
     """Improve first guesses by least squares over the runs' whole chips, and return the best.
 
-    All guesses, shape (guesses,), are improved at once, and equal runs are counted, not repeated.
-    With a ``nominal`` length, the distance from it counts in place of the framing.
+    All guesses are improved at once, and equal runs are counted, not repeated. With a ``nominal``
+    length, the distance from it counts in place of the framing.
     """
     kinds, repeats = np.unique(2 * runs.lengths + runs.values, return_counts=True)
     values, lengths = kinds % 2, (kinds // 2).astype(np.float64)

@@ -30,11 +30,7 @@ class _WithDefault(Protocol[_Value_co]):
 def _field_of(
     kind: Callable[Concatenate[str, _Arguments], _WithDefault[_Value_co]],
 ) -> Callable[_Arguments, _Value_co]:
-    """Return the function that makes a field from all of a declaration but its name.
-
-    Type checkers and editors know the kind's arguments, and compare the field's annotation with the
-    type of the default.
-    """
+    """Return a field's function, by which type checkers know a declaration's arguments and type."""
 
     def declare(*args: _Arguments.args, **kwargs: _Arguments.kwargs) -> _Value_co:
         declared = kind("", *args, **kwargs)

@@ -17,7 +17,7 @@ _SAMPLES = 65  # exposures within the error at which the depth is sampled
 def cure_of(scene: Scene, exposure_error: float = 0.0) -> Cure:
     """Return the shutter speeds without bars, and the scene at the shortest of them.
 
-    ``exposure_error``: standard deviation of the scene's exposure time in s, for the present depth.
+    ``exposure_error``: standard deviation of the scene's exposure time in s.
     """
     over, frequency = DepthOver.of(scene), scene.transmitter.switching_frequency
     repeats = frequency / over.period
@@ -52,10 +52,7 @@ def _present_depth(scene: Scene, over: DepthOver, error: float) -> tuple[float, 
 
 
 def as_bright(scene: Scene, exposure: float) -> Scene:
-    """Return a scene with another exposure time and, where a camera can, equal brightness.
-
-    The ISO speed is adapted within its usual range, then the aperture.
-    """
+    """Return a scene at another exposure, as bright as ISO speed and then aperture allow."""
     camera = scene.camera
     low, high = quantity("iso").slider
     wanted = camera.iso * camera.exposure_time / exposure

@@ -58,8 +58,7 @@ def band_depth(scene: Scene) -> BandDepth:
 def light_depth(scene: Scene, exposed: ExposedLight | None = None) -> Depth:
     """Return the depth of the light of a scene's exposure, before the tone curve.
 
-    Extremes and variances of the code's light and of the flicker add, as all starts combine with
-    all phases.
+    Extremes and variances of the code's light and of the flicker add, as all phases combine.
     """
     exposed = exposed or exposed_light_of(scene)
     of_lamp, of_flicker = light_shares(scene)
@@ -126,8 +125,7 @@ def _of_pixels(scene: Scene, exposed: ExposedLight) -> tuple[Depth, float]:
 def strongest_part(scene: Scene) -> tuple[float, float]:
     """Return the frequency in Hz of the strongest component, and the period of its bars in columns.
 
-    Components are the harmonics of the code and the flicker; the columns alias those above half
-    the row rate.
+    Components are the code's harmonics and the flicker; above half the row rate, aliases.
     """
     chips = sent_chips(scene.transmitter)
     dark, bright = (float(each) for each in luminance_levels(scene))

@@ -69,8 +69,7 @@ class DepthOver:
     def least(self, frequency: float, ends: FloatArray) -> FloatArray:
         """Return the smallest depth within each range of exposures, between ``ends`` in seconds.
 
-        The depth is quasi-concave between whole chips and between the flicker's nulls, so the
-        minimum lies at one of these or at an end.
+        It lies at whole chips, at the flicker's nulls or at an end: quasi-concave between.
         """
         at_ends = self.of_code(frequency * ends) + self.flicker(ends)
         least = np.minimum(at_ends[:-1], at_ends[1:])

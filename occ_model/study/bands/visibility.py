@@ -13,13 +13,12 @@ _PEAK_FREQUENCY = 7.89  # cycles per degree of the maximum of the sensitivity cu
 
 
 def contrast_threshold(scene: Scene, period: float) -> float:
-    """Return the contrast from which bars are visible, peak to peak over the mean.
+    """Return the contrast, peak to peak over the mean, from which bars of a period are visible.
 
     1 % at the peak of the eye's sensitivity and for wider bars, as these have edges; finer bars
-    follow the sensitivity of J. L. Mannos and D. J. Sakrison, The effects of a visual
-    fidelity criterion on the encoding of images, IEEE Trans. Inf. Theory 20 (1974) 525. It is a
-    rule of thumb, within a factor of two: noise, texture and motion hide bars. ``period`` is in
-    columns.
+    follow the sensitivity of J. L. Mannos and D. J. Sakrison, The effects of a visual fidelity
+    criterion on the encoding of images, IEEE Trans. Inf. Theory 20 (1974) 525. It is a rule of
+    thumb, within a factor of two: noise, texture and motion hide bars.
     """
     cycles = scene.camera.columns / _VIEWING_ANGLE / period
     relative = _sensitivity(max(cycles, _PEAK_FREQUENCY)) / _sensitivity(_PEAK_FREQUENCY)

@@ -15,9 +15,9 @@ _NULL_EXPOSURE = 2.0  # first null of alternating chips, in symbols; the others 
 def bench_bounds(request: BenchRequest, heartbeat: Heartbeat = lambda: None) -> BenchBounds:
     """Compute the theoretical bounds along both axes of a request.
 
-    The nulls are those of alternating chips, the fastest wave of each line code: its frequency
-    is f/2, and |sinc(t f / 2)| vanishes where the exposure lasts an even number of symbols. The
-    most bits are :func:`occ_model.study.theory.gaussian_rate_bound`, which no scheme changes.
+    The nulls are those of alternating chips, the fastest wave of each line code: its frequency is
+    f/2, and |sinc(t f / 2)| vanishes where the exposure lasts an even number of symbols. The most
+    bits are :func:`occ_model.study.theory.gaussian_rate_bound`, which no scheme changes.
     """
 
     def bound(exposure: float, decibels: float) -> float:

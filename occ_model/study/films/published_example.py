@@ -21,10 +21,7 @@ _ERRORS = Fraction(1, 100)  # fraction of the packets in view that it loses
 
 
 def example_request(frames: int = 333, seed: int = 1) -> FilmRequest:
-    """Return the example as a request for one film.
-
-    ``frames``: frames; the starts of frames within a packet repeat after 65.
-    """
+    """Return the example as a film of frames, whose starts within a packet repeat after 65."""
     scene = scene_of_films(Scene()).replace(
         line_code="manchester", framing="paper", exposure_time=_EXPOSURE, iso=800.0
     )
@@ -43,8 +40,8 @@ def published_rule() -> Fraction:
     """Return the fraction of packets that the published simulator's own rule receives.
 
     It states no figure. Its rule: the time in view is rounded up to whole milliseconds, a packet is
-    received where it starts early enough to end before, and one in a hundred of those is lost. The
-    starts are spread evenly over a frame, as each is shifted by up to 0.9 ms at random.
+    received where it starts early enough to end before, and one in a hundred of those is lost.
+    Starts are spread evenly over a frame, as each is shifted by up to 0.9 ms at random.
     """
     frame = round(FRAME_PERIOD / _STEP)
     view = -(-(FRAME_PERIOD * (1 - GAP)) // Fraction(1, 1000)) * 10

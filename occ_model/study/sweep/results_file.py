@@ -58,9 +58,8 @@ class TableText(Protocol[Point]):
 class ResultsFile(Generic[Point]):
     """A CSV file of one study, open and locked within its context.
 
-    ``table``: how the study is written. Raises OutputError: on entering the context: the path is no
-    regular file or cannot be written, another study is using it, or it holds something else than
-    this one. The file is left unchanged then.
+    On entering it raises OutputError, and leaves the file unchanged: it is not a regular file,
+    cannot be written, is in use by another study, or holds something else than this one.
     """
 
     def __init__(self, path: Path, table: TableText[Point]) -> None:
@@ -135,10 +134,7 @@ class ResultsFile(Generic[Point]):
         raise OutputError(f"{self._name} was changed by another program; name another file.")
 
     def points_there(self) -> Iterator[Point]:
-        """Read the points that the file holds already; an incomplete last point is cut off.
-
-        The iterator must be exhausted before a point is appended.
-        """
+        """Read the points that the file holds, before any is appended; cut off half of one."""
         height = self._table.lines_a_point
         seen = bytearray(self._table.points)
         whole, line_number = len(self._header), self._header.count(b"\n")

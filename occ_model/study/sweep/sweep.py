@@ -100,17 +100,14 @@ def run_sweep(
 
     ``executor``: any executor of ``concurrent.futures`` whose workers can import this package, such
     as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
-    process finishes the sweep, with a ``RuntimeWarning``. None: ``jobs`` processes. ``jobs``:
-    number of processes to start, and to start again where they die; 1: none, the sweep runs in this
-    process, as it does with a ``RuntimeWarning`` where the system has no processes to give. At most
-    one a point and a few a core are started. The module that calls this must not do so when it is
-    imported (``if __name__ == "__main__":``). ``progress``: called after each point, and several
-    times a second while a point takes longer, with the number of points done, of all points, and of
-    seconds left (not a number before the first). Whatever it raises ends the sweep and is passed
-    on; the file ``results`` keeps what is done. ``results``: a CSV file to which each point is
-    appended as it comes. Where it holds a part of this same sweep, also one that was killed, only
-    the remainder is measured; a complete file is in the order of the axes. See
-    :class:`occ_model.study.sweep.results_file.ResultsFile`.
+    process finishes the sweep, with a ``RuntimeWarning``. Without one, ``jobs`` processes are
+    started, and again where they die, at most one a point and a few a core; 1, or a system without
+    processes, is this process. The module that calls this must not do so when it is imported (``if
+    __name__ == "__main__":``). ``progress``: called after each point, and several times a second
+    while a point takes longer, with the points done, of all, and seconds left (not a number at
+    first). Whatever it raises ends the sweep and is passed on; the CSV file ``results`` keeps what
+    is done. Where it holds a part of this same sweep, also one that was killed, only the remainder
+    is measured; a complete file is in the order of the axes.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     with ExitStack() as stack:
@@ -161,10 +158,8 @@ def measure(
 ) -> Generator[SweepPoint, None, None]:
     """Measure points of a sweep, each given as soon as it is ready and then forgotten.
 
-    Points are made as they are needed and a bounded number is in flight, so that the memory that
-    this takes does not grow with their number.
-
-    ``indices``: which points, by default all, in the order in which they take the least time.
+    A bounded number is in flight: memory does not grow with the points. ``indices``: by default
+    all, in the order in which they take the least time.
     """
     todo = request.in_order_of_work() if indices is None else iter(indices)
     return measure_anywhere(SweepWork(request), todo, executor, jobs, heartbeat)

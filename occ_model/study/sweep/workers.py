@@ -113,9 +113,8 @@ def measure_by(
 ) -> Generator[Point, None, None]:
     """Measure points by workers, in the order in which they are ready.
 
-    A bounded number of jobs is in flight at a time. When workers die the points that they had
-    are measured again, by new ones, or here where there are none: a point depends on nothing but
-    itself.
+    A bounded number of jobs is in flight. When workers die, their points are measured again, by new
+    ones or here: a point depends on nothing but itself.
     """
     progress = _Progress(work, indices)
     scheduler = Scheduler(lambda: workers, progress)

@@ -53,11 +53,7 @@ def sub_packets(bits: int) -> int:
 
 
 def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray, str | None]:
-    """Read a single sub-packet.
-
-    ``chips``: its chips, from its preamble on. Returns ``number``, which one it is, from 0. Returns
-    ``bits``, its part of the payload. Returns None, or a sentence that says what is wrong with it.
-    """
+    """Read the number and payload bits of a sub-packet from its preamble on, or a problem."""
     preamble, division = own_preamble(form.line_code), _Division.of(form.bits)
     if not np.array_equal(chips[: len(preamble)], preamble):
         return 0, chips[:0], "A sub-packet does not start with its preamble."
@@ -73,11 +69,7 @@ def read_sub_packet(chips: ByteArray, form: FrameFormat) -> tuple[int, ByteArray
 def number_beside(
     chips: ByteArray, preamble_at: int, form: FrameFormat
 ) -> tuple[int | None, int | None]:
-    """Read the sub-packets' numbers after and before a preamble, as far as chips show them.
-
-    Returns the number of the sub-packet that the preamble starts, and of the one that it ends; None
-    where the chips do not show it.
-    """
+    """Return the numbers of the sub-packets that a preamble starts and ends, None where unknown."""
     code, preamble = form.line_code, own_preamble(form.line_code)
     division = _Division.of(form.bits)
     if division.parts == 1:

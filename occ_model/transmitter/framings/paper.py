@@ -23,20 +23,14 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def find_headers(chips: ByteArray) -> tuple[int, ...]:
-    """Find where headers start: the last three ones of every run of three or more.
-
-    A run of ones may be one longer than the header, when the data before it end in a one.
-    """
+    """Find where headers start: the last three ones of every run of three or more."""
     edges = np.diff(np.concatenate([[0], chips.astype(np.int8), [0]]))
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return tuple((ends[ends - starts >= HEADER_ONES] - HEADER_ONES).tolist())
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    """Read the packet between the first two headers, as the paper does.
-
-    Where data may contain a header, all packets are tried that fit.
-    """
+    """Read the packet between the first two headers, or all that fit where data may hold one."""
     length = len(HEADER) + form.line_code.chips_for(form.bits)
     if form.line_code.longest_run is None or form.line_code.longest_run >= HEADER_ONES:
         header = np.array(HEADER, dtype=np.uint8)

@@ -29,10 +29,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
 
 
 def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:
-    """Read a payload of known length from the chips that follow a preamble.
-
-    ``data``: the chips; those after the payload do not count. ``level``: the preamble's last chip.
-    """
+    """Read a payload of known length from the chips after a preamble, whose last is ``level``."""
     read = form.line_code.decode(data[: form.line_code.chips_for(form.bits)], level)
     bits, padding = read.bits[: form.bits], read.bits[form.bits :]
     failure = read.failure

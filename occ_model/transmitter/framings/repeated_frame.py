@@ -25,8 +25,6 @@ def read_repeated(
 
     First each preamble with a whole frame after it is tried, then each one with the frame's end
     before it: what is sent repeats. Where a payload may contain the preamble, all are tried.
-
-    ``form``: the format, whose line code tells whether a payload may contain the preamble.
     """
     headers = find_preambles(chips, preamble)
     unique = is_unique(preamble, form.line_code)

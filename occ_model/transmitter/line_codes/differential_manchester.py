@@ -12,11 +12,7 @@ from occ_model.transmitter.line_codes.line_code import Decoded, LineCode, no_who
 
 
 def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
-    """Turn bits into chips.
-
-    ``bits``: shape (..., bits); the bits, first sent first. ``level``: the chip before the first
-    one. Returns shape (..., 2 x bits).
-    """
+    """Turn bits, shape (..., bits), into twice as many chips; ``level``: the chip before."""
     # A bit 0 has two transitions and so leaves the level as it was; a bit 1 inverts it.
     after = np.bitwise_xor.accumulate(np.asarray(bits, dtype=np.uint8), axis=-1) ^ np.uint8(level)
     chips = np.stack([1 - after, after], axis=-1)

@@ -55,10 +55,7 @@ def _chosen(word: str, disparity: int) -> str:
 
 
 def encode_byte(byte: int, disparity: int) -> tuple[str, int]:
-    """Return the ten chips of a byte, and the running disparity after them.
-
-    ``disparity``: the running disparity before it, -1 or 1.
-    """
+    """Return the ten chips of a byte, and the running disparity (-1 or 1) after them."""
     low, high = byte & 31, byte >> 5
     six = _chosen(_SIX[low], disparity)
     disparity += _disparity(six)

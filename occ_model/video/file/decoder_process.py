@@ -42,12 +42,9 @@ class OpenedFilm:
 
 
 class DecoderProcess:
-    """A process that decodes films, one at a time.
+    """A process that decodes films, one at a time, and the next frame ahead.
 
-    A frame may be asked for ahead: it is decoded while the one before it is worked on.
-
-    ``is_full``: whether the film ended, and a few more frames would not have fitted into the
-    memory.
+    ``is_full``: whether the film ended, and no more frames would have fitted into the memory.
     """
 
     def __init__(self) -> None:
@@ -66,8 +63,7 @@ class DecoderProcess:
     def open(self, path: Path, reader: str, channel: str) -> OpenedFilm:
         """Open a film; the one that was open is closed.
 
-        Raises VideoError: there is no film in the file, or one of too large frames: the end of a
-        sentence.
+        Raises VideoError: there is no film in the file, or too large a one: the end of a sentence.
         """
         self._forget()
         answer, _ = self._ask(
@@ -109,13 +105,7 @@ class DecoderProcess:
         return passed
 
     def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
-        """Return a frame anywhere in the film, None where it is not found so.
-
-        Raises as :meth:`read` does.
-
-        ``index``, ``time``, ``within``: its number, its time and by how much that may differ, both
-        in seconds.
-        """
+        """Return the frame of a number within some seconds of a time; None where not found."""
         self._forget()
         return _frame(*self._ask({"do": "seek", "index": index, "time": time, "within": within}))
 

@@ -23,8 +23,7 @@ _HEAD, _DESCRIPTION = 13, 10
 def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
     """Write grey or coloured pictures with a note as the comment; count them.
 
-    Times are hundredths of a second: each frame's is rounded, not each step, so that the film does
-    not run away.
+    Each frame's time is rounded to 1/100 s, not each step, so that the film does not run away.
     """
     count = 0
     with path.open("wb") as file:

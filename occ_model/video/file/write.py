@@ -33,14 +33,11 @@ _RATES = {  # frames a second that a file can state; players of GIF files show n
 
 
 def write_frames(path: Path, pictures: Iterable[ByteArray], rate: float, note: str) -> int:
-    """Write a film, of which one frame is kept in memory.
+    """Write a film frame by frame; return their number.
 
-    OpenCV tells of no error: its file's frames are counted before it takes the place of another.
-
-    ``path``: the file; its ending is one of :data:`FILM_ENDINGS`. ``pictures``: arrays of uint8,
-    all of one shape: (lines, columns), or (lines, columns, 3) with red, green and blue. MP4 and MKV
-    files have an even number of lines and of columns: a last odd one is left out. Returns how many
-    frames were written.
+    ``pictures``: uint8 of one shape: (lines, columns), or (lines, columns, 3) with red, green and
+    blue. MP4 and MKV files have an even number of both: a last odd one is left out. OpenCV reports
+    no error: its file's frames are counted before it takes the place of another.
     """
     check_film_path(path, rate)
     name, ending = one_line(path.name), path.suffix.lower()

@@ -20,7 +20,6 @@ from occ_model.study.accuracy import accuracy, point_count
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "accuracy", help="measure the time and the error of each way to simulate a scene"
     )

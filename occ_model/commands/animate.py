@@ -20,7 +20,6 @@ from occ_model.scene.parameters import parameter_named
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "animate", help="write an animation in which a parameter runs through its values"
     )

@@ -16,7 +16,6 @@ _RANGES = 6  # maximum number of ranges listed before the last one
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "bands", help="report the depth of a picture's bars, and settings without bars"
     )

@@ -18,7 +18,6 @@ _DEFAULT_REQUEST = BenchRequest()
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "bench", help="compare bit error rates over exposure and noise, or read a data set"
     )

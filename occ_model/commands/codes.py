@@ -22,7 +22,6 @@ _EXAMPLE = ("manchester", 10)  # line code and bits by which the lengths of fram
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("codes", help="list line codes, framings and decoders")
     parser.add_argument("--markdown", action="store_true", help="as tables")
     parser.set_defaults(command=_run)

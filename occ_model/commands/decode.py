@@ -24,7 +24,6 @@ from occ_model.video.file.kind import is_film
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("decode", help="read the code from a picture, photo or film")
     parser.add_argument("file", type=Path, help="picture or film")
     add_scene_options(parser)

@@ -21,7 +21,6 @@ from occ_model.study.sweep.sweep import Progress, run_sweep
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "figures",
         help="write the paper's figures 2 to 6",
@@ -94,7 +93,6 @@ def _progress_of(bar: Any) -> Progress:
 
 
 def _requests(options: argparse.Namespace) -> dict[str, SweepRequest]:
-    """Request the sweep of each preset."""
     return {
         preset: grid_request(preset, QUICK_DECODERS, options.images, options.seed)
         for presets in DEVICES.values()

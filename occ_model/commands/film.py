@@ -28,7 +28,6 @@ _FRAMES = 90  # frames of a film: three seconds at the usual rate
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("film", help="simulate a film and write it")
     add_scene_options(parser)
     add_simulation_options(parser)
@@ -86,7 +85,6 @@ def _run(options: argparse.Namespace) -> int:
 
 
 def _recording(options: argparse.Namespace) -> Recording:
-    """Read the recording from a command line."""
     values = {
         declared.name: declared.parse(getattr(options, declared.name)) for declared in DECLARED
     }

@@ -27,7 +27,6 @@ _FRAMES = 120
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "film-study", help="measure what films carry, over frequency, gap and packet length"
     )

@@ -24,7 +24,6 @@ def region_from(text: str) -> Region:
 
 
 def lamp_lines(number: int, lamp: Lamp) -> list[str]:
-    """Describe a lamp in lines."""
     region = lamp.region
     lines = [
         f"lamp {number}: columns {region.first_column} to {region.last_column - 1}, rows "

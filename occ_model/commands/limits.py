@@ -40,7 +40,6 @@ _BAR = "{desc}: {percentage:3.0f} %|{bar}| {elapsed}, about {remaining} left"
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "limits", help="find how fast a scene can go, and how long it can be exposed"
     )

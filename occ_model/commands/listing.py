@@ -11,7 +11,6 @@ _MAX_NOTE_CHARACTERS = 1000  # maximum printed length of a value's note
 
 
 def add_to(commands: Commands) -> None:
-    """Add the commands."""
     parser = commands.add_parser("presets", help="list the presets, or one with its sources")
     parser.add_argument("name", nargs="?", help="the preset to show whole")
     parser.set_defaults(command=_presets)

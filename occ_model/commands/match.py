@@ -24,7 +24,6 @@ from occ_model.scene.square_wave import SQUARE_FREQUENCY, blinking
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("match", help="find the settings that explain a photo")
     parser.add_argument("file", type=Path, help="image file; of several, one table is made")
     add_many_options(parser)
@@ -122,7 +121,6 @@ def _check(options: argparse.Namespace) -> None:
 
 
 def _run_lamps(photo: Photo, scene: Scene, options: argparse.Namespace) -> int:
-    """Print each lamp of a photo, and its match."""
     with progress_bar(total=1.0, bar_format="{l_bar}{bar}|", leave=False) as bar:
         matched = match_lamps(
             photo,

@@ -23,7 +23,6 @@ _BAR = "{desc}: {n_fmt} of {total_fmt} combinations tried, {elapsed}"
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "most-bits", help="find the code, frequency and number of bits that carry most"
     )

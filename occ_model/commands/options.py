@@ -57,7 +57,6 @@ def number(text: str) -> float:
 
 
 def whole_number(text: str) -> int:
-    """Read the whole number of an option."""
     try:
         return int(text)
     except ValueError:
@@ -122,7 +121,6 @@ def add_plan_options(parser: argparse.ArgumentParser) -> None:
 
 
 def add_noise_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options of the noise."""
     own = SimulationSettings()
     parser.add_argument(
         "--noise",
@@ -140,7 +138,6 @@ def add_simulation_options(parser: argparse.ArgumentParser) -> None:
 
 
 def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
-    """Read the settings of the simulation from a command line."""
     TOLERANCE.check(options.tolerance)
     check_seed(options.seed)
     for name in (*options.on, *options.off):

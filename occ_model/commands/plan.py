@@ -14,7 +14,6 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("plan", help="list the effects that a scene calls for, and why")
     add_scene_options(parser)
     add_plan_options(parser)

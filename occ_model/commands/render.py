@@ -20,7 +20,6 @@ from occ_model.simulation.render import render_with
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("render", help="simulate a picture and write it")
     add_scene_options(parser)
     add_simulation_options(parser)

@@ -45,7 +45,6 @@ _FOCAL_LENGTH = "equivalent_focal_length"
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser("room", help="many lamps in one picture: which, and from where")
     kinds = parser.add_subparsers(required=True, metavar="ACTION")
     render = kinds.add_parser("render", help="simulate the camera's picture of a room")

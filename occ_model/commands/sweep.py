@@ -46,7 +46,6 @@ PLOT_ENDINGS = (".png", ".pdf", ".svg")  # of the files that a plot is written t
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "sweep",
         help="measure the success rate over any parameters",

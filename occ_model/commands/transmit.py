@@ -16,7 +16,6 @@ from occ_model.scene.units import HERTZ
 
 
 def add_to(commands: Commands) -> None:
-    """Add the command."""
     parser = commands.add_parser(
         "transmit",
         help="write a sketch for a board that blinks the scene",

@@ -166,8 +166,6 @@ class EyeFlicker:
 
 @dataclass(frozen=True, slots=True)
 class ShutterSpeed:
-    """A shutter speed."""
-
     name: str  # As marked on the camera
     # The marked time and the one kept where speeds are powers of two, in seconds
     nominal: float

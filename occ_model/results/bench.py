@@ -17,8 +17,6 @@ BenchPlace: TypeAlias = tuple[str, str, float, float]  # scheme, "exposure" or "
 
 @dataclass(frozen=True, slots=True)
 class BenchRequest:
-    """What the bench measures."""
-
     # Each a line code, or a line code and a framing separated by a slash
     schemes: tuple[str, ...] = ("manchester",)
     decoders: tuple[str, ...] = ()

@@ -29,8 +29,6 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of a lesson."""
-
     goal: str
     text: str
     question: str
@@ -66,8 +64,6 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """A lesson."""
-
     name: str
     title: str
     summary: str  # Learning objective, in one sentence

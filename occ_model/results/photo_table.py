@@ -20,8 +20,6 @@ def known_beside(estimate: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class PhotoRow:
-    """Result for one photo."""
-
     path: Path
     verdict: str  # One of VERDICTS
     # Sentences on why the match, or only its exposure time, is not sure

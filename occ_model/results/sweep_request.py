@@ -99,8 +99,6 @@ class SweepRequest:
 
 @dataclass(frozen=True, slots=True)
 class SweepPoint:
-    """The counts of one point."""
-
     index: int  # The point's index, the last axis running fastest
     sent: int  # Bits sent in all images, 0 where the model refuses the scene
     right: tuple[int, ...]  # Number of these bits that each decoder read rightly

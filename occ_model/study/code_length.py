@@ -46,7 +46,6 @@ class CodeLength:
 
     @property
     def codes(self) -> int:
-        """How many codes there are."""
         return 1 << self.bits
 
     def named_wrongly(self, lamps: int) -> float:

@@ -19,7 +19,6 @@ DEVICES = {  # the presets of each device, its lowest exposure time first
 
 
 def point_scene(preset: str, switching_frequency: float, distance: float) -> Scene:
-    """Return the scene of a point."""
     return load_preset(preset).replace(switching_frequency=switching_frequency, distance=distance)
 
 

@@ -156,7 +156,6 @@ def _is_at(region: Region, read: ReadLamp) -> bool:
 def measure_places(
     request: RoomMapRequest, indices: Iterable[int], heartbeat: Heartbeat
 ) -> _MeasuredPlaces:
-    """Measure some places."""
     start = perf_counter()
     points = tuple(measure_place(request, index, heartbeat) for index in indices)
     return _MeasuredPlaces(points, perf_counter() - start)
@@ -171,7 +170,6 @@ class _Work:
         self._request = request
 
     def job(self, indices: Sequence[int]) -> Job:
-        """Make a job of some places."""
         return Job(measure_places, (self._request, tuple(indices)))
 
     def here(
@@ -210,7 +208,6 @@ class RoomMapText:
         self.header = "\n".join(lines) + "\n" + csv_row(columns)
 
     def text(self, point: RoomPoint) -> str:
-        """Write a place."""
         return csv_row((
             *self._request.place(point.index), self._request.images, point.shown, point.named,
             point.misread, point.wrong, point.sure, point.error, point.stated, point.note,

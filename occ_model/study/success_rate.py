@@ -187,7 +187,6 @@ def _seed_of(seed: int, image: int) -> np.random.SeedSequence:
 def _read(
     scene: Scene, observed: Observation | None, decoders: Sequence[str]
 ) -> list[DecodeResult]:
-    """Read a picture with every decoder."""
     if observed is None:
         return [DecodeResult(decoder, failure=_NO_PANEL) for decoder in decoders]
     return [observed.read(scene, decoder) for decoder in decoders]

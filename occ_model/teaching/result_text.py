@@ -6,7 +6,6 @@ _DIGITS = 3  # significant digits that a student can read off; integer parts are
 
 
 def result_text(unit: Unit, value: float) -> str:
-    """Write a result with its unit."""
     _, factor = unit.display(value)
     if not unit.symbol and value == round(value):
         return f"{value:.0f}"

@@ -32,8 +32,6 @@ class Part:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameTimes:
-    """The times of frames."""
-
     period: Measured  # The frame period in seconds; its error is that of the times' scatter
     # Shape (frames,): how many periods each frame lies after the first one of its part
     numbers: IndexArray

@@ -29,8 +29,6 @@ _LARGEST_GAP = 0.9  # largest fraction of a frame period that a gap may take
 
 @dataclass(frozen=True, slots=True)
 class FilmRequest:
-    """What a study of films measures."""
-
     # The scene; its readout time follows from the gap, and its payload from the number of bits
     scene: Scene
     frequencies: tuple[float, ...]  # Switching frequencies in Hz
@@ -57,7 +55,6 @@ class FilmRequest:
 
     @property
     def points(self) -> int:
-        """How many films are measured."""
         return len(self.frequencies) * len(self.gaps) * len(self.bits)
 
     def scene_at(self, frequency: float, gap: float, bits: int, seed: int) -> Scene:
@@ -76,8 +73,6 @@ class FilmRequest:
 
 @dataclass(frozen=True, slots=True)
 class FilmPoint:
-    """What a film carried."""
-
     # Switching frequency in Hz, gap as a fraction of the frame period, bits of the payload
     frequency: float
     gap: float

@@ -31,7 +31,6 @@ class Counts:
         return bool(self._there[index])
 
     def enter(self, point: SweepPoint) -> None:
-        """Enter a point."""
         self._there[point.index] = True
         self._sent[point.index] = point.sent
         self._right[point.index] = point.right

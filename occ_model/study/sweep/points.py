@@ -46,7 +46,6 @@ def measure_point(
 def measure_points(
     scene: Scene, settings: RateSettings, points: Iterable[PointValues], heartbeat: Heartbeat
 ) -> MeasuredPoints:
-    """Measure some points."""
     start = perf_counter()
     found = tuple(
         measure_point(scene, settings, index, values, heartbeat) for index, values in points
@@ -72,7 +71,6 @@ class SweepWork:
         self._request = request
 
     def job(self, indices: Sequence[int]) -> Job:
-        """Make a job of some points."""
         points = tuple((index, self._request.values(index)) for index in indices)
         return Job(measure_points, (self._request.scene, self._request.settings, points))
 

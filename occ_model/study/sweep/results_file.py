@@ -21,8 +21,6 @@ _SYNC_SECONDS = 2.0  # maximum seconds of work lost by a power cut
 
 
 class Indexed(Protocol):
-    """A point of a study."""
-
     @property
     def index(self) -> int:
         """Its number, from 0."""
@@ -163,7 +161,6 @@ class ResultsFile(Generic[Point]):
         self._file.seek(whole)
 
     def append(self, point: Point) -> None:
-        """Write a point at the end of the file."""
         self._note_order(point)
         self._write(self._text(point), keep=self._file.tell())
 

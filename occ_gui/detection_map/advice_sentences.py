@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from occ_model.results.advice import Advice, EndFacts
+from occ_model.results.advice import Advice
 from occ_model.results.advice_text import (
     end_text,
     gaps_text,
@@ -15,8 +15,10 @@ from occ_model.results.advice_text import (
     written,
 )
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import Limits, WorkingRange
+from occ_model.results.limits import Limits, RangeEnd, WorkingRange
 from occ_model.scene.parameters import quantity
+
+_HIGHEST = "highest frequency"
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,39 +34,33 @@ class AdviceLine:
 
 def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
     """Write a title and a few lines on what was found."""
-    ends = {
-        ("switching_frequency", "lowest"): "The lowest frequency that it reads is {value}",
-        ("switching_frequency", "highest"): "The highest frequency that it reads is {value}",
-        ("exposure_time", "lowest"): "The shortest exposure that it reads is {value}",
-        ("exposure_time", "highest"): "The longest exposure that it reads is {value}",
-    }
     lines = [AdviceLine(_title(advice.limits), is_title=True)]
-    for facts in (advice.frequency, advice.exposure):
-        if not facts.ends:
+    for facts, low, high in (
+        (advice.frequency, "lowest frequency", _HIGHEST),
+        (advice.exposure, "shortest exposure", "longest exposure"),
+    ):
+        parameter, lowest, highest = facts.found.parameter, facts.found.lowest, facts.found.highest
+        if lowest is None or highest is None:
             lines.append(AdviceLine(_nowhere(advice.limits, facts.found)))
-        lines.extend(
-            _line(ends[end.parameter, end.side], end)
-            for end in facts.ends
-            if (end.parameter, end.side) in ends
-        )
+        else:
+            lines += [_line(parameter, low, lowest), _line(parameter, high, highest)]
         if facts.found.gaps:
             lines.append(AdviceLine(gaps_text(facts.found)))
         if facts.found.most_chips is not None:
             lines.append(AdviceLine(searched_to(facts.found)))
         if facts.theory.two_packets is not None:
             lines.append(AdviceLine(two_packets_text(facts.theory.two_packets)))
-        text = theory_text(facts.found.parameter, facts.theory)
-        lines.append(AdviceLine(text, is_common=True))
+        lines.append(AdviceLine(theory_text(parameter, facts.theory), is_common=True))
     lines.append(AdviceLine(own_text(advice.limits, frames_a_second)))
     lines += [AdviceLine(text, is_common=True) for text in how_tried(advice.limits)]
     return lines
 
 
 def line_on_highest_frequency(advice: Advice) -> AdviceLine:
-    end = highest_frequency(advice)
-    if end is None:
-        return AdviceLine(_nowhere(advice.limits, advice.frequency.found))
-    return _line("The highest frequency that it reads is {value}", end)
+    found = advice.frequency.found
+    if found.highest is None:
+        return AdviceLine(_nowhere(advice.limits, found))
+    return _line(found.parameter, _HIGHEST, found.highest)
 
 
 def still_holds(parameters: frozenset[str]) -> str:
@@ -101,15 +97,10 @@ def _title(found: Limits) -> str:
     )
 
 
-def _line(text: str, end: EndFacts) -> AdviceLine:
-    sentence = f"{text.format(value=written(end.parameter, end.value))}: "
-    sentence += end_text(end.parameter, end)
+def _line(parameter: str, what: str, end: RangeEnd) -> AdviceLine:
+    sentence = f"The {what} that it reads is {written(parameter, end.value)}: "
+    sentence += end_text(parameter, end)
     if end.inside is None:
         return AdviceLine(f"{sentence} No value inside is surely read.")
-    place = written(end.parameter, end.inside.value)
-    return AdviceLine(sentence, (end.parameter, end.inside.value, place))
-
-
-def highest_frequency(advice: Advice) -> EndFacts | None:
-    ends = (end for end in advice.frequency.ends if end.side == "highest")
-    return next(ends, None)
+    place = written(parameter, end.inside.value)
+    return AdviceLine(sentence, (parameter, end.inside.value, place))

@@ -7,15 +7,14 @@ from PySide6.QtGui import QHideEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from occ_gui.detection_map.advice_sentences import (
-    highest_frequency,
     line_on_highest_frequency,
 )
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.text_scale import TextSize, scaled
-from occ_model.results.advice import Advice, EndFacts
+from occ_model.results.advice import Advice
 from occ_model.results.advice_text import gaps_text, own_text, searched_to, written
 from occ_model.results.bit_errors import FRAMES_A_SECOND
-from occ_model.results.limits import WorkingRange
+from occ_model.results.limits import RangeEnd, WorkingRange
 
 _PARAMETER = "switching_frequency"
 
@@ -90,7 +89,7 @@ class LimitCards(QWidget):
             bits = own_text(advice.limits, self.frames_a_second)
             to = "" if found.most_chips is None else searched_to(found)
             tip = "\n".join(text for text in (line.text, gaps_text(found), to, bits) if text)
-            card.show_limit(highest_frequency(advice), tip, advice.limits.rate)
+            card.show_limit(advice.frequency.found.highest, tip, advice.limits.rate)
             card.show_range(found)
 
     def show_ended(self, why_not: str = "") -> None:
@@ -175,7 +174,7 @@ class LimitCard(QFrame):
         self._show("…", "Searching for the highest frequency that is read.", None)
         self.set_outdated(False)
 
-    def show_limit(self, end: EndFacts | None, text: str, rate: float) -> None:
+    def show_limit(self, end: RangeEnd | None, text: str, rate: float) -> None:
         """Show the upper end of the working range, None if the decoder reads nowhere.
 
         ``rate``: the success rate, in percent, from which on a decoder counts as reading.

@@ -92,11 +92,7 @@ def _report(result: DecodeResult) -> list[str]:
             lines.append(f"code         {result.code}")
         lines.append(f"bits         {''.join(map(str, result.bits))}")
     if result.region is not None:
-        region = result.region
-        lines.append(
-            f"region       columns {region.first_column} to {region.last_column - 1}, "
-            f"rows {region.first_row} to {region.last_row - 1}"
-        )
+        lines.append(f"region       {result.region}")
     if result.chip_length is not None:
         lines.append(f"chip length  {result.chip_length:.2f} columns")
     if result.confidence is not None:

@@ -24,11 +24,7 @@ def region_from(text: str) -> Region:
 
 
 def lamp_lines(number: int, lamp: Lamp) -> list[str]:
-    region = lamp.region
-    lines = [
-        f"lamp {number}: columns {region.first_column} to {region.last_column - 1}, rows "
-        f"{region.first_row} to {region.last_row - 1}, grey level {lamp.level:.0f}"
-    ]
+    lines = [f"lamp {number}: {lamp.region}, grey level {lamp.level:.0f}"]
     product, deviation = lamp.switching_frequency_times_readout, lamp.product_uncertainty
     if product is None or deviation is None:
         return [*lines, "no stripes: its light does not change while the picture is read out"]
@@ -38,10 +34,5 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
         lines.append(f"{lamp.periods:.1f} periods in view")
     lines += [f"doubtful: {doubt}" for doubt in lamp.doubts]
     if lamp.reflections:
-        places = ", ".join(
-            f"columns {one.first_column} to {one.last_column - 1}, rows {one.first_row} to "
-            f"{one.last_row - 1}"
-            for one in lamp.reflections
-        )
-        lines.append(f"reflected at {places}")
+        lines.append(f"reflected at {', '.join(map(str, lamp.reflections))}")
     return lines

@@ -1,11 +1,8 @@
 """Facts of an advice on a scene: limits found by trial and limits of theory."""
 
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
-from occ_model.results.limits import Limits, Trial, WorkingRange, stated_end
-
-Side: TypeAlias = Literal["lowest", "highest"]
+from occ_model.results.limits import Limits, WorkingRange
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,30 +19,10 @@ class TheoryLimits:
 
 
 @dataclass(frozen=True, slots=True)
-class EndFacts:
-    """One end of a working range."""
-
-    parameter: str
-    side: Side
-    # As of RangeEnd
-    works: Trial
-    fails: Trial | None
-    inside: Trial | None = None
-    interval: tuple[float, float] | None = None
-
-    @property
-    def value(self) -> float:
-        """The last value at which the decoder reads, in SI units."""
-        return stated_end(self.works, self.interval)
-
-
-@dataclass(frozen=True, slots=True)
 class RangeFacts:
     """Values of one parameter at which a decoder reads a scene."""
 
     found: WorkingRange
-    # Lowest and highest end; empty where the decoder reads nowhere
-    ends: tuple[EndFacts, ...]
     theory: TheoryLimits
 
 

@@ -3,7 +3,7 @@
 import math
 
 from occ_model.errors import one_line
-from occ_model.results.advice import EndFacts, TheoryLimits
+from occ_model.results.advice import TheoryLimits
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import Limits, RangeEnd, Trial, WorkingRange
 from occ_model.scene.parameters import quantity
@@ -40,7 +40,7 @@ def written(parameter: str, value: float) -> str:
     return quantity(parameter).format(value, _DIGITS)
 
 
-def end_text(parameter: str, end: RangeEnd | EndFacts) -> str:
+def end_text(parameter: str, end: RangeEnd) -> str:
     """Return the sentence on how an end was confirmed and on its 95 % interval."""
     works = end.works.value
     place = "there" if end.value == works else f"at {written(parameter, works)}"

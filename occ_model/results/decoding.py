@@ -32,6 +32,12 @@ class Region:
         """Width in columns."""
         return self.last_column - self.first_column
 
+    def __str__(self) -> str:
+        return (
+            f"columns {self.first_column} to {self.last_column - 1}, "
+            f"rows {self.first_row} to {self.last_row - 1}"
+        )
+
     def crop(self, image: NDArray[Any]) -> NDArray[Any]:
         """Return the rectangle's pixels, a view of an image of shape (rows, columns)."""
         return image[self.first_row : self.last_row, self.first_column : self.last_column]

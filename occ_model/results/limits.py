@@ -27,13 +27,6 @@ class Trial:
         return 100.0 * self.right / self.sent
 
 
-def stated_end(works: Trial, interval: tuple[float, float] | None) -> float:
-    """Return the value confirmed by an end's images, limited to the interval."""
-    if interval is None:
-        return works.value
-    return min(max(works.value, interval[0]), interval[1])
-
-
 @dataclass(frozen=True, slots=True)
 class RangeEnd:
     """One end of an interval in which a decoder reads, confirmed by other images than found it."""
@@ -51,8 +44,9 @@ class RangeEnd:
 
     @property
     def value(self) -> float:
-        """The last value at which the decoder reads: see :func:`stated_end`."""
-        return stated_end(self.works, self.interval)
+        """The last value at which the decoder reads, confirmed and within the interval."""
+        low, high = self.interval or (self.works.value, self.works.value)
+        return min(max(self.works.value, low), high)
 
 
 @dataclass(frozen=True, slots=True)

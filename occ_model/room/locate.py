@@ -74,10 +74,6 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
         Standard error of the room's focal length, as a fraction of it: the place's errors include
         it.
 
-    Returns
-    -------
-    RoomReading
-
     Raises
     ------
     DecodeInputError

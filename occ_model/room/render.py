@@ -102,10 +102,6 @@ def render_room(
     tolerance, seed, observable, force, noise
         As for :func:`occ_model.render`, the tolerance for each lamp.
 
-    Returns
-    -------
-    RoomFrame
-
     Raises
     ------
     ParameterError

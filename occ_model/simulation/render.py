@@ -62,10 +62,6 @@ def render(
         a picture, and only where they show the panel. Its column means lie near those of the
         picture: see :attr:`occ_model.Frame.draft_error`.
 
-    Returns
-    -------
-    Frame
-
     Raises
     ------
     ParameterError

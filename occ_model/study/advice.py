@@ -1,7 +1,7 @@
 """Combine the limits found by trial with those of theory."""
 
-from occ_model.results.advice import Advice, EndFacts, RangeFacts, Side, TheoryLimits
-from occ_model.results.limits import Limits, RangeEnd, WorkingRange
+from occ_model.results.advice import Advice, RangeFacts, TheoryLimits
+from occ_model.results.limits import Limits
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
 from occ_model.study.cause import TWO_HEADERS
@@ -12,20 +12,8 @@ def advice_of(limits: Limits) -> Advice:
     scene = limits.scene
     return Advice(
         limits,
-        RangeFacts(limits.frequency, _ends(limits.frequency), _frequencies(scene, limits.decoder)),
-        RangeFacts(limits.exposure, _ends(limits.exposure), _exposures(scene)),
-    )
-
-
-def _ends(found: WorkingRange) -> tuple[EndFacts, ...]:
-    sides: tuple[tuple[Side, RangeEnd | None], ...] = (
-        ("lowest", found.lowest),
-        ("highest", found.highest),
-    )
-    return tuple(
-        EndFacts(found.parameter, side, end.works, end.fails, end.inside, end.interval)
-        for side, end in sides
-        if end is not None
+        RangeFacts(limits.frequency, _frequencies(scene, limits.decoder)),
+        RangeFacts(limits.exposure, _exposures(scene)),
     )
 
 

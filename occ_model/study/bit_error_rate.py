@@ -55,10 +55,6 @@ def bit_error_rate(  # noqa: PLR0913 - a study's settings, most of them optional
     heartbeat
         Called before each picture; what it raises ends the measurement.
 
-    Returns
-    -------
-    BitErrors
-
     Raises
     ------
     ParameterError

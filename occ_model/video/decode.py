@@ -33,10 +33,6 @@ def decode_video(
     progress
         Called after each frame. What it raises ends the reading.
 
-    Returns
-    -------
-    VideoReading
-
     Raises
     ------
     ParameterError

@@ -50,10 +50,6 @@ def render_video(
     rows_step
         From 2 on frames are drafts: every ``rows_step``-th row of each and no other.
 
-    Returns
-    -------
-    SimulatedVideo
-
     Raises
     ------
     ParameterError

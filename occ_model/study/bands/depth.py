@@ -32,11 +32,6 @@ def band_depth(scene: Scene) -> BandDepth:
     blur and vignetting are not. The relative error of the light's depth is below 1e-9 with sharp
     edges; with LED edges it is below 1e-13 of the mean.
 
-    Parameters
-    ----------
-    scene
-        The scene.
-
     Returns
     -------
     BandDepth

@@ -30,11 +30,6 @@ def eye_flicker(scene: Scene) -> EyeFlicker:
 
     They hold for the lamp's own light, including its edges: ambient light reduces them, and a code
     that changes between packets adds slower components.
-
-    Parameters
-    ----------
-    scene
-        The scene.
     """
     check_scene(scene)
     chips = _lit_chips(scene)

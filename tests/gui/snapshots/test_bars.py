@@ -17,7 +17,6 @@ from occ_gui.widgets.state_look import State
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.theme import palette_of
 from occ_model.photo.reading.load import Photo
-from occ_model.results.advice import EndFacts
 from occ_model.results.limits import RangeEnd, ReadInterval, Trial, WorkingRange
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
@@ -68,10 +67,7 @@ def test_the_cards_of_the_limits_look_as_stored(
     cards = LimitCards(("threshold", "matched", "equalizer"))
     cards.setStyleSheet(style_sheet(palette))
     show(qtbot, cards, 760, 84)
-    read = EndFacts(
-        "switching_frequency", "highest", trial(14.2e3, 100), trial(14.3e3, 0),
-        trial(14.1e3, 100),
-    )  # fmt: skip
+    read = RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0), trial(14.1e3, 100))
     cards.cards["threshold"].show_limit(read, "It reads up to 14.2 kHz.", 99.0)
     ends = RangeEnd(trial(3.5e3, 100), None), RangeEnd(trial(14.2e3, 100), trial(14.3e3, 0))
     cards.cards["threshold"].show_range(

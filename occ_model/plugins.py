@@ -1,13 +1,13 @@
 """Plug-ins: what installed packages offer under an entry point, read when first asked for."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import lru_cache
 from threading import get_ident
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from occ_model.errors import PluginError, one_line, shown
+from occ_model.errors import ParameterError, PluginError, one_line, shown
 
 if TYPE_CHECKING:  # its import is slow, and most scenes ask for no plug-in
     from importlib.metadata import EntryPoint
@@ -99,9 +99,20 @@ def described(group: str, name: str) -> str:
     return f"The plug-in {one_line(name)!r} of the package {one_line(str(package))!r}"
 
 
-def title_of(offered: object) -> str:
-    """Return the title of what a plug-in offers, in one line."""
-    return one_line(str(getattr(offered, "title", "")))
+def called(
+    who: str, verb: str, kind: type[_Kind], function: Callable[..., Any], *given: Any
+) -> _Kind:
+    """Call a function of a plug-in, whose fault is a sentence, and whose result is of a kind."""
+    try:
+        with at_work(who):
+            result = function(*given)
+    except (ParameterError, PluginError):
+        raise  # a sentence already
+    except FAULTS as error:
+        raise PluginError(f"{who} cannot {verb}: {reason(error)}") from None
+    if not isinstance(result, kind):
+        raise PluginError(f"{who} gives a {type(result).__name__}, not a {kind.__name__}.")
+    return result
 
 
 def reason(error: BaseException) -> str:

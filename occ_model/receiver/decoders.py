@@ -7,15 +7,14 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError, shown
+from occ_model.errors import ParameterError, PluginError, shown
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.equalizer.decoder import DECODER as EQUALIZER
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
-from occ_model.receiver.plugin_result import problem_of
+from occ_model.receiver.plugin_result import checked_result
 from occ_model.receiver.threshold.decoder import DECODER as THRESHOLD
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.plugin_values import plain_reason
 
 
 def _read_sequence(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -69,15 +68,9 @@ def _plugin(name: str) -> Decoder:
         # It cannot change the signal that other decoders read after it.
         own = np.array(signal)
         try:
-            with plugins.at_work(who):
-                result = offered.read(own, scene)
-            problem = problem_of(result, len(own))
-        except plugins.FAULTS as error:
-            return DecodeResult(
-                name, signal=signal, failure=f"{who} fails: {plugins.reason(error)}"
-            )
-        if problem:
-            return DecodeResult(name, signal=signal, failure=f"{who} gives {problem}.")
-        return replace(result, decoder=name, failure=plain_reason(result.failure), location=None)
+            result = plugins.called(who, "read", DecodeResult, offered.read, own, scene)
+            return replace(checked_result(who, result, len(own)), decoder=name)
+        except (ParameterError, PluginError) as error:
+            return DecodeResult(name, signal=signal, failure=str(error))
 
-    return Decoder(name, plugins.title_of(offered), read)
+    return Decoder(name, offered.title, read)

@@ -6,64 +6,31 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import ParameterError, PluginError, shown
+from occ_model.errors import PluginError
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.plugin_values import (
-    are_places,
-    checked_chips,
-    excess,
-    is_bits,
-    is_reason,
-    plain_bits,
-    plain_reason,
-)
+from occ_model.transmitter.plugin_values import MOST_CHIPS, checked_bits, plain_reason
 from occ_model.transmitter.registry import Registry
-
-
-def _problem_of(read: object, chips: int, bits: int) -> str | None:
-    """Say what is wrong with what a plug-in has read; None if nothing is."""
-    if not isinstance(read, Framed):
-        return f"no bits, but a {type(read).__name__}"
-    if problem := excess("bits", read.bits, bits):
-        return problem
-    if not is_bits(read.bits):
-        return f"no bits, but a {type(read.bits).__name__}"
-    if not is_reason(read.failure) or (read.failure is None and not read.bits.size):
-        return "neither bits nor a reason"
-    if not are_places(read.headers, chips):
-        return "headers that are not places among the chips"
-    return None
 
 
 def _guarded(offered: Framing) -> Framing:
     """Return a plug-in's framing whose faults become sentences."""
     who = plugins.described(plugins.FRAMINGS, offered.name)
-    if not isinstance(offered.checks, bool):
-        raise PluginError(
-            f"{who} declares checks = {shown(offered.checks)}; allowed: True or False."
-        )
 
     def encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
-        try:
-            with plugins.at_work(who):
-                chips = np.asarray(offered.encode(bits, form))
-        except plugins.FAULTS as error:
-            if isinstance(error, PluginError | ParameterError) and str(error).isprintable():
-                raise  # the line code's own sentence
-            raise PluginError(f"{who} cannot encode: {plugins.reason(error)}") from None
-        return checked_chips(chips, who)
+        chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, form)
+        if not chips.size:
+            raise PluginError(f"{who} gives no chips.")
+        return checked_bits(who, "chips", chips, MOST_CHIPS)
 
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
         try:
-            with plugins.at_work(who):
-                read = offered.decode(chips, form)
-        except plugins.FAULTS as error:
-            return Framed.nothing(f"{who} cannot decode: {plugins.reason(error)}")
-        if problem := _problem_of(read, len(chips), form.bits):
-            return Framed.nothing(f"{who} gives {problem}.")
-        return Framed(read.headers, plain_bits(read.bits), plain_reason(read.failure))
+            read = plugins.called(who, "decode", Framed, offered.decode, chips, form)
+            bits = checked_bits(who, "bits", read.bits, form.bits)
+        except PluginError as error:
+            return Framed.nothing(str(error))
+        return Framed(read.headers, bits, plain_reason(read.failure))
 
-    return replace(offered, title=plugins.title_of(offered), encode=encode, decode=decode)
+    return replace(offered, encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(  # the framings that a scene chooses among

@@ -123,8 +123,11 @@ def test_cards_and_page_count_bits_at_the_same_frame_rate(qtbot: QtBot, small_sc
 
 def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
-    ends = tuple(replace(end, inside=None) for end in advice.frequency.ends)
-    doubtful = replace(advice, frequency=replace(advice.frequency, ends=ends))
+    found = advice.frequency.found
+    ends = (found.intervals[0].lowest, found.intervals[-1].highest)
+    interval = ReadInterval(*(replace(end, inside=None) for end in ends))
+    only = replace(found, intervals=(interval,))
+    doubtful = replace(advice, frequency=replace(advice.frequency, found=only))
     line = advice_lines(doubtful)[2]
     assert line.text.endswith("No value inside is surely read.")
     assert line.destination is None

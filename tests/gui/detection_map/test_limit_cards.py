@@ -116,7 +116,8 @@ def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene
     cards = LimitCards(list(DECODERS))
     qtbot.addWidget(cards)
     for decoder, card in cards.cards.items():
-        end = advice_on(small_scene).frequency.ends[-1]
+        end = advice_on(small_scene).frequency.found.highest
+        assert end is not None
         works, inside = replace(end.works, value=58.82e3), replace(INSIDE, value=58.82e3)
         card.show_limit(replace(end, works=works, fails=None, inside=inside, interval=None), "", 99)
         assert card.value.text() == "58.82 kHz, searched to"

@@ -14,7 +14,7 @@ import numpy as np
 from occ_model.arrays import BoolArray, ByteArray, FloatArray
 from occ_model.camera.photometry import WHITE
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.scheme import scheme_named, scheme_of
+from occ_model.transmitter.scheme import Scheme, scheme_of
 
 _CHIPS = 1500  # chips of random payloads that the distribution of light is computed from
 PER_CHIP = 16  # exposures in each chip of :func:`expected_light`
@@ -69,28 +69,16 @@ def expected_light(scene: Scene) -> FloatArray:
     """Return the lit fractions of exposures of random data in the order of time, 16 a chip."""
     transmitter = scene.transmitter
     exposure = scene.camera.exposure_time * transmitter.switching_frequency
-    if transmitter.pattern:
-        return _expected_light("", "", "", "none", 0, exposure)
-    return _expected_light(
-        transmitter.line_code,
-        transmitter.framing,
-        transmitter.preamble,
-        transmitter.error_correction,
-        scheme_of(transmitter).bits,
-        exposure,
-    )
+    return _expected_light(None if transmitter.pattern else scheme_of(transmitter), exposure)
 
 
 @lru_cache(maxsize=32)
-def _expected_light(
-    line_code: str, framing: str, preamble: str, correction: str, bits: int, exposure: float
-) -> FloatArray:
+def _expected_light(scheme: Scheme | None, exposure: float) -> FloatArray:
     random = np.random.default_rng(1)
     chips: ByteArray
-    if bits:
-        scheme = scheme_named(line_code, framing, preamble, correction, bits)
+    if scheme is not None:
         count = max(1, _CHIPS // scheme.length)
-        payloads = random.integers(0, 2, (count, bits), dtype=np.uint8)
+        payloads = random.integers(0, 2, (count, scheme.bits), dtype=np.uint8)
         chips = np.concatenate([scheme.encode(payload) for payload in payloads])
     else:
         chips = random.integers(0, 2, _CHIPS, dtype=np.uint8)

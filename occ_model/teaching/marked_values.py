@@ -47,10 +47,10 @@ def _period(scene: Scene) -> float:
         from occ_model.study.bands.least_depth import DepthOver
 
         return float(DepthOver.of(scene).period)
-    built_in = {**LINE_CODES.files, **FRAMINGS.files}
-    if not {scene.transmitter.line_code, scene.transmitter.framing} <= built_in.keys():
+    sent = scene.transmitter
+    if not (LINE_CODES.is_built_in(sent.line_code) and FRAMINGS.is_built_in(sent.framing)):
         return 0.0  # marks are asked for while a slider moves: a plug-in may take any time
     try:
-        return float(len(sent_chips(scene.transmitter)))
+        return float(len(sent_chips(sent)))
     except OccError:  # which the picture's failure names
         return 0.0

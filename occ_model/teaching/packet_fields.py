@@ -32,7 +32,7 @@ def packet_fields(scene: Scene) -> tuple[PacketField, ...]:
     sent = scene.transmitter
     code = scheme_of(sent).line_code
     # A plug-in's may take any time, and the fields are asked for while the window is drawn.
-    is_known = code.name in LINE_CODES.files and code.block_bits == 1
+    is_known = LINE_CODES.is_built_in(code.name) and code.block_bits == 1
     if sent.pattern or sent.error_correction != "none" or not is_known:
         return ()
     chips, bits = sent_chips(sent), np.array(sent.payload_bits, dtype=np.uint8)

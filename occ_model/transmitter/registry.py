@@ -1,6 +1,6 @@
 """What a parameter's names stand for: objects of the program's own files and of plug-ins."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
@@ -19,9 +19,7 @@ class Registry(Generic[_Kind]):
     parameter: str  # The parameter, which declares the names of the built-in ones
     kind: type[_Kind]
     constant: str  # What a module calls the object that it offers
-    # Where the built-in ones stand: a folder, and the file of each name in it
-    package: str
-    files: Mapping[str, str]
+    package: str  # The folder of the built-in ones, each in its name's file: c_ook.py, _4b6b.py
     group: str  # The entry point of the plug-ins
     guarded: Callable[[_Kind], _Kind]  # Turns the faults of a plug-in's object into sentences
 
@@ -29,14 +27,17 @@ class Registry(Generic[_Kind]):
         """Return all names, those of plug-ins last."""
         return open_choice(self.parameter).all_choices()
 
+    def is_built_in(self, name: str) -> bool:
+        return name in open_choice(self.parameter).choices
+
     def built_in(self) -> dict[str, _Kind]:
-        return {name: self.named(name) for name in self.files}
+        return {name: self.named(name) for name in open_choice(self.parameter).choices}
 
     @cache  # noqa: B019 - the registries live as long as the program, and names are few
     def named(self, name: str) -> _Kind:
         open_choice(self.parameter).check(name)
-        if name in self.files:
-            module = import_module(f"{self.package}.{self.files[name]}")
-            built_in: _Kind = getattr(module, self.constant)
+        if self.is_built_in(name):
+            file = ("_" if name[0].isdigit() else "") + name.replace("-", "_")
+            built_in: _Kind = getattr(import_module(f"{self.package}.{file}"), self.constant)
             return built_in
         return self.guarded(plugins.load_plugin(self.group, name, self.kind))

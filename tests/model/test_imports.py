@@ -95,8 +95,8 @@ def test_every_public_name_is_there() -> None:
 def test_no_plugin_is_looked_for_while_built_in_names_are_used() -> None:
     scheme = "code=718, line_code='4b6b', framing='raw'"
     loaded = run(f"{USE.replace('code=718', scheme)}\nimport sys; print(*sys.modules)")
-    assert "occ_model.transmitter.line_codes.four_b_six_b" in loaded
-    assert "occ_model.transmitter.line_codes.eight_b_ten_b" not in loaded
+    assert "occ_model.transmitter.line_codes._4b6b" in loaded
+    assert "occ_model.transmitter.line_codes._8b10b" not in loaded
     assert "importlib.metadata" not in loaded
 
 

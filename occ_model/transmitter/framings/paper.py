@@ -33,14 +33,7 @@ def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
     """Read the packet between the first two headers, or all that fit where data may hold one."""
     length = len(HEADER) + form.line_code.chips_for(form.bits)
     if form.line_code.longest_run is None or form.line_code.longest_run >= HEADER_ONES:
-        header = np.array(HEADER, dtype=np.uint8)
-        return read_repeated(
-            chips,
-            header,
-            length,
-            form,
-            lambda data: read_after(data, HEADER[-1], form),
-        )
+        return read_repeated(chips, np.array(HEADER, dtype=np.uint8), form.bits, form, read_after)
     headers = find_headers(chips)
     if len(headers) < 2:
         return Framed.nothing(_too_few(len(headers), len(chips), length), headers)

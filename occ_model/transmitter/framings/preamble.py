@@ -18,14 +18,7 @@ def _encode(bits: ByteArray, form: FrameFormat) -> ByteArray:
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    preamble = preamble_of(form)
-    return read_repeated(
-        chips,
-        preamble,
-        len(preamble) + form.line_code.chips_for(form.bits),
-        form,
-        lambda data: read_after(data, int(preamble[-1]), form),
-    )
+    return read_repeated(chips, preamble_of(form), form.bits, form, read_after)
 
 
 def read_after(data: ByteArray, level: int, form: FrameFormat) -> Framed:

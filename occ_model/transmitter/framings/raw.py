@@ -50,15 +50,8 @@ def _check_sum(body: ByteArray) -> ByteArray:
 
 
 def _decode(chips: ByteArray, form: FrameFormat) -> Framed:
-    preamble = preamble_of(form)
-    frame_bits = len(_length_field(form.bits)) + form.bits + _CRC_BITS
-    return read_repeated(
-        chips,
-        preamble,
-        len(preamble) + form.line_code.chips_for(frame_bits),
-        form,
-        lambda data: _read(data, int(preamble[-1]), form),
-    )
+    bits = len(_length_field(form.bits)) + form.bits + _CRC_BITS
+    return read_repeated(chips, preamble_of(form), bits, form, _read)
 
 
 def _read(data: ByteArray, level: int, form: FrameFormat) -> Framed:

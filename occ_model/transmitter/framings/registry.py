@@ -38,7 +38,6 @@ FRAMINGS = Registry(  # the framings that a scene chooses among
     kind=Framing,
     constant="FRAMING",
     package=__package__,
-    files={"paper": "paper", "preamble": "preamble", "c-ook": "c_ook", "raw": "raw"},
     group=plugins.FRAMINGS,
     guarded=_guarded,
 )

@@ -15,17 +15,19 @@ from occ_model.transmitter.framings.framing import (
 _MAX_WHOLE_FRAMES = 32  # places of a preamble behind all of which the whole frame is read
 
 _CHECKED_CHIPS = 120  # chips behind preambles that must obey the line code: blocks of 2, 6, 10, 12
-ReadData = Callable[[ByteArray], Framed]  # reads the chips behind a preamble, at least a period
+# Reads the chips behind a preamble, at least a period; given also the preamble's last chip
+ReadData = Callable[[ByteArray, int, FrameFormat], Framed]
 
 
 def read_repeated(
-    chips: ByteArray, preamble: ByteArray, length: int, form: FrameFormat, read: ReadData
+    chips: ByteArray, preamble: ByteArray, bits: int, form: FrameFormat, read: ReadData
 ) -> Framed:
-    """Read the frame that chips show.
+    """Read the frame that chips show: a preamble, and some line-coded bits.
 
     First each preamble with a whole frame after it is tried, then each one with the frame's end
     before it: what is sent repeats. Where a payload may contain the preamble, all are tried.
     """
+    length = len(preamble) + form.line_code.chips_for(bits)
     headers = find_preambles(chips, preamble)
     unique = is_unique(preamble, form.line_code)
     if len(chips) < length:
@@ -35,7 +37,7 @@ def read_repeated(
     for wrapped, data in _candidates(chips, preamble, length, form):
         if wrapped and unique and found:
             break
-        one = read(data)
+        one = read(data, int(preamble[-1]), form)
         if one.failure is None:
             found[one.bits.tobytes()] = one
         else:

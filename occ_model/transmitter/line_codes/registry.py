@@ -40,14 +40,6 @@ LINE_CODES = Registry(  # the line codes that a scene chooses among
     kind=LineCode,
     constant="LINE_CODE",
     package=__package__,
-    files={
-        "differential-manchester": "differential_manchester",
-        "manchester": "manchester",
-        "nrz": "nrz",
-        "4b6b": "four_b_six_b",
-        "8b10b": "eight_b_ten_b",
-        "fsk": "fsk",
-    },
     group=plugins.LINE_CODES,
     guarded=_guarded,
 )

@@ -5,8 +5,8 @@ import itertools
 import numpy as np
 import pytest
 
-from occ_model.transmitter.line_codes import eight_b_ten_b, four_b_six_b, fsk, manchester
-from occ_model.transmitter.line_codes.eight_b_ten_b import control_word, encode_byte
+from occ_model.transmitter.line_codes import _4b6b, _8b10b, fsk, manchester
+from occ_model.transmitter.line_codes._8b10b import control_word, encode_byte
 from occ_model.transmitter.line_codes.fsk import HALF_PERIODS, SYMBOL_CHIPS
 
 COMMAS = ("0011111", "1100000")
@@ -28,7 +28,7 @@ def test_4b6b_words_are_those_of_ieee_802_15_7() -> None:
         0xC: "110010", 0xD: "101001", 0xE: "101010", 0xF: "101100",
     }  # fmt: skip
     bits = np.unpackbits(np.array([0x01, 0x23, 0x45, 0x67, 0x89, 0xAB, 0xCD, 0xEF], dtype=np.uint8))
-    sent = text(four_b_six_b.LINE_CODE.encode(bits, 0))
+    sent = text(_4b6b.LINE_CODE.encode(bits, 0))
     assert sent == "".join(published[number] for number in range(16))
 
 
@@ -112,7 +112,7 @@ def test_no_data_contain_a_comma_or_a_run_of_six() -> None:
 
 def test_bits_are_read_into_bytes_most_significant_first() -> None:
     bits = np.array([1, 0, 1, 1, 0, 1, 0, 1], dtype=np.uint8)  # 0xB5, D21.5
-    assert text(eight_b_ten_b.LINE_CODE.encode(bits, 0)) == "1010101010"
+    assert text(_8b10b.LINE_CODE.encode(bits, 0)) == "1010101010"
 
 
 @pytest.mark.parametrize("symbol", range(4))
@@ -139,7 +139,7 @@ def test_symbols_of_fsk_differ_so_much_that_one_wrong_chip_is_corrected() -> Non
 
 def test_8b10b_is_read_from_any_word_on() -> None:
     bits = np.random.default_rng(1).integers(0, 2, 8 * 12).astype(np.uint8)
-    code = eight_b_ten_b.LINE_CODE
+    code = _8b10b.LINE_CODE
     chips = code.encode(bits, 0)
     read = [code.decode(chips[10 * word :], 0) for word in range(12)]
     for word, decoded in enumerate(read):

@@ -25,7 +25,7 @@ def film_facts(known: FilmProgress, whole: VideoReading | None) -> tuple[Fact, .
             "known",
             "Packet known",
             f"{100.0 * known.known:.0f} %",
-            meaning="Share of the chips of a period that are known, those of a header included.",
+            meaning="Fraction of the chips of a period that are known, those of a header included.",
         ),
     ]
     if whole is not None:
@@ -69,16 +69,16 @@ def packet_facts(reading: VideoReading) -> Iterator[Fact]:
         "packet_error_rate",
         "Packet error rate",
         *error_rate(counts.packets_lost, counts.packets, "packets"),
-        f"Share of the packets sent that were lost: {reading.cut_off} were cut off by the edge of "
-        "a frame or fell in the gap, which happens even where every frame is read.",
+        f"Fraction of the packets sent that were lost: {reading.cut_off} were cut off by the edge "
+        "of a frame or fell in the gap, which happens even where every frame is read.",
     )
     if counts.bits:
         yield Fact(
             "bit_error_rate",
             "Bit error rate",
             *error_rate(counts.bits_wrong, counts.bits, "bits"),
-            "Share of wrong bits in the packets that one frame shows whole, against the payload of "
-            "all together. Packets that no frame shows whole have no bits here.",
+            "Fraction of wrong bits in the packets that one frame shows whole, against the payload "
+            "of all together. Packets that no frame shows whole have no bits here.",
         )
 
 

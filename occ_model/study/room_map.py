@@ -224,8 +224,8 @@ class RoomMapText:
         except (ValueError, StopIteration, csv.Error):
             return None
         index = across * len(self._request.along) + along
-        off, told = (float(text) if text else math.nan for text in (error, stated))
-        return RoomPoint(index, shown, named, misread, wrong, sure, off, told, note)
+        off, stated = (float(text) if text else math.nan for text in (error, stated))
+        return RoomPoint(index, shown, named, misread, wrong, sure, off, stated, note)
 
 
 def room_map(

@@ -32,81 +32,57 @@ class Transmitter(Group):
     )
     bits: int = count_field("Bits", "", "How many bits the code has.", 2, MAX_BITS, 10)
     payload: str = payload_field(
-        "Payload",
-        "",
-        "Text, bytes or bits that are sent in place of the code; empty: the code.",
+        "Payload", "", "Text, bytes or bits that are sent in place of the code; empty: the code.",
         "",
     )
     line_code: str = open_choice_field(
-        "Line code",
-        "",
-        "The rule that turns bits into chips.",
+        "Line code", "", "The rule that turns bits into chips.",
         ("differential-manchester", "manchester", "nrz", "4b6b", "8b10b", "fsk"),
         "differential-manchester",
         group=plugins.LINE_CODES,
     )
     framing: str = open_choice_field(
-        "Framing",
-        "",
+        "Framing", "",
         "How the chips show where a payload starts, and whether it was read rightly.",
-        ("paper", "preamble", "c-ook", "raw"),
-        "paper",
-        group=plugins.FRAMINGS,
+        ("paper", "preamble", "c-ook", "raw"), "paper", group=plugins.FRAMINGS,
     )
     preamble: str = pattern_field(
-        "Preamble",
-        "",
+        "Preamble", "",
         "Chips that start a frame of the framings preamble and raw; empty: the line code's own.",
-        "",
-        most=MAX_PREAMBLE_CHIPS,
-        empty="the line code's own",
+        "", most=MAX_PREAMBLE_CHIPS, empty="the line code's own",
     )
     error_correction: str = choice_field(
-        "Error correction",
-        "",
-        "Bytes added to the payload, by which wrong ones are corrected.",
-        ("none", "reed-solomon"),
-        "none",
+        "Error correction", "", "Bytes added to the payload, by which wrong ones are corrected.",
+        ("none", "reed-solomon"), "none",
     )
     pattern: str = pattern_field(
-        "Raw chip pattern",
-        "",
-        "Chips sent over and over in place of packets; empty: packets.",
+        "Raw chip pattern", "", "Chips sent over and over in place of packets; empty: packets.",
         "",
     )
     switching_frequency: float = quantity_field(
-        "Switching frequency",
-        "f",
+        "Switching frequency", "f",
         "Chips sent per second; one chip lasts the switching period t_LED = 1/f.",
         unit=HERTZ, low=1.0, high=1e9, slider=(500.0, 100e3), scale="log", default=10e3,
     )
     luminance: float = quantity_field(
-        "Luminance",
-        "L_v",
-        "Luminance of the lit panel.",
+        "Luminance", "L_v", "Luminance of the lit panel.",
         unit=NIT, low=0.0, high=1e16, slider=(10.0, 1e5), scale="log", default=3600.0,
     )
     panel_width: float = quantity_field(
-        "Panel width",
-        "",
-        "Size of the panel along the image's columns axis.",
+        "Panel width", "", "Size of the panel along the image's columns axis.",
         unit=METRE, low=1e-4, high=100.0, slider=(0.01, 2.0), scale="log", default=0.6,
     )
     panel_height: float = quantity_field(
-        "Panel height",
-        "",
-        "Size of the panel along the image's rows axis.",
+        "Panel height", "", "Size of the panel along the image's rows axis.",
         unit=METRE, low=1e-4, high=100.0, slider=(0.01, 2.0), scale="log", default=0.6,
     )
     edge_time: float = quantity_field(
-        "LED rise and fall time",
-        "",
+        "LED rise and fall time", "",
         "Time that the LED takes from dark to lit and from lit to dark; 0: none.",
         unit=SECOND, low=0.0, high=1.0, slider=(0.0, 50e-6), scale="linear", default=0.0,
     )
     lambertian_order: float = quantity_field(
-        "Lambertian order",
-        "m",
+        "Lambertian order", "m",
         "The panel's intensity falls as cos^m of the angle; 1: equally bright from all sides.",
         unit=NONE, low=1.0, high=100.0, slider=(1.0, 10.0), scale="linear", default=1.0,
     )
@@ -145,33 +121,24 @@ class Surroundings(Group):
 
     # fmt: off
     illuminance: float = quantity_field(
-        "External illuminance",
-        "E_v",
-        "Light that falls on the panel from elsewhere.",
+        "External illuminance", "E_v", "Light that falls on the panel from elsewhere.",
         unit=LUX, low=0.0, high=1e16, slider=(1.0, 1e5), scale="log", default=290.0,
     )
     reflectance: float = quantity_field(
-        "Reflectance",
-        "R",
-        "Share of that light which the panel and its surroundings throw back.",
+        "Reflectance", "R", "Fraction of that light which the panel and its surroundings reflect.",
         unit=NONE, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.4,
     )
     flicker_depth: float = quantity_field(
-        "Flicker depth",
-        "",
+        "Flicker depth", "",
         "Amplitude of the ambient light's flicker, as a fraction of its mean; 0: steady.",
         unit=NONE, low=0.0, high=1.0, slider=(0.0, 1.0), scale="linear", default=0.0,
     )
     flicker_frequency: float = quantity_field(
-        "Flicker frequency",
-        "",
-        "Frequency of that swing: twice that of the mains.",
+        "Flicker frequency", "", "Frequency of the flicker: twice that of the mains.",
         unit=HERTZ, low=0.01, high=1e9, slider=(50.0, 1000.0), scale="log", default=100.0,
     )
     flicker_phase: float = quantity_field(
-        "Flicker phase",
-        "",
-        "Phase of that swing at time zero; 0: at its crest.",
+        "Flicker phase", "", "Phase of the flicker at time zero; 0: at its maximum.",
         unit=RADIAN, low=-math.pi, high=math.pi,
         slider=(-math.pi, math.pi), scale="linear", default=0.0,
     )

@@ -20,41 +20,29 @@ class Pose(Group):
 
     # fmt: off
     distance: float = quantity_field(
-        "Distance",
-        "d",
-        "Distance from the camera to the panel's centre, along the optical axis.",
+        "Distance", "d", "Distance from the camera to the panel's centre, along the optical axis.",
         unit=METRE, low=1e-3, high=1e4, slider=(0.2, 5.0), scale="log", default=1.2,
     )
     offset_x: float = quantity_field(
-        "Offset along columns",
-        "",
-        "Shift of the panel's centre along the columns axis.",
+        "Offset along columns", "", "Shift of the panel's centre along the columns axis.",
         unit=METRE, low=-1e4, high=1e4, slider=(-1.0, 1.0), scale="linear", default=0.0,
     )
     offset_y: float = quantity_field(
-        "Offset along rows",
-        "",
-        "Shift of the panel's centre along the rows axis.",
+        "Offset along rows", "", "Shift of the panel's centre along the rows axis.",
         unit=METRE, low=-1e4, high=1e4, slider=(-1.0, 1.0), scale="linear", default=0.0,
     )
     yaw: float = quantity_field(
-        "Yaw",
-        "",
-        "Turn of the panel about the rows axis.",
+        "Yaw", "", "Turn of the panel about the rows axis.",
         unit=RADIAN, low=-_LARGEST_ANGLE, high=_LARGEST_ANGLE,
         slider=(-_SLIDER_ANGLE, _SLIDER_ANGLE), scale="linear", default=0.0,
     )
     pitch: float = quantity_field(
-        "Pitch",
-        "",
-        "Turn of the panel about the columns axis.",
+        "Pitch", "", "Turn of the panel about the columns axis.",
         unit=RADIAN, low=-_LARGEST_ANGLE, high=_LARGEST_ANGLE,
         slider=(-_SLIDER_ANGLE, _SLIDER_ANGLE), scale="linear", default=0.0,
     )
     roll: float = quantity_field(
-        "Roll",
-        "",
-        "Turn of the panel about the optical axis.",
+        "Roll", "", "Turn of the panel about the optical axis.",
         unit=RADIAN, low=-math.pi, high=math.pi,
         slider=(-_SLIDER_ANGLE, _SLIDER_ANGLE), scale="linear", default=0.0,
     )
@@ -67,17 +55,14 @@ class Receiver(Group):
 
     # fmt: off
     bright_fraction: float = quantity_field(
-        "Brightest pixels",
-        "",
-        "Share of the image's pixels, the brightest, that mark the panel for the decoder.",
+        "Brightest pixels", "",
+        "Fraction of the image's pixels, the brightest, that mark the panel for the decoder.",
         unit=NONE, low=1e-4, high=0.5, slider=(0.01, 0.2), scale="log", default=0.05,
     )
     equalizer: str = choice_field(
-        "Equalizer",
-        "",
+        "Equalizer", "",
         "How the equalizer undoes the exposure: with the least error, or as if without noise.",
-        ("mmse", "zero-forcing"),
-        "mmse",
+        ("mmse", "zero-forcing"), "mmse",
     )
     # fmt: on
 
@@ -88,30 +73,23 @@ class Model(Group):
 
     # fmt: off
     start_time: float = quantity_field(
-        "Start time",
-        "t_0",
+        "Start time", "t_0",
         "When the first column's exposure starts, counted from the start of a packet.",
         unit=SECOND, low=-1e9, high=1e9, slider=(0.0, 0.02), scale="linear", default=0.0,
     )
     averaging: str = choice_field(
-        "Averaging",
-        "",
+        "Averaging", "",
         "What a column averages: pixel values, as the paper does, or light, as a sensor does.",
-        ("pixel-value", "light"),
-        "pixel-value",
+        ("pixel-value", "light"), "pixel-value",
     )
     enhancement: str = choice_field(
-        "Contrast enhancement",
-        "",
+        "Contrast enhancement", "",
         "What is done to the column values: histogram equalization (the paper), stretch, none.",
-        ("equalization", "stretch", "none"),
-        "equalization",
+        ("equalization", "stretch", "none"), "equalization",
     )
     band_reading: str = choice_field(
-        "Band model",
-        "",
+        "Band model", "",
         "Bands with exact run lengths, or whole columns for each chip and each change (literal).",
-        ("aligned", "literal"),
-        "aligned",
+        ("aligned", "literal"), "aligned",
     )
     # fmt: on

@@ -1,7 +1,6 @@
 """Animations: a parameter runs through its values, and picture, profile and code follow."""
 
 from collections.abc import Callable, Iterator, Sequence
-from io import BytesIO
 from pathlib import Path
 
 import cv2
@@ -11,13 +10,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
-from PIL import Image
 
 from occ_model.arrays import ByteArray
 from occ_model.camera.photometry import level_values
 from occ_model.errors import BandModelUndefined, OutputError, ParameterError, one_line, shown
 from occ_model.figures.drawing import BAND, SIMULATION, house_style
-from occ_model.files.writing import check_replaceable, write_whole
+from occ_model.files.writing import check_replaceable
 from occ_model.receiver.decode import decode
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.frame import Frame
@@ -32,7 +30,6 @@ from occ_model.video.file.write import check_film_path, write_frames
 
 ENDINGS = (".gif", ".mp4", ".png")  # of an animation's file: GIF, MP4 (MPEG-4), animated PNG
 MOST_FRAMES = 300
-_COLOURS = 128
 
 _SIZE, _DOTS = (9.6, 5.4), 100  # inches of a frame, and pixels an inch
 
@@ -63,8 +60,7 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     the rate is not above 0 and up to 50 a second.
     """
     check_scene(scene)
-    ending = path.suffix.lower()
-    if ending not in ENDINGS:
+    if path.suffix.lower() not in ENDINGS:
         raise OutputError(
             f"{one_line(path.name)} has no ending of an animation; use {', '.join(ENDINGS)}."
         )
@@ -80,10 +76,7 @@ def write_animation(  # noqa: PLR0913 - a film's settings, most of them optional
     scenes = [scene.replace(**{name: parameter.check(value)}) for value in values]
     frames = _frames(scenes, parameter, settings or SimulationSettings(), decoder, progress)
     note = Provenance(f"Animation over {name}", {"at hand": scene}).text()
-    if ending == ".mp4":
-        write_frames(path, frames, rate, note)
-    else:
-        write_whole(path, _ENCODERS[ending](frames, rate, note))
+    write_frames(path, frames, rate, note)
 
 
 def _frames(
@@ -155,29 +148,3 @@ def _show_band(line: Line2D, scene: Scene, first: int, last: int) -> None:
         line.set_data(np.arange(first, last), band_profile(scene)[first:last])
     except BandModelUndefined:
         line.set_data([], [])
-
-
-def _gif(frames: Iterator[ByteArray], rate: float, note: str) -> bytes:
-    return _with_pillow(frames, "GIF", rate, comment=note.encode())
-
-
-def _png(frames: Iterator[ByteArray], rate: float, note: str) -> bytes:
-    from PIL.PngImagePlugin import PngInfo
-
-    texts = PngInfo()
-    texts.add_itxt("Description", note)
-    return _with_pillow(frames, "PNG", rate, pnginfo=texts)
-
-
-def _with_pillow(frames: Iterator[ByteArray], form: str, rate: float, **options: object) -> bytes:
-    # Pillow goes through the pictures of a PNG file twice: kept with a palette, they take a third.
-    first, *others = [Image.fromarray(f).quantize(_COLOURS) for f in frames]
-    buffer = BytesIO()
-    first.save(
-        buffer, form, save_all=True, append_images=others, duration=round(1e3 / rate), loop=0,
-        **options,
-    )  # fmt: skip
-    return buffer.getvalue()
-
-
-_ENCODERS = {".gif": _gif, ".png": _png}

@@ -18,6 +18,7 @@ from occ_model.arrays import FloatArray
 from occ_model.errors import ParameterError
 from occ_model.figures.drawing import Drawing, figure_format, house_style, write_figure
 from occ_model.results.sweep import SweepTable
+from occ_model.results.sweep_csv import column_title, written
 from occ_model.results.sweep_request import Shown, SweepPoint
 from occ_model.scene.parameter_kinds import Choice, ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
@@ -70,18 +71,12 @@ def sweep_drawing(table: SweepTable, shown: Shown = "rate") -> Drawing:
             )  # fmt: skip
 
     header = (
-        *(_with_unit(name) for name in names), "decoder", "right bits", "sent bits",
+        *map(column_title, names), "decoder", "right bits", "sent bits",
         "success rate (%)", "95 % from (%)", "95 % to (%)", "bits a second", "note",
     )  # fmt: skip
     title = f"{_TITLES[shown]} over {' and '.join(names)}, {table.request.settings.images} images"
     draw = _curves if len(names) == 1 else _maps
     return Drawing("map", title, lambda: draw(table, shown), header, rows)
-
-
-def _with_unit(name: str) -> str:
-    parameter = PARAMETERS[name]
-    unit = parameter.unit.symbol if isinstance(parameter, Quantity) else ""
-    return f"{name} ({unit})" if unit else name
 
 
 def _provenance(table: SweepTable, shown: Shown) -> Provenance:
@@ -90,13 +85,9 @@ def _provenance(table: SweepTable, shown: Shown) -> Provenance:
     notes = (
         f"{settings.images} images a point",
         f"{settings.frames_a_second:g} images a second, or as many as can be read out",
-        *(f"{name}: {', '.join(map(_text, values))}" for name, values in table.axes.items()),
+        *(f"{name}: {', '.join(map(written, values))}" for name, values in table.axes.items()),
     )
     return Provenance(title, {"at hand": table.request.scene}, settings.seed, notes)
-
-
-def _text(value: ParameterValue) -> str:
-    return value if isinstance(value, str) else repr(value)
 
 
 def _values(table: SweepTable, decoder: str, shown: Shown) -> FloatArray:

@@ -32,7 +32,7 @@ def header_text(request: SweepRequest) -> str:
         f"# by hand: {forced or 'nothing'}",
     ]
     for name, values in request.axes.items():
-        lines.append(f"# axis {_column(name)}: {', '.join(map(_written, values))}")
+        lines.append(f"# axis {column_title(name)}: {', '.join(map(written, values))}")
     lines += ["#", "# scene at hand:"]
     lines += [f"# {line}".rstrip() for line in request.scene.to_toml().splitlines()]
     return "\n".join(lines) + "\n" + csv_row(_columns(request))
@@ -40,13 +40,13 @@ def header_text(request: SweepRequest) -> str:
 
 def _columns(request: SweepRequest) -> list[str]:
     return [
-        *map(_column, request.axes), "decoder", "images", "seed", "right bits", "sent bits",
+        *map(column_title, request.axes), "decoder", "images", "seed", "right bits", "sent bits",
         "success rate (%)", "95 % from (%)", "95 % to (%)", "images read whole", "bits a second",
         "note",
     ]  # fmt: skip
 
 
-def _column(name: str) -> str:
+def column_title(name: str) -> str:
     parameter = PARAMETERS[name]
     unit = parameter.unit.symbol if isinstance(parameter, Quantity) else ""
     return f"{name} ({unit})" if unit else name
@@ -57,7 +57,7 @@ def point_text(
 ) -> str:
     """Write the rows of a point with each decoder's interval, percent; nan where refused."""
     settings = request.settings
-    values = [_written(value) for value in request.values(point.index).values()]
+    values = [written(value) for value in request.values(point.index).values()]
     text = ""
     for place, (decoder, ends) in enumerate(zip(settings.decoders, intervals, strict=True)):
         found: list[object] = [None] * 7
@@ -73,7 +73,7 @@ class PointReader:
 
     def __init__(self, request: SweepRequest) -> None:
         self._axes = [
-            {_written(value): place for place, value in enumerate(values)}
+            {written(value): place for place, value in enumerate(values)}
             for values in request.axes.values()
         ]
 
@@ -100,7 +100,7 @@ def one_line(sentence: str) -> str:
     return " ".join(sentence.split())
 
 
-def _written(value: ParameterValue) -> str:
+def written(value: ParameterValue) -> str:
     return value if isinstance(value, str) else repr(value)
 
 

@@ -224,8 +224,8 @@ class RoomMapText:
         except (ValueError, StopIteration, csv.Error):
             return None
         index = across * len(self._request.along) + along
-        off, stated = (float(text) if text else math.nan for text in (error, stated))
-        return RoomPoint(index, shown, named, misread, wrong, sure, off, stated, note)
+        distance, deviation = (float(text) if text else math.nan for text in (error, stated))
+        return RoomPoint(index, shown, named, misread, wrong, sure, distance, deviation, note)
 
 
 def room_map(

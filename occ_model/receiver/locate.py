@@ -15,16 +15,14 @@ _MIN_BRIGHT_FRACTION = 0.04  # of bright pixels in a cell of a contour; below it
 
 
 def locate(image: ByteArray, bright_fraction: float) -> Location | None:
-    """Find the rectangle round the panel, as the paper describes it.
+    """Find the rectangle round the panel, as the paper describes it; None in an even image.
 
     The brightest pixels that cover ``bright_fraction`` of the area are selected; their contours are
     grown until only one is left; its bounding rectangle is the region. The paper leaves two things
     open. Here a pixel darker than the image's Otsu threshold never counts as bright, as a panel far
-    away has fewer bright pixels than that share. And the rectangle is that of the bright pixels in
-    the grown contour, which growth does not extend into the surroundings. The growth itself, a
-    measure of the distance between the contours, thus does not change the rectangle.
-
-    ``image``: shape (rows, columns); the image. Returns None where all pixels have the same value.
+    away has fewer bright pixels. And the rectangle is that of the bright pixels in the grown
+    contour, which growth does not extend into the surroundings: growth, a measure of the distance
+    between contours, does not change it.
     """
     level = bright_level(_histogram(image), bright_fraction)
     if level is None:

@@ -13,17 +13,7 @@ from occ_model.transmitter.scheme import scheme_of
 def read_payload(result: DecodeResult, scene: Scene) -> DecodeResult:
     """Find frames among the chips of a result, and read the payload by the scene's scheme.
 
-    Parameters
-    ----------
-    result
-        With chips.
-    scene
-        Its transmitter says by which scheme a payload is sent, and how many bits it has.
-
-    Returns
-    -------
-    DecodeResult
-        With headers, bits, code and payload, or with the failure that says why not.
+    Returns the result with headers, bits, code and payload, or with the failure that says why not.
     """
     return with_bits(result, scheme_of(scene.transmitter).decode(result.chips), scene)
 

@@ -57,17 +57,9 @@ class SimulationSettings:
     seed: int = 1
 
     def checked(self, effects: Sequence[str]) -> Self:
-        """Return the settings, the tolerance as a float, or refuse them.
+        """Return the settings, the tolerance as a float, or raise a ParameterError.
 
-        Parameters
-        ----------
-        effects
-            The names that ``force`` may have.
-
-        Raises
-        ------
-        ParameterError
-            Naming the setting, its value and what is allowed.
+        ``effects``: the names that ``force`` may have.
         """
         check_seed(self.seed)
         check_choice("noise", self.noise, NOISE_SOURCES)

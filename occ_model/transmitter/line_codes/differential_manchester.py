@@ -20,23 +20,7 @@ def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
 
 
 def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
-    """Turn chips back into bits.
-
-    Parameters
-    ----------
-    chips : ndarray of uint8, shape (2 x bits,)
-        The chips, first sent first.
-    level
-        The chip before the first one.
-
-    Returns
-    -------
-    bits : ndarray of uint8, shape (bits,)
-        1 where there is no transition at a bit's start.
-    violations : list of int
-        The bits that have no transition in their middle; their value in ``bits`` follows from their
-        start alone.
-    """
+    """Return the bits of chips, and which have no transition in their middle; ``level``: as before."""
     first = chips[0::2]
     second = chips[1::2]
     before = np.concatenate([[np.uint8(level)], second[:-1]])

@@ -3,8 +3,8 @@
 The note of a GIF file is its comment, that of a PNG file the text ``Description``. MP4 and MKV
 files have it in a block at their end that players pass over.
 
-PyAV 18.1 was measured in its place, on 60 frames of 1280 x 720: it takes 103 MB more, writes no note
-into GIF and PNG files, and an animated PNG in 7.7 times the time. Frame times are the same to
+PyAV 18.1 was measured in its place, on 60 frames of 1280 x 720: it takes 103 MB more, writes no
+note into GIF and PNG files, and an animated PNG in 7.7 times the time. Frame times are the same to
 2e-16 s, of an animated PNG off by up to 0.2 ms; MP4 is decoded in 1.6 times the time, GIF in 0.4.
 """
 

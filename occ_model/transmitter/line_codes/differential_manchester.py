@@ -20,7 +20,7 @@ def encode(bits: ArrayLike, level: int = 0) -> ByteArray:
 
 
 def decode(chips: ByteArray, level: int = 0) -> tuple[ByteArray, list[int]]:
-    """Return the bits of chips, and which have no transition in their middle; ``level``: as before."""
+    """Return the bits of chips, and which have no transition in their middle."""
     first = chips[0::2]
     second = chips[1::2]
     before = np.concatenate([[np.uint8(level)], second[:-1]])

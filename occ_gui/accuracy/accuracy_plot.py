@@ -161,12 +161,15 @@ class AccuracyPlot(QWidget):
                 current=way.effects
                 <= set(expected.plan.included)
                 <= way.effects | _forced(expected),
+                unit=expected.plan.unit,
             )
             for way, seconds in shown
         ]
         xs, ys = _places(self._front)
         self.front.setData(xs, ys)
-        tips = [f"{p.name}: {1e3 * p.seconds:.3g} ms, ≈ {p.error:.3g} levels" for p in self._front]
+        tips = [
+            f"{p.name}: {1e3 * p.seconds:.3g} ms, ≈ {p.error:.3g} {p.unit}" for p in self._front
+        ]
         self.front_points.setData(xs, ys, data=tips)
         self.front_ring.setData(*_places([point for point in self._front if point.current]))
         self._fit()
@@ -190,6 +193,10 @@ class AccuracyPlot(QWidget):
     def measured(self) -> tuple[AccuracyPoint, ...]:
         """All points of the current scene; none while the study is incomplete."""
         return () if self._measuring or self._outdated else self._complete
+
+    def show_unit(self, unit: str) -> None:
+        """Name the unit of the errors."""
+        self.plot.setLabel("left", f"error ({unit})")
 
     def show_study_begun(self) -> None:
         self._measuring, self._outdated, self._points = True, False, []
@@ -270,5 +277,5 @@ def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:
 
 def _describe(way: Way) -> str:
     point = way.point
-    numbers = f"{1e3 * point.seconds:.3g} ms, {point.error:.3g} levels"
+    numbers = f"{1e3 * point.seconds:.3g} ms, {point.error:.3g} {point.unit}"
     return f"{way.name}: {numbers}\n({ACCURACY_PARTS[point.part]})"

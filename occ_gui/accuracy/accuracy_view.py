@@ -28,7 +28,7 @@ from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results.accuracy import AccuracyPoint
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.results.plan import Decision
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
 _TABLE_WIDTH, _PLOT_WIDTH, _DETAIL_WIDTH = 560, 344, 312
 """Pixels that the parts need beside each other."""
@@ -134,6 +134,8 @@ class AccuracyView(QWidget):
 
     def show_settings(self, settings: SimulationSettings) -> None:
         """Show the simulation settings without emitting a signal."""
+        self.tolerance.field.show_unit(unit_of(settings.observable))
+        self.plot.show_unit(unit_of(settings.observable))
         self.tolerance.show_value(settings.tolerance)
         self.table.show_tolerance(settings.tolerance)
         self.observable.setCurrentIndex(self.observable.findData(settings.observable))
@@ -202,7 +204,7 @@ class AccuracyView(QWidget):
         self.table.show_rows(rows_of(frame, costs, self._new, None if same else pending))
         if same or pending is None:
             sentence = picture_sentence(costs, snapshot.simulation_seconds, pending)
-            ends = ends_sentence(costs)
+            ends = ends_sentence(costs, frame.plan.unit)
         else:
             sentence = forecast_sentence(frame, costs.picture, pending)
         if self._switched:

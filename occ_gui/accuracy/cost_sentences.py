@@ -17,7 +17,7 @@ def picture_sentence(costs: MeasuredCosts, made: float, expected: Forecast | Non
     return f"{time}; {_error(expected)}." if expected is not None else f"{time}."
 
 
-def ends_sentence(costs: MeasuredCosts) -> str:
+def ends_sentence(costs: MeasuredCosts, unit: str) -> str:
     """Say what other ends of the slider take: no effects, and all.
 
     It is empty until they are measured, in turn with the picture.
@@ -29,7 +29,7 @@ def ends_sentence(costs: MeasuredCosts) -> str:
     error = costs.errors.get(frozenset())
     if bare is None or error is None or most is bare:
         return ""
-    sentence = f"Fastest: {milliseconds(bare.seconds)} ms, error {levels(error)} levels."
+    sentence = f"Fastest: {milliseconds(bare.seconds)} ms, error {levels(error)} {unit}."
     if bare is costs.picture:
         sentence = ""
     if most is not costs.picture:
@@ -63,9 +63,10 @@ def _error(expected: Forecast) -> str:
     if expected.error == 0.0:
         is_exact = expected.plan.tolerance == 0.0
         return "exact: nothing is left out" if is_exact else "nothing is left out"
-    if expected.is_measured:
-        return f"error {levels(expected.error)} levels (measured)"
-    return f"error about {levels(expected.error)} levels (predicted)"
+    error = f"{levels(expected.error)} {expected.plan.unit}"
+    return (
+        f"error {error} (measured)" if expected.is_measured else f"error about {error} (predicted)"
+    )
 
 
 def _promise(expected: Forecast) -> str:
@@ -74,7 +75,7 @@ def _promise(expected: Forecast) -> str:
     off_by_hand = any(d.forced and d.estimate and not d.included for d in plan.decisions)
     if off_by_hand or plan.tolerance == math.inf:
         return "error not measured yet"
-    return f"error about {levels(plan.left_out)} levels (estimated)"
+    return f"error about {levels(plan.left_out)} {plan.unit} (estimated)"
 
 
 def switch_sentence(switched: Sequence[Decision]) -> str:

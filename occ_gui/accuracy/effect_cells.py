@@ -164,7 +164,7 @@ class ErrorCell(QStyledItemDelegate):
             estimate, found = place_of(row.estimate, area), place_of(row.levels, area)
             painter.drawLine(QPointF(estimate, middle), QPointF(found, middle))
             painter.drawLine(QPointF(estimate, middle - 4), QPointF(estimate, middle + 4))
-            if not row.error.startswith("≈"):
+            if row.error[0] not in "≈?":
                 painter.setBrush(colour if row.included else Qt.BrushStyle.NoBrush)
                 painter.drawEllipse(QPointF(found, middle), 3.0, 3.0)
         painter.restore()

@@ -1,5 +1,6 @@
 """Rows of the table of effects: what each shows, from the picture and what was measured."""
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -52,7 +53,9 @@ def rows_of(
         if forecast is not None:
             after = decision.effect in forecast.plan
             pending = after if after != decision.included else None
-        rows.append(_row(decision, words[decision.stage], costs, decision.effect in new, pending))
+        error = _error(decision, costs.differences.get(decision.effect), frame.plan.unit)
+        is_new = decision.effect in new
+        rows.append(_row(decision, words[decision.stage], costs, error, is_new, pending))
     rest = costs.picture.everything_else
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
     rows.append(
@@ -83,25 +86,29 @@ def stage_words() -> Mapping[str, str]:
 
 
 def _row(
-    decision: Decision, stage: str, costs: MeasuredCosts, new: bool, pending: bool | None
+    decision: Decision,
+    stage: str,
+    costs: MeasuredCosts,
+    error: tuple[str, str],
+    new: bool,
+    pending: bool | None,
 ) -> EffectRow:
     difference = costs.differences.get(decision.effect)
-    error, meaning = _error(decision, difference)
     seconds = costs.seconds_of(decision.effect)
     time = "" if seconds is None or not decision.estimate else milliseconds(seconds)
     if time and costs.shares_step_with(decision.effect) is not None:
         seconds, time = None, "with noise"
     if time and not decision.included:
         time = f"({time})"
-    found = decision.estimate if difference is None else difference.error
+    estimate = decision.estimate if decision.limit < math.inf else None
+    found = estimate if difference is None else difference.error
     return EffectRow(
         decision.effect,
         stage,
         decision.label,
         found if decision.estimate else None,
         decision.limit or None,
-        error,
-        meaning,
+        *error,
         seconds if time else None,
         costs.scatter_of(decision.effect) if time else 0.0,
         time,
@@ -114,19 +121,20 @@ def _row(
     )
 
 
-def _error(decision: Decision, difference: EffectDifference | None) -> tuple[str, str]:
+def _error(decision: Decision, difference: EffectDifference | None, unit: str) -> tuple[str, str]:
+    """Return the error without an effect, and what it means."""
     if not decision.estimate:
         return "none", "The scene does not have this effect."
-    estimate = levels(decision.estimate)
+    is_known = decision.limit < math.inf
+    estimate = f"{levels(decision.estimate)} {unit}"
     if difference is None:
-        meaning = "Leaving it out changes about {estimate} levels (estimated)."
-        return f"≈ {estimate}", meaning.format(estimate=estimate)
+        if not is_known:
+            return "?", decision.reason
+        meaning = f"Leaving it out changes about {estimate} (estimated)."
+        return f"≈ {levels(decision.estimate)}", meaning
     error = levels(difference.error)
-    meaning = (
-        "Leaving it out of the complete picture changes {error} levels (measured), {estimate} were "
-        "estimated."
-    )
-    return error, meaning.format(error=error, estimate=estimate)
+    meaning = f"Leaving it out of the complete picture changes {error} {unit} (measured)"
+    return error, f"{meaning}, {estimate} were estimated." if is_known else f"{meaning}."
 
 
 def levels(error: float) -> str:

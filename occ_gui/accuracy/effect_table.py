@@ -71,9 +71,10 @@ class EffectModel(QAbstractTableModel):
                 "Error without",
                 (
                     "How much the picture would change without it, in levels: 255 of them lie "
-                    "between its darkest and its brightest column.\nThe dot is measured, the "
-                    "whisker ends at the plan's estimate (≈). The line through all rows is the "
-                    "tolerance; drag it."
+                    "between its darkest and its brightest column. For the decision, in margins: "
+                    "at 1 a chip could be misread.\nThe dot is measured, until then the number "
+                    "is an estimate (≈); the whisker ends at the plan's limit. The line "
+                    "through all rows is the tolerance; drag it."
                 ),
             ),
             TIME: (

@@ -18,20 +18,29 @@ _INFINITE = ("∞", "inf", "infinity", "infinite")
 
 
 class ToleranceEdit(QuantityEdit):
-    """A field for the tolerance, which may be infinite."""
+    """A field for the tolerance, which may be infinite, in levels or in margins."""
+
+    _unit = TOLERANCE.unit.symbol
+
+    def show_unit(self, unit: str) -> None:
+        if unit != self._unit:
+            self._unit = unit
+            self._show()
 
     def _show(self) -> None:
         super()._show()
-        if self._value == math.inf:
-            self.lineEdit().setText(f"∞ {TOLERANCE.unit.symbol}")
+        text = self.lineEdit().text() if self._value < math.inf else f"∞ {TOLERANCE.unit.symbol}"
+        self.lineEdit().setText(text.replace(TOLERANCE.unit.symbol, self._unit))
 
     def take_typed(self) -> None:
         """Accept the typed text, as leaving the field does."""
-        text = self.lineEdit().text().removesuffix(TOLERANCE.unit.symbol).strip().lower()
-        if self._typed and text in _INFINITE:
+        text = self.lineEdit().text().removesuffix(self._unit).strip()
+        if self._typed and text.lower() in _INFINITE:
             self.set_value(math.inf)
             self.edited.emit(math.inf)
             return
+        if self._typed:
+            self.lineEdit().setText(text)
         super().take_typed()
 
 

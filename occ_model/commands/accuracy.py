@@ -55,5 +55,5 @@ def _line(point: AccuracyPoint) -> str:
     mark = "  <- current" if point.current else ""
     return (
         f"{point.part:12}{point.name:28}{1e3 * point.seconds:10.3f} ms"
-        f"{point.error:12.3g} levels{mark}"
+        f"{point.error:12.3g} {point.unit}{mark}"
     )

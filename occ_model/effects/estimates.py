@@ -92,6 +92,9 @@ class Estimates:
     factors: Mapping[str, float]
     """By what an effect's change counts more than by its size."""
 
+    unknown: str = ""
+    """Why no change is known; every limit is then infinite."""
+
     def errors_of(self, sets: Sequence[frozenset[str]]) -> list[float]:
         """Return what leaving out sets of effects together changes at most, in levels."""
         if self.seen is None:
@@ -107,15 +110,20 @@ def estimates_of(view: PaperView, settings: SimulationSettings) -> Estimates:
         found = _estimates_of(view, settings.observable, EFFECTS)
     except ProjectionError:  # the simulation refuses the lens
         unknown = {"distortion": math.inf}
-        return Estimates(unknown, unknown, None, WHITE / view.swing, {})
+        why = "the lens cannot be simulated"
+        return Estimates(unknown, unknown, None, WHITE / view.swing, {}, why)
     force = settings.force
     if any(not on and name in found.sizes for name, on in force.items()):
         kept = tuple(effect for effect in EFFECTS if force.get(effect.name, True))
         own = _estimates_of(view, settings.observable, kept)
         sizes, limits = {**found.sizes, **own.sizes}, {**found.limits, **own.limits}
         found = replace(own, sizes=sizes, limits=limits)
+    if view.swing > FLAT:
+        return found
     # Far above the tolerance, or hidden to a sample: it cannot tell.
-    return replace(found, seen=None) if view.swing <= FLAT else found
+    limits = dict.fromkeys(found.sizes, math.inf)
+    why = "the stripes span less than a grey level"
+    return replace(found, seen=None, limits=limits, unknown=why)
 
 
 def _estimates_of(

@@ -17,6 +17,7 @@ from occ_model.scene.simulation_settings import (
     NoiseSource,
     Observable,
     SimulationSettings,
+    unit_of,
 )
 
 _ROUNDING = 1.0 + 1e-9
@@ -201,20 +202,22 @@ def _decide(
     estimate, limit = (found.get(name, 0.0) for found in (estimates.sizes, estimates.limits))
     by_hand = settings.force.get(name)
     included = bool(estimate) and name not in left_out if by_hand is None else by_hand
-    unit = "of the margin" if settings.observable == "decision" else "levels"
+    unit = unit_of(settings.observable)
     size = f"about {estimate:.2g} {unit}" if estimate else "none in this scene"
-    if estimate and limit > _CLEARLY * estimate:
+    if estimate and estimates.unknown:
+        size = f"not known, as {estimates.unknown}"
+    elif estimate and limit > _CLEARLY * estimate:
         size = f"about {estimate:.2g}, at most {limit:.2g} {unit}"
     verdict = "taken in" if included else "left out"
+    tolerance = settings.tolerance
     if by_hand is not None:
         why = f"switched {'on' if included else 'off'} by hand"
         reason = f"{size}: {why}"
-    elif not estimate:
+    elif not estimate or (estimates.unknown and tolerance != math.inf):
         why = size
         reason = f"{size}: {verdict}"
     else:
-        tolerance = settings.tolerance
-        why = _comparison(estimate, limit, tolerance, included, estimates.seen is not None)
+        why = _comparison(estimate, limit, tolerance, included)
         compared = "" if tolerance == math.inf else f", tolerance {tolerance:g}"
         together = ", " + why if included and estimate <= tolerance else ""
         reason = f"{size}{compared}{together}: {verdict}"
@@ -232,17 +235,13 @@ def _decide(
     )
 
 
-def _comparison(
-    estimate: float, limit: float, tolerance: float, included: bool, is_known: bool
-) -> str:
+def _comparison(estimate: float, limit: float, tolerance: float, included: bool) -> str:
     if tolerance == math.inf:
         return "no tolerance is set"
     if not included:
         return "within the tolerance"
     if estimate > tolerance:
         return "above the tolerance"
-    if not is_known:
-        return "not known, as the stripes span less than a grey level"
     if limit > tolerance:
         return "not known to be within the tolerance"
     return "leaving out others saves more time"

@@ -15,6 +15,7 @@ from occ_model.results.accuracy import ACCURACY_PARTS, CHAINED_PARTS, LEAST_ERRO
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.units import LEVEL
 
 _MARKERS = dict(zip(ACCURACY_PARTS, ("o", "s", "^", "v", "D"), strict=True))
 _COLOURS = dict(
@@ -37,7 +38,8 @@ def write_accuracy_figure(
 
 
 def accuracy_drawing(points: Sequence[AccuracyPoint]) -> Drawing:
-    header = ("part", "name", "time (ms)", "error (levels)", "current")
+    unit = points[0].unit
+    header = ("part", "name", "time (ms)", f"error ({unit})", "current")
 
     def rows() -> Iterable[tuple[object, ...]]:
         for p in points:
@@ -64,7 +66,9 @@ def _draw(points: Sequence[AccuracyPoint]) -> Figure:
     )
     ax.grid(linewidth=0.3)
     ax.set_xlabel("time (ms)")
-    ax.set_ylabel("root mean square error\n(levels of the stretched profile)")
+    unit = points[0].unit
+    of_what = "levels of the stretched profile" if unit == LEVEL.symbol else f"decision {unit}"
+    ax.set_ylabel(f"root mean square error\n({of_what})")
     figure.legend(loc="outside right center", frameon=False, fontsize=7)
     return figure
 

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+from occ_model.scene.units import LEVEL
+
 ACCURACY_PARTS = {  # titles of the parts of an accuracy study, by name
     "integration": "exposure: samples in time, closed form",
     "effects": "effects, one after the other",
@@ -24,7 +26,7 @@ class AccuracyPoint:
     part: str  # The part of the study: a name from ``ACCURACY_PARTS``
     name: str
     seconds: float
-    # Root mean square difference from the most exact way, in levels of the stretched profile
-    error: float
+    error: float  # Root mean square difference from the most exact way
     current: bool = False  # Whether the present settings simulate in this way: one point of a study
     effects: tuple[str, ...] = ()
+    unit: str = LEVEL.symbol  # Of the error: of the stretched profile, or of a decision

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
-from occ_model.scene.simulation_settings import Observable
+from occ_model.scene.simulation_settings import Observable, unit_of
 
 Stage: TypeAlias = Literal["light", "optics", "sensor", "processing"]  # in the order of the light
 
@@ -25,6 +25,7 @@ class Decision:
         ``"decision"`` in decision margins: at 1 a chip could be misread.
     limit
         Upper bound of the change, as far as a sample shows: it is compared with the tolerance.
+        Infinite where no change is known, whatever the estimate.
     forced
         Whether the user decided.
     why
@@ -84,6 +85,11 @@ class Plan:
 
     def __contains__(self, effect: object) -> bool:
         return any(d.effect == effect and d.included for d in self.decisions)
+
+    @property
+    def unit(self) -> str:
+        """The unit of the tolerance, of estimates and of errors."""
+        return unit_of(self.observable)
 
     @property
     def included(self) -> tuple[str, ...]:

@@ -16,6 +16,12 @@ code that is read, by how far the signal's chips keep from the threshold."""
 
 OBSERVABLES: tuple[Observable, ...] = ("signal", "profile", "image", "decision")
 
+
+def unit_of(observable: Observable) -> str:
+    """Return the unit of its tolerance and errors, as it stands behind a number."""
+    return "margins" if observable == "decision" else LEVEL.symbol
+
+
 NoiseSource: TypeAlias = Literal["exact", "reused"]
 """Source of noise: drawn for every pixel, or taken repeatedly from one plane of noise."""
 

@@ -6,6 +6,7 @@ noise drawn for each pixel. All errors are RMS in levels of the stretched profil
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from time import perf_counter
 from typing import TypeVar
@@ -67,7 +68,8 @@ def accuracy(
     check_seed(settings.seed)
     check_size(scene.camera)
     chosen = plan(scene, settings.tolerance, settings.observable, settings.force)
-    return _points(scene, settings, chosen, complete)
+    points = _points(scene, settings, chosen, complete)
+    return (replace(point, unit=chosen.unit) for point in points)
 
 
 def point_count(scene: Scene, settings: SimulationSettings | None = None) -> int:

@@ -220,3 +220,29 @@ def test_nothing_is_drawn_of_a_pane_that_is_not_seen(
     view.set_seen(True)
     assert view.summary._full
     assert view.table.model().rowCount() > 3
+
+
+def test_errors_of_a_decision_are_counted_in_margins(qtbot: QtBot, bench: Bench) -> None:
+    view = bench.view
+    while bench.settings.settings.observable != "decision":
+        qtbot.keyClick(view.observable, Qt.Key.Key_Down)
+    bench.simulate()
+    field = view.tolerance.field
+    assert field.lineEdit().text().endswith(" margins")
+    assert "margins" in view.plot.plot.getAxis("left").labelText
+    assert "margins" in bench.row("sensor-noise").error_meaning
+    assert "levels" not in bench.told
+    field.lineEdit().selectAll()
+    qtbot.keyClicks(field, "0.25 margins\r")
+    assert bench.settings.settings.tolerance == 0.25
+    while bench.settings.settings.observable != "image":
+        qtbot.keyClick(view.observable, Qt.Key.Key_Up)
+    bench.simulate()
+    assert field.lineEdit().text() == "0.25 levels"
+
+
+def test_a_change_that_is_not_known_has_no_number(bench: Bench) -> None:
+    bench.simulate(luminance=0.5)
+    row = bench.row("sensor-noise")
+    assert (row.error, row.levels) == ("?", None)
+    assert "not known" in row.error_meaning

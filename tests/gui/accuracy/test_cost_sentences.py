@@ -64,17 +64,17 @@ def test_a_time_that_was_measured_again_is_stated_beside_that_of_the_picture_sho
 def test_the_ends_of_the_slider_are_stated_once_all_are_measured_in_turn() -> None:
     picture, bare, complete = shares(4.0, "jpeg"), shares(1.0), shares(8.0, "jpeg", "flicker")
     errors = {frozenset[str](): 12.34}
-    assert ends_sentence(MeasuredCosts(picture)) == ""
-    assert ends_sentence(MeasuredCosts(picture, (picture, complete, bare))) == ""
+    assert ends_sentence(MeasuredCosts(picture), "levels") == ""
+    assert ends_sentence(MeasuredCosts(picture, (picture, complete, bare)), "levels") == ""
     known = MeasuredCosts(picture, (picture, complete, bare), errors=errors)
-    assert ends_sentence(known) == "Fastest: 1.0 ms, error 12 levels. Exact: 10.0 ms."
+    assert ends_sentence(known, "levels") == "Fastest: 1.0 ms, error 12 levels. Exact: 10.0 ms."
     exact = MeasuredCosts(complete, (complete, bare), errors=errors)
-    assert ends_sentence(exact) == "Fastest: 1.0 ms, error 12 levels."
+    assert ends_sentence(exact, "levels") == "Fastest: 1.0 ms, error 12 levels."
     fastest = MeasuredCosts(bare, (bare, complete), errors=errors)
-    assert ends_sentence(fastest) == "Exact: 10.0 ms."
+    assert ends_sentence(fastest, "levels") == "Exact: 10.0 ms."
 
 
 def test_times_of_different_moments_are_not_compared() -> None:
     others = (shares(205.0), shares(220.0, "jpeg"))
     stale = MeasuredCosts(shares(90.0, "jpeg"), others, errors={frozenset(): 9.7})
-    assert ends_sentence(stale) == ""
+    assert ends_sentence(stale, "levels") == ""

@@ -99,7 +99,7 @@ def test_a_measured_error_takes_the_place_of_the_estimate(table: EffectTable, fr
     assert cell(table, "led-edges", ERROR) == "0.71"
     meaning = str(cell(table, "led-edges", ERROR, ROLE.ToolTipRole))
     assert "measured" in meaning
-    assert f"{decision.estimate:.2g} were estimated" in meaning
+    assert f"{decision.estimate:.2g} levels were estimated" in meaning
 
 
 def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(

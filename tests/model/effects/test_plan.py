@@ -95,7 +95,7 @@ def test_a_decision_needs_less_than_the_signal() -> None:
     scene = occ.load_preset("phone-136us-real").replace(switching_frequency=3e3)
     signal, decision = occ.plan(scene, 0.5, "signal"), occ.plan(scene, 0.5, "decision")
     assert included(decision) < included(signal)
-    assert all("of the margin" in d.reason for d in decision.decisions if d.estimate)
+    assert all("margins" in d.reason for d in decision.decisions if d.estimate)
 
 
 @pytest.mark.parametrize("on", [True, False])
@@ -209,3 +209,14 @@ def test_the_limit_of_noise_in_the_means_of_columns_is_its_law() -> None:
         noise.estimate, rel=4.0 / math.sqrt(2.0 * columns * len(found))
     )
     assert max(found) <= noise.limit
+
+
+def test_of_a_scene_without_stripes_no_change_is_stated() -> None:
+    dark = occ.load_preset("phone-136us-real").replace(luminance=0.5, rows=100, columns=200)
+    unknown = occ.plan(dark, 0.5)
+    assert set(unknown.included) == {d.effect for d in unknown.decisions if d.estimate}
+    for decision in unknown.decisions:
+        if decision.estimate:
+            assert decision.limit == math.inf
+            assert decision.reason.startswith("not known, as the stripes span less")
+            assert "about" not in decision.reason

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from occ_model.arrays import BoolArray, FloatArray
+from occ_model.arrays import FloatArray
 from occ_model.camera.enhancement import Enhancement, PassedSteps
 from occ_model.camera.photometry import FLAT, WHITE, saturate
 from occ_model.effects.normal import clipped_mean, share_unclipped
@@ -60,7 +60,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
     found = Observed(pixels.names, seen, sorted(pixels.names))
     sampling = SignalSampling(pixels)
     found.alone.update(sampling.of_effects())
-    add_unsampled(pixels, found, curves.enhanced)
+    add_unsampled(pixels, found, curves)
     fluctuations = sampling.fluctuations()
     found.doubt.update({effect.name: sampling.doubt_of_file for effect in pixels.files})
     region, contrast = pixels.view.region, float(np.ptp(found.complete / weights))
@@ -140,21 +140,24 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     profile, missed, noise = profile[close], missed[close], noise[close]
     away = np.abs(profile - middles)
 
-    def doubt(name: str, near: BoolArray, carried: FloatArray) -> None:
-        squares = np.where(near, steps[large][:, None] * np.minimum(carried, 0.5), 0.0) ** 2
+    def doubt(name: str, reach: FloatArray | float, carried: FloatArray | float) -> None:
+        nearness = np.maximum(1.0 - away / reach, 0.0)
+        # A column of the sample stands for others that are as close to the step.
+        counted = np.where(missed < 0.0, nearness, nearness > 0.0)
+        squares = (steps[large][:, None] * counted * np.minimum(carried, 0.5)) ** 2
         found.add_doubt([name], max(float((squares @ missed).sum()), 0.0))
 
-    reached = away < np.maximum(2.0 * noise, _ROUNDING_MARGIN)
     for effect in pixels.noises:
         own = pixels.noise_at(frozenset({effect.name}), profile) ** 2
-        rest = np.maximum(noise**2 - own, _ROUNDING_MARGIN**2)
+        rest = noise**2 - own
+        rest[own > rest] = 0.0  # where most is left out, the rest may be left out too
+        rest = np.maximum(rest, _ROUNDING_MARGIN**2)
         by_chance = np.sqrt(own / (rest + own)) / 3.0 / region.rows
-        doubt(effect.name, reached, np.sqrt((own / rest / 8.0) ** 2 + by_chance))
+        carried = np.sqrt((own / rest / 8.0) ** 2 + by_chance)
+        doubt(effect.name, np.maximum(2.0 * noise, _ROUNDING_MARGIN), carried)
     least = np.maximum(pixels.noise_at(pixels.names, middles), _ROUNDING_MARGIN)
     for name, own in zip(pixels.moving, moved, strict=True):
-        nearness = np.maximum(1.0 - away / max(own, _ROUNDING_MARGIN), 0.0)
-        near = nearness > 0.0  # a column of the sample stands for those as close to the step
-        doubt(name, near, np.where(missed < 0.0, nearness, 1.0) * (0.4 * own / least))
+        doubt(name, max(own, _ROUNDING_MARGIN), 0.4 * own / least)
         if least.min() < LEAST_SMOOTHING_NOISE:  # each column passes a step by itself
             error = found.sampling_error(name, region.columns)
             found.add_doubt([name], SURE_DEVIATIONS * error)

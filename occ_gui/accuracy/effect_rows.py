@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from occ_model.results.effect_costs import EffectCrop, EffectDifference, Forecast, MeasuredCosts
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision
+from occ_model.scene.simulation_settings import unit_of
 
 ELSE = "everything else"  # key of the last row, which is no effect
 
@@ -134,7 +135,11 @@ def _error(decision: Decision, difference: EffectDifference | None, unit: str) -
         return f"≈ {levels(decision.estimate)}", meaning
     error = levels(difference.error)
     meaning = f"Leaving it out of the complete picture changes {error} {unit} (measured)"
-    return error, f"{meaning}, {estimate} were estimated." if is_known else f"{meaning}."
+    if not is_known:
+        return error, f"{meaning}."
+    if unit == unit_of("decision"):  # the plan's number is no root mean square there
+        return error, f"{meaning}, root mean square; its peaks beside the threshold, {estimate}."
+    return error, f"{meaning}, {estimate} were estimated."
 
 
 def levels(error: float) -> str:

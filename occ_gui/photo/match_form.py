@@ -116,9 +116,7 @@ class MatchForm(QWidget):
             note = "A known value of the photo; entering it changes the scene."
             field.setToolTip(f"{note}\n\n{explain(declared)}")
             field.edited.connect(lambda value, name=name: self._edit(name, value))
-        self.hint = QLabel()
-        self.hint.setTextFormat(Qt.TextFormat.PlainText)
-        self.hint.setWordWrap(True)
+        self.hint = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.certain = QCheckBox("certain")
         self.certain.setToolTip(
             "Whether this value is known of this photo. What is found with a value that is "

@@ -64,9 +64,9 @@ class PhotoPane(Pane[PhotoPart]):
     def _connect_work(self) -> None:
         view, matching, lamps = self.view, self.matching.work, self.lamps
         matching.begun.connect(view.show_match_begun)
-        matching.task.reported.connect(view.show_progress)
+        matching.task.reported.connect(view.form.show_progress)
         matching.ended.connect(view.show_match_ended)
-        matching.failed.connect(view.show_match_failed)
+        matching.failed.connect(lambda why: view.verdict.show_ended([why]))
         matching.found.connect(self._show_found)
         lamps.begun.connect(view.lamps.show_searching)
         lamps.ended.connect(view.lamps.show_searched)
@@ -127,7 +127,7 @@ class PhotoPane(Pane[PhotoPart]):
         placing = (part.placement, part.is_by_hand)
         if placing != (shown.placement, shown.is_by_hand):
             self._image.show_placement(part.placement)
-            view.show_placement(*placing)
+            view.placement.show_placement(*placing)
 
     def _show_match(self, part: PhotoPart, shown: PhotoPart) -> None:
         view, is_another = self.view, part.match is not shown.match
@@ -139,7 +139,7 @@ class PhotoPane(Pane[PhotoPart]):
         if part.match is not None and (is_another or part.age != shown.age):
             view.show_match_outdated(*part.age)
         if part.refusal != shown.refusal:
-            view.show_match_refused(part.refusal)
+            view.verdict.show_ended(part.refusal)
 
     def _follow(self, part: PhotoPart, shown: PhotoPart) -> None:
         """Do what follows from a change; another part may come of it, which is shown then."""
@@ -159,7 +159,7 @@ class PhotoPane(Pane[PhotoPart]):
     def _show_found(self, found: FoundMatch) -> None:
         """Show the end of a match: one that is refused as the last one was, too."""
         if found.refusal:
-            self.view.show_match_refused(found.refusal)
+            self.verdict.show_ended(found.refusal)
         else:
             self._lie_by_itself()  # a placement by hand belongs to the picture before the match
 

@@ -3,13 +3,7 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import (
-    QGridLayout,
-    QLabel,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QGridLayout, QLabel, QToolButton, QVBoxLayout, QWidget
 
 from occ_gui.widgets.copying import copy_text
 from occ_model.photo.many.other_programs import note_on
@@ -24,9 +18,9 @@ class PasteLines(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.lines: dict[str, QLabel] = {}
-        self.why_none = QLabel()
-        self.why_none.setWordWrap(True)
-        self.why_none.setTextFormat(Qt.TextFormat.PlainText)
+        self.why_none, self.note = (
+            QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText) for _ in range(2)
+        )
         self.why_none.setAccessibleName("Why there is no line for other programs")
         # A grid: a form would not give lines that wrap their height.
         self._grid = QGridLayout()
@@ -37,9 +31,6 @@ class PasteLines(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.why_none)
         layout.addLayout(self._grid)
-        self.note = QLabel()
-        self.note.setWordWrap(True)
-        self.note.setTextFormat(Qt.TextFormat.PlainText)
         self.note.setAccessibleName("What the lines for other programs assume")
         layout.addWidget(self.note)
         self.show_lines({})
@@ -60,10 +51,9 @@ class PasteLines(QWidget):
         self.why_none.setText(why_none)
         self.why_none.setVisible(bool(why_none))
         for program, line in lines.items():
-            field = QLabel(line)
-            field.setTextFormat(Qt.TextFormat.PlainText)
+            # Wrapped: the number stands at the end.
+            field = QLabel(line, wordWrap=True, textFormat=Qt.TextFormat.PlainText)
             field.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            field.setWordWrap(True)  # the number stands at the end
             field.setAccessibleName(f"Line for {program}")
             copy = QToolButton()
             copy.setText("Copy")

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from PySide6.QtWidgets import QWidget
 
 from occ_gui.photo.match_values import condition_of
+from occ_gui.photo.verdict_view import STATES
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
@@ -13,7 +14,7 @@ from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.match_facts import known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
-from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE, PhotoRow
+from occ_model.results.photo_table import SURE, PhotoRow
 from occ_model.scene.parameters import quantity
 
 
@@ -157,16 +158,10 @@ class PhotoVerdictBar(StateBar):
 
     def _listed(self, row: PhotoRow) -> tuple[State, tuple[str, ...]]:
         """Return what the table has found, whose numbers stand in its row."""
-        titles = {
-            SURE: (State.GOOD, "Photo: sure in the table"),
-            DOUBTFUL: (State.DOUBTFUL, "Photo: doubtful in the table"),
-            REFUSED: (State.BAD, "Photo: refused in the table"),
-            UNREADABLE: (State.BAD, "Photo: unreadable in the table"),
-        }
-        state, title = titles[row.verdict]
-        here = ""
-        if row.verdict in {SURE, DOUBTFUL}:
-            here = "Match it by itself to see its curves and to apply what is found."
+        state = STATES.get(row.verdict, State.BAD)
+        is_matched = state is not State.BAD
+        here = "Match it by itself to see its curves and to apply what is found." * is_matched
+        title = f"Photo: {row.verdict} in the table"
         return state, (title, f"{row.note} {here}".strip(), row.note or here)
 
     def _found(self, match: Match) -> str:

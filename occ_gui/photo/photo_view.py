@@ -1,17 +1,10 @@
 """Pane of the photo: its facts, its match with the scene, and its placement."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 
 from PySide6.QtCore import QPoint, QSize, Qt, Signal
-from PySide6.QtWidgets import (
-    QFrame,
-    QLabel,
-    QPushButton,
-    QStackedWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QStackedWidget, QVBoxLayout, QWidget
 
 from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.many.many_view import ManyPhotosView
@@ -23,7 +16,6 @@ from occ_gui.photo.photo_verdict_bar import PhotoVerdictBar
 from occ_gui.photo.placement_form import PlacementForm
 from occ_gui.values.photo_choice import PhotoChoice
 from occ_gui.values.photo_results import FoundMatch
-from occ_gui.values.placement import Placement
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.photo.reading.load import Photo
 from occ_model.results.bands import Cure
@@ -197,18 +189,10 @@ class PhotoView(QWidget):
         self._bring_into_view(self.form)
         self.form.match_square()
 
-    def show_placement(self, placement: Placement, by_hand: bool) -> None:
-        """Show where the photo lies."""
-        self.placement.show_placement(placement, by_hand)
-
     def show_match_begun(self) -> None:
         """Show that a match is running."""
         self.form.show_running(True)
         self.verdict.show_begun()
-
-    def show_progress(self, share: float) -> None:
-        """Show the fraction of the work that is done, from 0 to 1."""
-        self.form.show_progress(share)
 
     def show_match_ended(self) -> None:
         """Show that no match is running; the previous one stays."""
@@ -232,20 +216,12 @@ class PhotoView(QWidget):
         if found.is_listed:  # the table stays at hand
             bar.setValue(place)
 
-    def show_match_refused(self, reasons: Sequence[str]) -> None:
-        """Show the reasons why no match was found, or none; the previous match stays."""
-        self.verdict.show_ended(reasons)
-
     def show_match_outdated(self, why: str, usable: bool) -> None:
         """Show why the match is not the present one, empty if it is, and whether it can be used."""
         self._is_outdated = bool(why)
         self.result.show_outdated(why, usable)
         self.verdict.show_outdated(why)
         self._show_steps()
-
-    def show_match_failed(self, sentence: str) -> None:
-        """Show why the match failed; the previous one stays."""
-        self.verdict.show_ended([sentence])
 
     def _bring_into_view(self, part: QWidget) -> None:
         """Scroll to a part that has just appeared, after the page has been laid out again."""

@@ -12,7 +12,7 @@ from occ_model.results.photo_table import DOUBTFUL, REFUSED, SURE, UNREADABLE
 SIGNS = {SURE: "●", DOUBTFUL: "◐", REFUSED: "○", UNREADABLE: "✕"}
 """A sign for each verdict, so that none rests on a colour alone."""
 
-_STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
+STATES = {SURE: State.GOOD, DOUBTFUL: State.DOUBTFUL}
 """Whose colours the plate has, as the bar at the top has."""
 
 _MARGIN = 4
@@ -58,12 +58,12 @@ class VerdictView(QWidget):
     def show_outdated(self, outdated: bool) -> None:
         """Show whether the verdict is on something else than is asked about now."""
         self._is_outdated = outdated
-        name = self._names()[self._verdict]
-        self.word.setText(f"Before: {name}" if outdated else f"{SIGNS[self._verdict]} {name}")
+        sign = "Before:" if outdated else SIGNS[self._verdict]
+        self.word.setText(f"{sign} {self._verdict}")
         self.word.setAutoFillBackground(not outdated)
         palette = QPalette()
         if not outdated:
-            colours = colours_of(_STATES[self._verdict], self.palette())
+            colours = colours_of(STATES[self._verdict], self.palette())
             palette.setColor(QPalette.ColorRole.Window, colours.paper)
             palette.setColor(QPalette.ColorRole.WindowText, colours.ink)
         self.word.setPalette(palette)
@@ -74,9 +74,3 @@ class VerdictView(QWidget):
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and self._verdict:
             self.show_outdated(self._is_outdated)
-
-    def _names(self) -> dict[str, str]:
-        return {
-            SURE: "sure",
-            DOUBTFUL: "doubtful",
-        }

@@ -5,14 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QModelIndex, QSize, Qt, Signal
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QTableView,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from occ_gui.photo.assumption import condition, is_stale
 from occ_gui.photo.many.rows_model import KNOWN, NOTE, PHOTO, PhotoRowsModel
@@ -22,11 +15,7 @@ from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.photo.estimate_text import estimate_text
-from occ_model.photo.many.other_programs import (
-    frame_readout_time,
-    lines_to_paste,
-    stated_lines,
-)
+from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
 from occ_model.photo.match_facts import LABELS
 from occ_model.results.photo_table import (
     VERDICTS,
@@ -343,9 +332,7 @@ class ManyPhotosView(QWidget):
 
 
 def _text(name: str) -> QLabel:
-    label = QLabel()
-    label.setWordWrap(True)
-    label.setTextFormat(Qt.TextFormat.PlainText)
+    label = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
     label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
     label.setAccessibleName(name)
     return label

@@ -19,15 +19,7 @@ from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import ParameterError, one_line
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.match_facts import LABELS
-from occ_model.results.photo_table import (
-    DOUBTFUL,
-    REFUSED,
-    SURE,
-    UNREADABLE,
-    PhotoRow,
-    PhotoTable,
-    known_beside,
-)
+from occ_model.results.photo_table import DOUBTFUL, SURE, PhotoRow, PhotoTable, known_beside
 from occ_model.scene.parameters import quantity
 from occ_model.scene.refusal import refusal_of
 
@@ -250,18 +242,10 @@ class PhotoRowsModel(QAbstractTableModel):
         return one_line(row.note, 1000)
 
     def _verdict(self, place: int, row: PhotoRow) -> str:
-        names = {
-            SURE: "sure",
-            DOUBTFUL: "doubtful",
-            REFUSED: "refused",
-            UNREADABLE: "unreadable",
-        }
-        name = names[row.verdict]
+        text = f"{SIGNS[row.verdict]} {row.verdict}"
         if self._table is not None and self._table.is_outlier(place):
-            name = f"{name}, outlier"
-        if self.paths[place] == self._earlier:
-            name = f"{name}, earlier match"
-        return f"{SIGNS[row.verdict]} {name}"
+            text += ", outlier"
+        return f"{text}, earlier match" if self.paths[place] == self._earlier else text
 
 
 def _estimate(row: PhotoRow, name: str) -> str:

@@ -144,7 +144,7 @@ def test_a_running_match_shows_progress_and_a_cancel_button(
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
     view.show_match_begun()
     assert (form.start.isVisible(), form.progress.isVisible()) == (False, True)
-    view.show_progress(0.25)
+    form.show_progress(0.25)
     assert form.progress.value() == form.progress.maximum() / 4
     with qtbot.waitSignal(form.cancelled):
         qtbot.mouseClick(form.cancel, Qt.MouseButton.LeftButton)

@@ -39,7 +39,7 @@ def test_each_step_on_the_way_to_a_match_has_a_verdict(
     view.show_match_ended()
     assert bar.state is State.NEUTRAL
     view.show_match_begun()
-    view.show_match_refused(REASONS)
+    view.verdict.show_ended(REASONS)
     assert (bar.state, bar.heading) == (State.BAD, "Photo: not matched")
     assert " ".join(REASONS) in bar.accessibleDescription()  # nothing else says them
     view.show_matched(match)
@@ -137,7 +137,7 @@ def test_a_refusal_is_read_to_its_end_where_the_window_is_narrow(
     view.open(photo)
     low = bar.minimumSizeHint().height()
     last = "They repeat after 40.0 columns."
-    view.show_match_refused([PLAIN_STRIPES, last])
+    view.verdict.show_ended([PLAIN_STRIPES, last])
     assert bar.wrapped.toolTip() == f"{PLAIN_STRIPES} {last}"  # beside the button it is shortened
     bar.resize(500, 60)
     assert not bar.wrapped.toolTip()
@@ -155,9 +155,9 @@ def test_a_refusal_of_plain_stripes_has_the_button_that_says_what_they_are(
     asked: list[MatchChoice] = []
     view.form.asked.connect(asked.append)
     view.open(photo)
-    view.show_match_refused(REASONS)
+    view.verdict.show_ended(REASONS)
     assert bar.step.isHidden()
-    view.show_match_refused([PLAIN_STRIPES, "They repeat after 40.0 columns."])
+    view.verdict.show_ended([PLAIN_STRIPES, "They repeat after 40.0 columns."])
     assert not bar.step.isHidden()
     qtbot.mouseClick(bar.step, Qt.MouseButton.LeftButton)
     assert [one.sent for one in asked] == ["square"]

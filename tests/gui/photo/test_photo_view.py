@@ -110,7 +110,7 @@ def test_a_failure_is_a_sentence_and_what_was_found_before_stays(
     view.show_matched(match)
     view.show_match_begun()
     view.show_match_ended()
-    view.show_match_failed("No scene explains these stripes.")
+    view.verdict.show_ended(["No scene explains these stripes."])
     assert "No scene explains these stripes." in view.verdict.accessibleDescription()
     assert view.result.isVisible()
     assert view.form.start.isVisible()
@@ -124,12 +124,12 @@ def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
     received: list[Placement] = []
     view.placement.placed.connect(received.append)
     view.open(photo)
-    view.show_placement(Placement(862.237, 3.5, 1.25), by_hand=True)
+    view.placement.show_placement(Placement(862.237, 3.5, 1.25), by_hand=True)
     form = view.placement
     assert (form.column.value(), form.row.value(), form.scale.value()) == (862.24, 3.5, 1.25)
     assert form.reset.isEnabled()
     assert received == []
-    view.show_placement(Placement(), by_hand=False)
+    view.placement.show_placement(Placement(), by_hand=False)
     assert not form.reset.isEnabled()
 
 
@@ -139,7 +139,7 @@ def test_a_changed_field_moves_the_photo_and_keeps_other_digits(
     received: list[Placement] = []
     view.placement.placed.connect(received.append)
     view.open(photo)
-    view.show_placement(Placement(862.237123, 3.5, 1.0), by_hand=False)
+    view.placement.show_placement(Placement(862.237123, 3.5, 1.0), by_hand=False)
     field = view.placement.row
     field.selectAll()
     qtbot.keyClicks(field, "10")
@@ -151,7 +151,7 @@ def test_moving_by_mouse_and_resetting_emit_signals(
     view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
     view.open(photo)
-    view.show_placement(Placement(), by_hand=True)
+    view.placement.show_placement(Placement(), by_hand=True)
     with qtbot.waitSignal(view.placement.moving_chosen) as moving:
         qtbot.mouseClick(view.placement.by_mouse, Qt.MouseButton.LeftButton)
     assert moving.args == [True]

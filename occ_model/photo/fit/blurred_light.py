@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.timing import Timing
 
-_REACH = 8  # maximum distance in columns over which blur acts
+REACH = 8
+"""Maximum distance in columns over which blur acts."""
+
 _LEAST_BLUR = 0.05  # blur in columns below which a picture is sharp
 _CHANGE = 1e-5  # finite difference of the blur in columns
 
@@ -56,43 +58,48 @@ class BlurredLight:
         ``blur``: its standard deviation in columns. ``longer``: chips by which each time on is
         longer than the chips say. ``tails``: excess kurtosis of a blur that is about normal.
         """
-        lit = self._sharp(timing, self._edges_of(longer))
-        return np.asarray(_blurred(lit[None], blur_kernel(blur, tails, shape))[0])
+        return blurred(self.sharp(timing, longer), blur_kernel(blur, tails, shape))
+
+    def sharp(self, timing: Timing, longer: float) -> FloatArray:
+        """Return the fractions without blur, also of the columns beside that blur reaches."""
+        return self._integrated(timing, self._edges_of(longer))
 
     def slopes(
         self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
     ) -> FloatArray:
         """Return the lit fractions' slopes over step, exposure, middle, blur and longer.
 
+        Shape (5, columns).
+        """
+        slopes = blurred(self.sharp_slopes(timing, longer), blur_kernel(blur, 0.0, shape))
+        slopes[BLUR] = blurred(self.sharp(timing, longer), kernel_slope(blur, shape))
+        return slopes
+
+    def sharp_slopes(self, timing: Timing, longer: float) -> FloatArray:
+        """Return the slopes of the fractions without blur, of which those over the blur are 0.
+
         The running integral's slope is the level, and the edges that were passed before are each
         early by half of what the time on is longer.
-
-        Shape (5, columns).
         """
         edges = self._edges_of(longer)
         place, exposure = self._places(timing), timing.exposure
         first, last = (self._passed(edges, where) for where in (place, place + exposure))
         before, after = (self._levels[passed % len(self._levels)] for passed in (first, last))
-        lit, rise = self._sharp(timing, edges), (after - before) / exposure
+        lit, rise = self._integrated(timing, edges), (after - before) / exposure
         from_middle = np.arange(len(place)) - 0.5 * (len(place) - 1)
         by_exposure = (0.5 * (after + before) - lit) / exposure
         by_longer = 0.5 * (last - first) / exposure
-        slopes = _blurred(
-            np.stack([rise * from_middle, by_exposure, rise, lit, by_longer]),
-            blur_kernel(blur, 0.0, shape),
-        )
-        slopes[BLUR] = _blurred(lit[None], kernel_slope(blur, shape))[0]
-        return slopes
+        return np.stack([rise * from_middle, by_exposure, rise, np.zeros_like(lit), by_longer])
 
     def _edges_of(self, longer: float) -> FloatArray:
         return self._edges - 0.5 * longer * self._changes
 
     def _places(self, timing: Timing) -> FloatArray:
         """Return where the exposures start of all columns that blur reaches."""
-        column = np.arange(-_REACH, self._columns + _REACH)
+        column = np.arange(-REACH, self._columns + REACH)
         return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
 
-    def _sharp(self, timing: Timing, edges: FloatArray) -> FloatArray:
+    def _integrated(self, timing: Timing, edges: FloatArray) -> FloatArray:
         # The running integral has corners at the edges; it is 0 at the first of them.
         levels = self._level_before + np.cumsum(self._changes)
         integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])
@@ -114,9 +121,10 @@ class BlurredLight:
         return np.asarray(within + turns.astype(np.int64) * len(self._levels), dtype=np.int64)
 
 
-def _blurred(lit: FloatArray, kernel: FloatArray) -> FloatArray:
-    """Blur rows along the columns, and leave out those that only blur reaches."""
-    return np.asarray(cv2.filter2D(lit, -1, kernel[None])[:, _REACH:-_REACH], dtype=np.float64)
+def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
+    """Blur a row, or several, along the columns, and leave out those that only blur reaches."""
+    found = cv2.filter2D(np.atleast_2d(rows), -1, kernel[None])[:, REACH:-REACH]
+    return np.asarray(found, dtype=np.float64).reshape(*rows.shape[:-1], -1)
 
 
 def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") -> FloatArray:
@@ -128,7 +136,7 @@ def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") ->
     each column the fraction of it that the column covers; exponential tails decay by the same ratio
     from column to column.
     """
-    off = np.abs(np.arange(-_REACH, _REACH + 1)).astype(np.float64)
+    off = np.abs(np.arange(-REACH, REACH + 1)).astype(np.float64)
     blur = max(blur, _LEAST_BLUR)
     if shape == "box":
         half = math.sqrt(3.0) * blur

@@ -117,6 +117,7 @@ class JointModel:
         self._check = check
         columns, as_one = len(profiles[0].values), chips_as_one(chips)
         self._columns, self._step, self.gamma = columns, step, gamma
+        self._values_blurred = values_blurred
         counted = step * columns / as_one
         freedom = level_freedom(counted)
         slow = int(np.clip(counted / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
@@ -209,7 +210,8 @@ class JointModel:
         ) * np.outer(rates, rates)
         prior = residual[-len(USUAL) :]
         shift = np.zeros(9)
-        if free[2]:
+        # Where pixel values are blurred, the model itself blurs the product.
+        if free[2] and not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
             shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
         return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)

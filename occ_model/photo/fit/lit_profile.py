@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.blurred_light import BLUR
+from occ_model.photo.fit.blurred_light import BLUR, REACH, blurred
 from occ_model.photo.fit.lit_columns import LitColumns
 from occ_model.photo.fit.normal_equations import NormalEquations, solved
 from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
@@ -30,7 +30,7 @@ class Seen:
 
     lit: FloatArray
     table: ToneTable
-    sharp: FloatArray | None
+    sharp: FloatArray | None  # also of the columns beside that blur reaches
     kernel: FloatArray
 
 
@@ -40,8 +40,8 @@ class SeenSlopes:
 
     lit: FloatArray  # shape (light's parameters, columns); of the lit fractions, blurred
     tone: ToneSlopes  # of the tone curve, over its own parameters
-    # Shape (light's parameters, columns); of the sharp lit fractions, where pixel values are
-    # blurred.
+    # Shape (light's parameters, columns and those beside that blur reaches); of the sharp lit
+    # fractions, where pixel values are blurred.
     sharp: FloatArray | None
     kernel: FloatArray  # shape (weights,); of the blur's weights, over the blur
 
@@ -83,6 +83,7 @@ class LitProfile:
         self._slow = self._slow_shapes(len(profile.values), slow)
         shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
+        self._wide_shapes = np.pad(self._shapes, ((0, 0), (REACH, REACH)), mode="edge")
         self._equations = NormalEquations(shapes[self.kept], freedom)
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self.kept])
         self._clipped_shapes = np.ascontiguousarray(self._shapes[:, self.clipped])
@@ -96,7 +97,7 @@ class LitProfile:
         if seen.sharp is None:
             kept = self.data - seen.table.value_of(fitted.kept.light(fitted.levels))
         else:
-            picture = LitColumns(self._shapes, seen.sharp)
+            picture = LitColumns(self._wide_shapes, seen.sharp)
             kept = self._less_blurred(seen, picture.light(fitted.shown))
         if not self.clipped.size:
             return kept
@@ -117,14 +118,8 @@ class LitProfile:
         return np.hstack([kept, self._slopes_of_clipped(seen, rates)])
 
     def relative_slope(self, seen: Seen) -> FloatArray:
-        """Return the slope of the swing's logarithm over columns, the clipped columns last.
-
-        Of the swing of light, or of grey levels where these are blurred.
-        """
-        fitted = self._fitted(seen)
-        dark, swing = fitted.shown.reshape(2, -1) @ self._shapes
-        if seen.sharp is not None:
-            swing = seen.table.value_of(dark + swing) - seen.table.value_of(dark)
+        """Return the slope of the swing's logarithm over columns, the clipped columns last."""
+        swing = self._fitted(seen).levels[self.freedom :] @ self._shapes
         swing = np.maximum(swing, LEAST_SWING * float(swing.max()))
         slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
         return np.concatenate([slope[self.kept], slope[self.clipped]])
@@ -200,19 +195,19 @@ class LitProfile:
 
         Their shapes are so smooth that blur does not change them.
         """
-        light = LitColumns(self._shapes, sharp).light(levels)
+        light = LitColumns(self._wide_shapes, sharp).light(levels)
         steep, columns = self._steep(seen, sharp, light)
         return levels + self._explained(steep, columns, self._less_blurred(seen, light))
 
     def _slopes_of_blurred(
         self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray
     ) -> FloatArray:
-        levels, picture = self._fitted(seen).shown, LitColumns(self._shapes, sharp)
+        levels, picture = self._fitted(seen).shown, LitColumns(self._wide_shapes, sharp)
         light, fixed = picture.light(levels), np.zeros((rates.parameters, len(levels)))
         values = seen.table.value_of(light)
         by_values = rates.tone.of_values(values, picture.slopes(levels, fixed, by_sharp))
-        slopes = -_convolved(by_values, seen.kernel)
-        slopes[BLUR] -= _convolved(values, rates.kernel)
+        slopes = -blurred(by_values, seen.kernel)
+        slopes[BLUR] -= blurred(values, rates.kernel)
         slopes = slopes[:, self.kept]
         steep, columns = self._steep(seen, sharp, light)
         moved = self._explained(steep, columns, slopes)
@@ -223,7 +218,7 @@ class LitProfile:
     ) -> tuple[FloatArray, LitColumns]:
         """Return the kept columns' slopes over the levels: a factor of columns."""
         steep = seen.table.slope_of(light)
-        both = _convolved(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
+        both = blurred(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
         return both[0], LitColumns(self._kept_shapes, both[1] / both[0])
 
     def _explained(self, steep: FloatArray, columns: LitColumns, values: FloatArray) -> FloatArray:
@@ -232,15 +227,7 @@ class LitProfile:
         return solved(products, columns.sums(steep * values))
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
-        return np.asarray(
-            self.data - _convolved(seen.table.value_of(light), seen.kernel)[self.kept]
-        )
-
-
-def _convolved(values: FloatArray, kernel: FloatArray) -> FloatArray:
-    rows = np.atleast_2d(values)
-    blurred = cv2.filter2D(rows, -1, kernel[None], borderType=cv2.BORDER_REPLICATE)
-    return np.asarray(blurred, dtype=np.float64).reshape(values.shape)
+        return self.data - blurred(seen.table.value_of(light), seen.kernel)[self.kept]
 
 
 def deviation_of(residual: FloatArray, slope: FloatArray, freedom: float) -> FloatArray:

@@ -39,7 +39,7 @@ class SeenStripes:
         """Return its slopes, those of the tone over gamma itself."""
         timing, curve, blur, longer = self._parts(values.tolist())
         table = self.by(values, 0.0, shape).table
-        sharp = self._light.slopes(timing, 0.0, longer) if self._values_blurred else None
+        sharp = self._light.sharp_slopes(timing, longer) if self._values_blurred else None
         return SeenSlopes(
             self._light.slopes(timing, blur, longer, shape),
             curve.slopes(table),
@@ -53,7 +53,7 @@ class SeenStripes:
 
     def _by(self, values: Sequence[float], tails: float, shape: BlurShape) -> Seen:
         timing, curve, blur, longer = self._parts(values)
-        sharp = self._light.lit_fraction(timing, 0.0, longer) if self._values_blurred else None
+        sharp = self._light.sharp(timing, longer) if self._values_blurred else None
         return Seen(
             self._light.lit_fraction(timing, blur, longer, tails, shape),
             curve.table(),

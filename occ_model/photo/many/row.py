@@ -51,45 +51,38 @@ class MatchSettings:
 def row_of(
     place: int, source: Path | Photo, settings: MatchSettings, heartbeat: Heartbeat
 ) -> tuple[int, PhotoRow]:
-    """Match the file or photo at a place of the table, and give its row with its place."""
-    own = settings.of(place)
-    row = (
-        row_of_photo(source, own, heartbeat)
-        if isinstance(source, Photo)
-        else row_of_file(source, own, heartbeat)
-    )
-    return place, replace(row, given=dict(settings.known).get(place))
+    """Match the file or photo at a place of the table, and give its row with its place.
 
+    A sentence stands in the row where that fails.
+    """
 
-def row_of_file(path: Path, settings: MatchSettings, heartbeat: Heartbeat) -> PhotoRow:
-    """Read and match a file; a sentence stands in the row where that fails."""
-    try:
-        photo = load_photo(
-            path,
-            settings.scan_axis,
-            channel=settings.channel,
-            progress=lambda _share: heartbeat(),
-        )
-    except PhotoError as error:
-        return PhotoRow(path, UNREADABLE, _one_paragraph(str(error)))
-    return row_of_photo(photo, settings, heartbeat)
+    def report(_share: float) -> None:
+        heartbeat()
 
-
-def row_of_photo(photo: Photo, settings: MatchSettings, heartbeat: Heartbeat) -> PhotoRow:
-    """Match a photo that was read."""
+    own, given = settings.of(place), dict(settings.known).get(place)
+    if isinstance(source, Photo):
+        photo = source
+    else:
+        try:
+            photo = load_photo(source, own.scan_axis, channel=own.channel, progress=report)
+        except PhotoError as error:
+            note = _one_paragraph(str(error))
+            return place, PhotoRow(source, UNREADABLE, note, given=given)
     try:
         match = match_photo(
             photo,
-            settings.scene,
-            estimate=settings.estimate,
-            sent=settings.sent,
-            averaging=settings.averaging,
-            fit_gamma=settings.fit_gamma,
-            progress=lambda _share: heartbeat(),
+            own.scene,
+            estimate=own.estimate,
+            sent=own.sent,
+            averaging=own.averaging,
+            fit_gamma=own.fit_gamma,
+            progress=report,
         )
     except MatchError as error:
-        return _row(photo, REFUSED, str(error))
-    return _row(photo, match.verdict, " ".join(match.all_reasons), match)
+        row = _row(photo, REFUSED, str(error))
+    else:
+        row = _row(photo, match.verdict, " ".join(match.all_reasons), match)
+    return place, replace(row, given=given)
 
 
 def _row(photo: Photo, verdict: str, note: str, match: Match | None = None) -> PhotoRow:

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from occ_gui.app.application import Application
 from occ_gui.files.file_controller import sample_photos
 from occ_model.photo.many import match_photos
-from occ_model.photo.many.row import MatchSettings, row_of_file
+from occ_model.photo.many.row import MatchSettings, row_of
 from occ_model.results.photo_table import PhotoRow
 
 Found = dict[tuple[Path, MatchSettings], PhotoRow]
@@ -42,7 +42,7 @@ def listed(
 
     def row(path: Path, settings: MatchSettings, beat: Callable[[], None]) -> PhotoRow:
         if (path, settings) not in found_rows:
-            found_rows[path, settings] = row_of_file(path, settings, beat)
+            found_rows[path, settings] = row_of(0, path, settings, beat)[1]
         return found_rows[path, settings]
 
     def rows(

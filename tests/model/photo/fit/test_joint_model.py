@@ -64,25 +64,45 @@ def test_a_fit_gives_the_timing_back_clipped_or_not(brightest: float) -> None:
     assert fit.exposure == fit.values[1]
 
 
-def test_a_blurred_hot_spot_stretches_the_stripes_as_far_as_is_known() -> None:
-    """Light E = exp(-k x^2) blurred by s moves edges outwards by 2 k s^2 x: it scales the step."""
-    columns, blur = 600, 1.8
-    bend = 1.2 / (0.5 * columns) ** 2
+def hot_spot(blur: float, bend: float, *, values_blurred: bool) -> JointFit:
+    """Fit stripes under light exp(-bend x^2), blurred as light or as pixel values."""
+    columns = 600
     true = np.array([0.09, 0.6, 2.7, 0.0, 0.03, 0.0, 0.0, blur, 0.0])
     wide = columns + 40  # in equal parts beyond both ends
     sharp = BlurredLight(CHIPS, wide).lit_fraction(Timing(0.09, 0.6, 2.7, 2.2), 0.0, 0.0)
     across = np.arange(wide) - 0.5 * (wide - 1)
     light = np.exp(-bend * across**2) * (0.05 + 0.5 * sharp)
-    seen = np.convolve(light, blur_kernel(blur), "same")[20:-20]
+    values, kernel = ToneCurve(2.2, 0.03).table().value_of, blur_kernel(blur)
+    seen = (
+        np.convolve(values(light), kernel, "same")
+        if values_blurred
+        else values(np.convolve(light, kernel, "same"))
+    )[20:-20]
     every = np.ones(columns, dtype=bool)
-    profile = EvenProfile(ToneCurve(2.2, 0.03).table().value_of(seen), every, ~every, 20.0)
-    model = JointModel([profile], CHIPS, 0.09, 2.2)
+    profile = EvenProfile(seen, every, ~every, 20.0)
+    model = JointModel([profile], CHIPS, 0.09, 2.2, values_blurred=values_blurred)
     model.estimate_noise(true)
-    fit = model.fit(true)
+    return model.fit(true)
+
+
+def test_a_blurred_hot_spot_stretches_the_stripes_as_far_as_is_known() -> None:
+    """Light E = exp(-k x^2) blurred by s moves edges outwards by 2 k s^2 x: it scales the step."""
+    blur, bend = 1.8, 1.2 / 300.0**2
+    fit = hot_spot(blur, bend, values_blurred=False)
     stretched = 2.0 * bend * blur**2
     assert fit.values[0] / 0.09 - 1.0 == pytest.approx(-stretched, rel=0.1)
     assert fit.unbiased.values[0] / 0.09 - 1.0 == pytest.approx(0.0, abs=0.05 * stretched)
     assert fit.unbiased.covariance[0, 0] > fit.covariance[0, 0]
+
+
+@pytest.mark.parametrize("blur", [1.0, 1.8])
+def test_a_hot_spot_whose_pixel_values_are_blurred_leaves_the_step(blur: float) -> None:
+    """That model blurs the product itself, also at both ends, where stripes go on."""
+    bend = 1.2 / 300.0**2
+    fit = hot_spot(blur, bend, values_blurred=True)
+    stretched = 2.0 * bend * blur**2
+    assert fit.values[0] / 0.09 - 1.0 == pytest.approx(0.0, abs=0.05 * stretched)
+    assert fit.unbiased.values[0] == fit.values[0]
 
 
 def test_its_misfit_is_that_of_its_noise() -> None:

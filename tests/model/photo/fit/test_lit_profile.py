@@ -1,10 +1,9 @@
 """The levels of a profile are those of weighted least squares, whatever is clipped or blurred."""
 
-import cv2
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.blurred_light import BlurredLight, blur_kernel
+from occ_model.photo.fit.blurred_light import REACH, BlurredLight, blur_kernel, blurred
 from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
@@ -16,7 +15,7 @@ CHIPS = np.array([1, 0, 0, 1, 1, 0, 1, 0], dtype=np.uint8)
 TIMING = Timing(0.09, 0.6, 2.7, 2.2)
 TABLE = ToneCurve(2.2, 0.03, 0.1, -0.1).table()
 LIT = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 0.8, 0.02)
-SHARP = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 0.0, 0.02)
+SHARP = BlurredLight(CHIPS, COLUMNS).sharp(TIMING, 0.02)
 SHAPES = smooth_shapes(COLUMNS, FREEDOM)
 DARK = SHAPES @ [0.05, 0.01, -0.005]
 SWING = SHAPES @ [0.5, 0.08, -0.04]
@@ -90,12 +89,12 @@ def test_white_pulls_the_levels_up_as_data_at_white_would() -> None:
 def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
     """Their levels are corrected by one step; as if light were blurred some are off."""
     kernel = blur_kernel(1.5)
-    sharp = TABLE.value_of(DARK + SWING * SHARP)
-    values = cv2.filter2D(sharp[None], -1, kernel[None], borderType=cv2.BORDER_REPLICATE)[0]
+    dark, swing = (np.pad(levels, REACH, mode="edge") for levels in (DARK, SWING))
+    values = blurred(TABLE.value_of(dark + swing * SHARP), kernel)
     lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
     part = profile_of(values, ALL, ~ALL)
-    as_values = part.residual(Seen(lit, TABLE, SHARP, kernel))[3:-3]
-    as_light = part.residual(Seen(lit, TABLE, None, kernel))[3:-3]
+    as_values = part.residual(Seen(lit, TABLE, SHARP, kernel))
+    as_light = part.residual(Seen(lit, TABLE, None, kernel))
     assert np.std(as_light) > 1.0
     assert np.std(as_values) < 0.1 * np.std(as_light)
 

@@ -140,7 +140,7 @@ class _Case:
     def concluded(self, chosen: Hypothesis) -> Match:
         """Express a hypothesis as a match, with the verdict on it beside the others."""
         photo, scene, stripes = self.photo, self.scene, self.candidates.stripes
-        found, beside = self.candidates.corrected(self.candidates.polished(chosen))
+        found, beside = self.candidates.corrected(chosen)
         others = [*(one for one in self.hypotheses if one is not chosen), *beside]
         apart = [one for one in others if not is_turned(one, found)]
         verdict = self.judge.verdict(found, apart, is_given=self.sent == "scene")

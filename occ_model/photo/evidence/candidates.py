@@ -9,7 +9,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.doubts import LEAST_INFORMATION
 from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, explain_near, polished
+from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, explain_near
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
@@ -150,11 +150,6 @@ class Candidates:
         on = round(_PARTS_OF_A_PERIOD * found.fit.timing.exposure / len(canonical(found.chips)))
         return self._dimmed(on, period, chips_sent)
 
-    def polished(self, found: Hypothesis) -> Hypothesis:
-        """Refine the fits of the hypothesis that was chosen."""
-        explanation = polished(self.stripes, found.explanation)
-        return replace(found, explanation=explanation, fit=self._nearest(explanation, found.rate))
-
     def _dimmed(self, on: int, period: float, chips_sent: int) -> Hypothesis | None:
         if not 0 < on < _PARTS_OF_A_PERIOD:
             return None
@@ -180,13 +175,8 @@ class Candidates:
             if not found.was_read or other.fit.residual >= _MOST_POWER_RATIO * found.fit.residual:
                 return found, [*others, other]
             others.append(found)
-            found = self.polished(
-                replace(
-                    other,
-                    sent=f"{self._named(other.chips)} read from the photo",
-                    read_again=found.read_again,
-                )
-            )
+            sent = f"{self._named(other.chips)} read from the photo"
+            found = replace(other, sent=sent, read_again=found.read_again)
         return found, others
 
     def nearest_other(self, found: Hypothesis) -> Hypothesis | None:

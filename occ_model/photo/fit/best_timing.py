@@ -21,9 +21,7 @@ _MOST_RESIDUAL_RATIO = 4.0  # maximum ratio of a rough fit to the best one for i
 
 _MOST_FINISHED = 6
 
-_NEAR_EXPOSURES = (0.85, 0.93, 1.07, 1.15)  # factors of an exposure from which it is fitted again
 _OTHER_EXPOSURES = (0.8, 1.25)  # factors of an exposure from which other chips are fitted
-_LEAST_SPREAD = 1e-3  # difference of exposures in chips below which fits are the same
 _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
 _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
@@ -112,15 +110,6 @@ def explain_near(
     return Explanation(chips, tuple(_as_good(fits)), camera, tuple(fit.timing for fit in fits))
 
 
-def polished(stripes: Stripes, explanation: Explanation) -> Explanation:
-    """Fit an explanation again from exposures near those of its fits."""
-    with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
-    step = explanation.fits[0].timing.step
-    model = _model(stripes, explanation.chips, explanation.camera, step)
-    fits = _distinct([_polished(model, fit, with_gamma) for fit in explanation.fits])
-    return replace(explanation, fits=tuple(_as_good(fits))) if fits else explanation
-
-
 def _model(stripes: Stripes, chips: ByteArray, camera: CameraTone, step: float) -> StripeModel:
     return StripeModel(stripes.profile, chips, camera.tone, step, camera.rank_resolution)
 
@@ -190,25 +179,6 @@ def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
         if all(abs(fit.timing.exposure - other) > SAME_EXPOSURE for other in exposures):
             kept.append(fit)
     return kept
-
-
-def _polished(model: StripeModel, fit: StripeFit, with_gamma: bool) -> StripeFit:
-    """Fit again from exposures near a fit's, and take the middle of those that are about as likely.
-
-    The lit fraction has corners, and few columns show an edge: the sum of squares has many shallow
-    minima, of which the deepest is hardly more likely than the others.
-    """
-    around = [
-        replace(fit.timing, exposure=share * fit.timing.exposure) for share in _NEAR_EXPOSURES
-    ]
-    fits = [fit, *(model.fit(timing, with_gamma) for timing in around)]
-    best = min(fits, key=lambda one: one.residual)
-    exposures = [one.timing.exposure for one in fits if one.residual <= best.likely]
-    spread = 0.5 * (max(exposures) - min(exposures))
-    if spread < _LEAST_SPREAD:
-        return best
-    middle = replace(best.timing, exposure=0.5 * (max(exposures) + min(exposures)))
-    return model.fit(middle, with_gamma, spread)
 
 
 def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:

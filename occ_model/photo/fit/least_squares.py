@@ -60,8 +60,6 @@ class StripeFit:
     profile: FloatArray  # shape (columns,); the model in grey levels
     correlation: float  # correlation of data and model, both without the uneven light
     residual: float  # sum of the squared differences of data and model
-    # Largest residual of a timing that is about as likely: within two standard deviations.
-    likely: float
     # Whether the levels can be a picture's: lit above dark, and dark not negative.
     is_possible: bool
     # By how many chips the LED is on longer than the chips say, with its standard deviation; (0, 0)
@@ -118,14 +116,9 @@ class StripeModel:
         self,
         start: Timing,
         with_gamma: bool = False,
-        spread: float = 0.0,
         rounds: int = _MOST_ROUNDS,
     ) -> StripeFit:
-        """Fit the timing from a first guess.
-
-        ``spread``: above 0: the exposure is held fixed, uniformly likely within as many chips
-        either way.
-        """
+        """Fit the timing from a first guess."""
         columns = len(self._profile)
         gamma = PARAMETERS["gamma"]
         assert isinstance(gamma, Quantity)  # noqa: S101 - it is one
@@ -134,7 +127,7 @@ class StripeModel:
         first = np.array([start.step, start.exposure, start.middle, start.gamma])
         if not with_gamma:
             low[3] = high[3] = start.gamma
-        free = np.flatnonzero([True, spread == 0.0, True, with_gamma])
+        free = np.flatnonzero([True, True, True, with_gamma])
         scale = (self._scale * np.array([1.0 / columns, 1.0, 1.0, 1.0]))[free]
 
         def timing_of(scaled: FloatArray) -> Timing:
@@ -152,7 +145,7 @@ class StripeModel:
         covariance[np.ix_(free, free)] = _covariance(slopes, residual) * np.outer(scale, scale)
         timing = timing_of(found)
         blur = exposure_deviation((_UNKNOWN_BLUR * timing.step) ** 2, timing.exposure)
-        covariance[1, 1] += spread**2 / 3.0 + blur**2
+        covariance[1, 1] += blur**2
         return self.described(timing, covariance)
 
     def is_possible(self, timing: Timing) -> bool:
@@ -169,10 +162,7 @@ class StripeModel:
         correlation = _flattened_correlation(self._profile, profile, low, swing)
         residual = self._profile - profile
         power = float(residual @ residual)
-        likely = power * (1.0 + 4.0 * correlated_columns(residual) / len(residual))
-        return StripeFit(
-            timing, covariance, low, swing, profile, correlation, power, likely, possible
-        )
+        return StripeFit(timing, covariance, low, swing, profile, correlation, power, possible)
 
 
 def _can_be_levels(low: FloatArray, swing: FloatArray) -> bool:

@@ -32,7 +32,7 @@ COVARIANCE = PARTS @ PARTS.T
 
 def fit_of(timing: Timing = TIMING, covariance: np.ndarray = COVARIANCE) -> StripeFit:
     line = np.zeros(COLUMNS)
-    return StripeFit(timing, covariance, line, line, line, 0.9, 1.0, 1.0, True)
+    return StripeFit(timing, covariance, line, line, line, 0.9, 1.0, True)
 
 
 def values(timing: Timing, scene: Scene, estimate: str) -> dict[str, float]:

@@ -33,7 +33,7 @@ def stripe_fit(step: float, residual: float = 1.0) -> StripeFit:
     line = np.zeros(3)
     covariance = np.diag([1e-8, 1e-4, 1e-4, 0.0])
     timing = Timing(step, 0.8, 3.0, 2.2)
-    return StripeFit(timing, covariance, line, line, line, 0.9, residual, residual, True)
+    return StripeFit(timing, covariance, line, line, line, 0.9, residual, True)
 
 
 def test_a_step_is_as_uncertain_as_the_others_are_far() -> None:

@@ -35,8 +35,8 @@ class BandsView(QWidget):
 
     exposure_chosen = Signal(float)  # the user takes an exposure time, in seconds
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.headline, self.sentences = QLabel(), QLabel()
         self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         for label in (self.headline, self.sentences):

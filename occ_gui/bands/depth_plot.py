@@ -24,8 +24,8 @@ class DepthPlot(QWidget):
 
     chosen = Signal(float)  # the user takes an exposure time, in seconds
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.plot = new_plot(
             "Least depth of the bars", quantity("switching_frequency").label,
             quantity("exposure_time").label, self.palette(),

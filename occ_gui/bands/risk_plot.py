@@ -25,8 +25,8 @@ _DASHES, _SIZES = Qt.PenStyle.DashLine, (5.0, 11.0)
 class RiskPlot(QWidget):
     """Each sine of the lamp's light and the light as a whole, above or below both lines."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.plot = new_plot(
             "Flicker for the eye", "frequency of the flicker (Hz)", "modulation (%)",
             self.palette(), LogAxis("left"), LogAxis("bottom"),

@@ -71,8 +71,8 @@ def _power(value: float, floor: int) -> float:
 class BenchPlots(QWidget):
     """Two plots beside each other, with a curve for each decoder and the bounds of theory."""
 
-    def __init__(self, what: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, what: str) -> None:
+        super().__init__()
         self._what = what
         self._decoders: tuple[str, ...] = ()
         rates = what == RATES

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QTableWidget,
     QTableWidgetItem,
-    QWidget,
 )
 
 from occ_gui.bench.bench_plot import RATES
@@ -18,8 +17,8 @@ from occ_model.results.bench import BenchPoint, BenchRequest
 class BenchTable(QTableWidget):
     """Bit error rates or bits a second, with their intervals; why nothing is read as a tooltip."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._places: dict[tuple[str, float, float], int] = {}
         self._decoders: tuple[str, ...] = ()
         self.setAccessibleName("Table of the bench")

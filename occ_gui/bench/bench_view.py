@@ -43,10 +43,8 @@ class BenchView(QWidget):
     frame_rate_edited = Signal(float)  # the pictures a second that the user has entered
     refused = Signal(str)  # why an entered value is refused
 
-    def __init__(
-        self, decoders: Sequence[str], chosen: Sequence[str], parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
+        super().__init__()
         self._points: list[BenchPoint] = []
         self._bounds: BenchBounds | None = None
         self._rate = FRAME_RATE.default

@@ -33,8 +33,8 @@ class BitStrip(QWidget):
     where one of them is wrong.
     """
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._sent: tuple[int, ...] = ()
         self._received: tuple[int, ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)

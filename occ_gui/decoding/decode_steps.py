@@ -40,8 +40,8 @@ class SignalPlot(QWidget):
     shows that light beside the signal's.
     """
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.plot = new_plot(
             "Signal and chips",
             "column of the region",
@@ -139,8 +139,8 @@ class _CountAxis(Axis):
 class RunLengthPlot(QWidget):
     """Histograms of the run lengths of ones and of zeros, with the thresholds that split them."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.plot = new_plot(
             "Run lengths",
             "run length (columns)",

@@ -25,8 +25,8 @@ class DecodeView(QWidget):
 
     decoder_chosen = Signal(str)  # the name of the decoder that the user chose to see
 
-    def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, decoders: Sequence[str] = ()) -> None:
+        super().__init__()
         self._names = tuple(decoders)
         self._reading: Reading | None = None
         self._early: Reading | None = None

@@ -34,8 +34,8 @@ class AdviceView(QWidget):
     destination_chosen = Signal(str, float, str)
     """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
 
-    def __init__(self, decoders: Sequence[str] = (), parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, decoders: Sequence[str] = ()) -> None:
+        super().__init__()
         self.cards = LimitCards(decoders)
         """The highest frequencies in short, for another place than this page."""
         self.cards.destination_chosen.connect(self.destination_chosen)

@@ -63,8 +63,8 @@ _GAP = 4
 class ColourBar(QWidget):
     """A vertical colour bar with numbers beside it."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._colours = QImage()
         self._numbers: tuple[tuple[float, str], ...] = ()
         self.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Expanding)

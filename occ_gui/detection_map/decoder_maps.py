@@ -34,8 +34,8 @@ class MapPlots(QWidget):
     picked = Signal(object)  # the point that the user chose, by its indices along both axes
     pointed = Signal(object)  # the point under the mouse, None if there is none
 
-    def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, decoders: Sequence[str]) -> None:
+        super().__init__()
         self._decoders = tuple(decoders)
         self._what = "both"
         self._shown: Shown = "rate"

@@ -33,8 +33,8 @@ class LimitCards(QWidget):
     destination_chosen = Signal(str, float, str)
     """The user goes to a limit: a parameter, its SI value, and the decoder that reads there."""
 
-    def __init__(self, decoders: Sequence[str], parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, decoders: Sequence[str]) -> None:
+        super().__init__()
         self.cards = {name: LimitCard(name) for name in decoders}
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 4, 0, 4)
@@ -112,8 +112,8 @@ class LimitCard(QFrame):
     chosen = Signal(float, str)
     """The user goes to the frequency, in hertz, at which the decoder read every bit."""
 
-    def __init__(self, decoder: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, decoder: str) -> None:
+        super().__init__()
         self.setObjectName("card")
         self._decoder = decoder
         self._destination: float | None = None

@@ -18,8 +18,8 @@ class MapLegend(QWidget):
 
     toggled = Signal(str, bool)  # the name of a limit, and whether its line is shown
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         words = {
             "band": (
                 "t = 1 chip",

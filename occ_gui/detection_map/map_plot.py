@@ -59,8 +59,8 @@ class MapPlot(QWidget):
     pointed = Signal(object)
     """The point under the mouse or chosen by the arrow keys, None if there is none."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.title = ""
         self.lines: dict[str, list[FloatArray]] = {}
         self.setting: Point | None = None

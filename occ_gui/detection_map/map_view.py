@@ -46,13 +46,8 @@ class MapView(QWidget):
     picked = Signal(object)  # the point that the user chose, by its indices along both axes
     pointed = Signal(object)  # the point under the mouse, None if there is none
 
-    def __init__(
-        self,
-        decoders: Sequence[str],
-        advised: Sequence[str] | None = None,
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, decoders: Sequence[str], advised: Sequence[str] | None = None) -> None:
+        super().__init__()
         self._failure = self._refusal = ""
         self._progress = "measuring the first points…"
         self._facts: PointFacts | None = None

@@ -1,7 +1,7 @@
 """Card of the search for the code, frequency and number of bits that carry most."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton
 
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.results.most_bits import MostBits
@@ -19,8 +19,8 @@ class MostBitsCard(QFrame):
     chosen = Signal(object)
     """The user goes to what was found, a :class:`~occ_model.results.MostBits`."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setObjectName("card")
         self._best: MostBits | None = None
         self._failures: list[str] = []

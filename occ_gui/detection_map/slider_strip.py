@@ -30,8 +30,8 @@ _AT_HANDLE = 3  # pixels that the present scene's colour is seen on either side 
 class SliderStrip(QWidget):
     """A thin bar as long as the handle's travel; grey where no rate is known."""
 
-    def __init__(self, slider: QSlider, label: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, slider: QSlider, label: str) -> None:
+        super().__init__()
         self._slider = slider
         self._label = label
         self.shares: tuple[float | None, ...] = ()

@@ -15,8 +15,8 @@ _GAP = 6
 class StripLegend(QWidget):
     """A bar from "no bit read" to "all bits read", in a line; in a low window it is left out."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self.setAccessibleName("Colours of the sliders")
         meaning = (

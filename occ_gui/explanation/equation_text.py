@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtWidgets import QFrame, QTextBrowser, QWidget
+from PySide6.QtWidgets import QFrame, QTextBrowser
 
 from occ_model.results.teaching import Equation, Term
 
@@ -24,8 +24,8 @@ _LEAST_HEIGHT = 80
 class EquationText(QTextBrowser):
     """Shows equations; terms whose parameters have just changed are marked for a moment."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._equations: tuple[Equation, ...] = ()
         self.setAccessibleName("Equations with their current numbers")
         self.setToolTip(

@@ -35,8 +35,8 @@ class ExposurePlot(QWidget):
 
     hold_chosen = Signal(bool)  # whether the column stays chosen when the mouse moves
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.sentence = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.sentence.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.sentence.setAccessibleName("Exposure of the column")

@@ -18,8 +18,8 @@ from occ_gui.widgets.plot import Plot
 class ExplanationView(QWidget):
     """The equations with their current numbers, above the exposure of a column."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.equations, self.exposure = EquationText(), ExposurePlot()
         panes = QSplitter(Qt.Orientation.Vertical)
         panes.addWidget(self.equations)

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QEvent, Qt, QUrl
 from PySide6.QtGui import QImage, QResizeEvent, QTextCursor, QTextDocument
-from PySide6.QtWidgets import QTextBrowser, QWidget
+from PySide6.QtWidgets import QTextBrowser
 
 from occ_gui.help.page_style import style_page
 from occ_gui.help.pages import heading_id
@@ -15,8 +15,8 @@ _UNKNOWN = QTextDocument.ResourceType.UnknownResource
 class HelpBrowser(QTextBrowser):
     """Shows Markdown files of this computer; other links open in the system's browser."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setOpenExternalLinks(True)
         self.document().setDocumentMargin(_MARGIN)
         self._pictures: dict[str, QImage] = {}

@@ -19,8 +19,8 @@ class AnswerField(QWidget):
 
     checked = Signal(str)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.field = QLineEdit(maxLength=_LONGEST)
         self.field.setAccessibleName("Your answer")
         self.field.setToolTip("Type your answer here before you look at the explanation.")

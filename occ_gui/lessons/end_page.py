@@ -20,8 +20,8 @@ class EndPage(QWidget):
     next_asked = Signal()
     list_asked = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.title, self.answers = heading(), paragraph()
         self.report = button(
             "Save the report…",

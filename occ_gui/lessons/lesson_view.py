@@ -17,8 +17,8 @@ _WANTED_HEIGHT = 320
 class LessonView(QWidget):
     list_asked = Signal()  # the list is to be shown again
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.list, self.step, self.end = LessonList(), StepPage(), EndPage()
         self._pages = QStackedWidget()
         for page in (ScrollPane(self.list, LEAST), self.step, self.end):

@@ -32,8 +32,8 @@ class ShutterAnimation(QWidget):
     Time runs to the right. A click or the space bar stops it and lets it go on.
     """
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._shutter: RollingShutter | None = None
         self.moment = 0.0  # share of the animation that has passed, from 0 to 1
         self._is_stopped = False

@@ -33,8 +33,8 @@ class StepPage(QWidget):
     answer_given = Signal(str)
     explained = Signal(bool)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.place, self.goal = paragraph(), heading()
         self.text, self.question = typeset_paragraph(), bold(typeset_paragraph())
         self.progress = QProgressBar(textVisible=False)

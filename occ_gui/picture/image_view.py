@@ -33,8 +33,8 @@ class ImageView(QWidget):
     mode_chosen = Signal(str)  # the way of showing the photo that the user chose, one of MODES
     picture_chosen = Signal(str)  # whose picture is shown from now on, one of PICTURES
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.shown_photo: Photo | None = None
         self._frame: Frame | None = None
         self._mode = MODES[0]

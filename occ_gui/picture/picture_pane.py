@@ -22,8 +22,8 @@ _LEAST_SPAN = 0.5  # smallest range of the view in pixels
 class PicturePane(QWidget):
     """One picture with its caption, and the region that was decoded."""
 
-    def __init__(self, caption: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, caption: str) -> None:
+        super().__init__()
         self.caption = ElidedLabel(caption)
         self.graphics = pg.GraphicsView()
         self.graphics.setBackground(self.palette().dark().color())

@@ -36,8 +36,8 @@ class CompareView(QWidget):
     go_asked = Signal(str)
     clear_asked = Signal()
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._pinned = Pinned()
         self._drawn: Pinned | None = None
         self._seen = False

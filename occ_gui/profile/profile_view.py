@@ -48,8 +48,8 @@ class ProfileView(QWidget):
     enhanced_chosen = Signal(bool)  # whether the user chose the enhanced columns
     photo_shown = Signal(object)  # the PhotoProfile that is shown from now on, or None
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._reading: Reading | None = None
         self._is_behind = False
         self._photo: PhotoProfile | None = None

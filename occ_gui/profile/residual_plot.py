@@ -27,8 +27,8 @@ _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
 class ResidualPlot(QWidget):
     """Photo minus simulation over column, with their correlation and RMSE."""
 
-    def __init__(self, linked: pg.PlotWidget, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, linked: pg.PlotWidget) -> None:
+        super().__init__()
         self.numbers = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.numbers.setAccessibleName("Agreement of photo and simulation")
         self.plot = new_plot(

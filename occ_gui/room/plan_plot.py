@@ -32,8 +32,8 @@ class PlanPlot(QWidget):
 
     aim_moved = Signal(float, float, int)  # the user drags the middle of what the camera sees
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.plot = new_plot("Plan of the room", "x (m)", "y (m)", self.palette())
         self.plot.setAspectLocked(True)
         self.plot.setMouseEnabled(False, False)

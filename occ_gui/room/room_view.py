@@ -45,8 +45,8 @@ class RoomView(QWidget):
 
     map_asked = Signal()  # the user wants the map over the floor measured
 
-    def __init__(self, names: Sequence[str], parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, names: Sequence[str]) -> None:
+        super().__init__()
         self.rooms = QComboBox()
         self.rooms.setAccessibleName("Room")
         self.rooms.setToolTip("The room that is shown: one of those that come with the program.")

@@ -31,8 +31,8 @@ class CodeEntry(QWidget):
 
     refused = Signal(str)  # the reason why an input is not valid
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._bits, self._code, self._payload = 0, -1, ""
         self._gestures = Gestures()
         self.title = QLabel()  # what is sent, to stand above the fields

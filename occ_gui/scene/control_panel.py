@@ -40,9 +40,8 @@ class ControlPanel(QWidget):
         presets: Sequence[tuple[str, str]],
         effects: Sequence[str] = (),
         stages: Mapping[str, str] = MappingProxyType({}),
-        parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self.preset = QComboBox()
         self.preset.setAccessibleName("Preset")
         self.preset.setToolTip("Load a scene that comes with the program, or one of your own.")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QValidator
-from PySide6.QtWidgets import QSpinBox, QWidget
+from PySide6.QtWidgets import QSpinBox
 
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
@@ -23,8 +23,8 @@ class CountEdit(QSpinBox):
     refused = Signal(str)
     """The reason why an input is not valid; the field shows the last value again."""
 
-    def __init__(self, declared: Count, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, declared: Count) -> None:
+        super().__init__()
         self._declared = declared
         self.setRange(declared.low, declared.high)
         self.setKeyboardTracking(False)

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QValidator
-from PySide6.QtWidgets import QDoubleSpinBox, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox
 
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
@@ -21,8 +21,8 @@ class DecimalEdit(QDoubleSpinBox):
     refused = Signal(str)
     """The reason why an input is not valid; the field shows the last value again."""
 
-    def __init__(self, declared: Quantity, decimals: int, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, declared: Quantity, decimals: int) -> None:
+        super().__init__()
         self._declared = declared
         self.setDecimals(decimals)
         self.setRange(declared.low, declared.high)

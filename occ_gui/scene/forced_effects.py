@@ -30,8 +30,8 @@ class ForcedEffects(QWidget):
 
     released = Signal()  # the user leaves all effects to the plan
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.text = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.text.setAccessibleName("Effects switched by hand")
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)

@@ -25,11 +25,10 @@ class ParameterPanel(QWidget):
         self,
         names: Iterable[str],
         headings: Mapping[str, str] = MappingProxyType({}),
-        parent: QWidget | None = None,
         *,
         with_scales: bool = False,
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self._scales: dict[str, SliderScale] = {}
         self.play_buttons: dict[str, PlayButton] = {}
         self.rows: dict[str, ParameterRow] = {}

@@ -172,8 +172,8 @@ class QuantityRow(ParameterRow):
 class CountRow(ParameterRow):
     """A number field for whole numbers."""
 
-    def __init__(self, declared: Count, parent: QWidget | None = None) -> None:
-        super().__init__(declared, parent)
+    def __init__(self, declared: Count) -> None:
+        super().__init__(declared)
         self._declared = declared
         self.field = CountEdit(declared)
         keep_wheel_for_scrolling(self.field)
@@ -219,8 +219,8 @@ class ChoiceRow(ParameterRow):
 class OpenChoiceBox(QComboBox):
     """A list of choices that is completed before it opens."""
 
-    def __init__(self, declared: OpenChoice, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, declared: OpenChoice) -> None:
+        super().__init__()
         self._declared = declared
 
     def showPopup(self) -> None:  # noqa: N802 - Qt's name
@@ -233,8 +233,8 @@ class OpenChoiceBox(QComboBox):
 class OpenChoiceRow(ChoiceRow):
     """A list of the built-in choices and those of plug-ins."""
 
-    def __init__(self, declared: OpenChoice, parent: QWidget | None = None) -> None:
-        super().__init__(declared, parent, OpenChoiceBox(declared))
+    def __init__(self, declared: OpenChoice) -> None:
+        super().__init__(declared, OpenChoiceBox(declared))
 
     def _display(self, value: ParameterValue) -> None:
         if self.field.findText(str(value)) < 0:  # a plug-in's
@@ -248,8 +248,8 @@ class PatternRow(ParameterRow):
     What cannot be read stays in it, with the reason, until it is typed anew.
     """
 
-    def __init__(self, declared: ChipPattern | Payload, parent: QWidget | None = None) -> None:
-        super().__init__(declared, parent)
+    def __init__(self, declared: ChipPattern | Payload) -> None:
+        super().__init__(declared)
         self._declared = declared
         self._shown = ""
         self.field = QLineEdit(placeholderText=f"empty: {declared.empty}")

@@ -1,7 +1,6 @@
 """Play button: starts and stops the run of a slider."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QWidget
 
 from occ_gui.widgets.icon_button import IconButton
 
@@ -14,8 +13,8 @@ class PlayButton(IconButton):
     switched = Signal(str, bool)  # the parameter, and whether its slider is to run
     menu_asked = Signal(str)  # the parameter whose menu is to be opened
 
-    def __init__(self, name: str, label: str, parent: QWidget | None = None) -> None:
-        super().__init__("play", _ICON, parent)
+    def __init__(self, name: str, label: str) -> None:
+        super().__init__("play", _ICON)
         self._name = name
         self.setCheckable(True)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QValidator
-from PySide6.QtWidgets import QAbstractSpinBox, QWidget
+from PySide6.QtWidgets import QAbstractSpinBox
 
 from occ_gui.widgets.event_filters import leave_undo_to_window, select_numbers_whole
 from occ_model.errors import ParameterError
@@ -26,8 +26,8 @@ class QuantityEdit(QAbstractSpinBox):
     refused = Signal(str)
     """The reason why an input is not valid; the field shows the last value again."""
 
-    def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, quantity: Quantity) -> None:
+        super().__init__()
         self._quantity = quantity
         self._value = quantity.default
         self.setKeyboardTracking(False)

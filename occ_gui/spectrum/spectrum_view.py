@@ -20,8 +20,8 @@ _LEAST_TOP = 1.0
 class SpectrumView(QWidget):
     """The profile's spectrum with the response of the exposure, and a histogram beside it."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._make_spectrum()
         self._make_histogram()
         self.sentence = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)

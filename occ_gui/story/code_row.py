@@ -5,7 +5,7 @@ from typing import TypeAlias
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPalette
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.simulation.verdict import wrong_places
@@ -42,10 +42,8 @@ class CodeRow(StoryRow):
     The letters of a text, or the bytes, stand above their bits.
     """
 
-    def __init__(
-        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
-    ) -> None:
-        super().__init__("Code", axis, crosshair, parent)
+    def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
+        super().__init__("Code", axis, crosshair)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         self._decoded: DecodeResult | None = None
         self._sent: tuple[int, ...] = ()

@@ -20,13 +20,8 @@ class CurveLegend(QWidget):
     goes.
     """
 
-    def __init__(
-        self,
-        lines: Mapping[str, tuple[QPen, str]],
-        usual: tuple[str, ...] = (),
-        parent: QWidget | None = None,
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, lines: Mapping[str, tuple[QPen, str]], usual: tuple[str, ...] = ()) -> None:
+        super().__init__()
         self._lines, self._usual = dict(lines), usual
         self.shown: tuple[str, ...] = ()
         self.note = ""

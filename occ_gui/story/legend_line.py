@@ -11,8 +11,8 @@ _SPACING = 6
 class LegendLine(QWidget):
     """A legend, and at its right the controls of what is shown."""
 
-    def __init__(self, legend: CurveLegend, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, legend: CurveLegend) -> None:
+        super().__init__()
         self._legend = legend
         self.controls = QHBoxLayout()
         self.controls.setSpacing(_SPACING)

@@ -12,7 +12,6 @@ from PySide6.QtGui import (
     QPen,
     QPolygonF,
 )
-from PySide6.QtWidgets import QWidget
 
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.bit_cells import draw_field, have_room_for_bits, header_texts
@@ -52,10 +51,8 @@ class LightRow(StoryRow):
 
     window_dragged = Signal()
 
-    def __init__(
-        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
-    ) -> None:
-        super().__init__("Light", axis, crosshair, parent)
+    def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
+        super().__init__("Light", axis, crosshair)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self.setToolTip(
             "The LED's light over time. The window is the exposure of the chosen column: drag "

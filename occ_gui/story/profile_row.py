@@ -5,7 +5,6 @@ import math
 import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPalette, QPen
-from PySide6.QtWidgets import QWidget
 
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
@@ -38,10 +37,8 @@ _CROWDED = 2  # columns a pixel of the screen from which a curve is drawn thinne
 class ProfileRow(StoryRow):
     """The simulated columns, the band model's dashed, a photo's, and the decoder's threshold."""
 
-    def __init__(
-        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
-    ) -> None:
-        super().__init__("Profile", axis, crosshair, parent)
+    def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
+        super().__init__("Profile", axis, crosshair)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._reading: ColumnView | None = None
         self._decoded: DecodeResult | None = None

@@ -27,10 +27,8 @@ def round_step(least: float) -> float:
 class Scale(QWidget):
     """Ticks with numbers over the columns in view."""
 
-    def __init__(
-        self, name: str, axis: ColumnAxis, is_above: bool, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, name: str, axis: ColumnAxis, is_above: bool) -> None:
+        super().__init__()
         self._name, self.axis, self._is_above = name, axis, is_above
         self.setAccessibleName(name)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
@@ -82,8 +80,8 @@ class Scale(QWidget):
 
 
 class ColumnScale(Scale):
-    def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
-        super().__init__("", axis, is_above=False, parent=parent)
+    def __init__(self, axis: ColumnAxis) -> None:
+        super().__init__("", axis, is_above=False)
         self._name = "column"
         self.setAccessibleName(self._name)
 
@@ -94,8 +92,8 @@ class ColumnScale(Scale):
 class TimeScale(Scale):
     """The time at which the exposure of each column begins."""
 
-    def __init__(self, axis: ColumnAxis, parent: QWidget | None = None) -> None:
-        super().__init__("", axis, is_above=True, parent=parent)
+    def __init__(self, axis: ColumnAxis) -> None:
+        super().__init__("", axis, is_above=True)
         self._name = "time (µs)"
         self.setAccessibleName(self._name)
         self._start, self._step = 0.0, 1.0

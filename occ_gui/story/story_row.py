@@ -50,10 +50,8 @@ class StoryRow(QWidget):
     it.
     """
 
-    def __init__(
-        self, name: str, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, name: str, axis: ColumnAxis, crosshair: Crosshair) -> None:
+        super().__init__()
         self.name = name
         self.axis, self.crosshair = axis, crosshair
         self._drawn: QPixmap | None = None

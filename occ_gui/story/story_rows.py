@@ -43,8 +43,8 @@ class StoryRows(QWidget):
     range_left = Signal()  # the user has zoomed or moved the columns
     range_kept = Signal()  # the range is again the one that is set for the results
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.axis, self.crosshair = ColumnAxis(self), Crosshair(self)
         self._reading: ColumnView | None = None
         self._picture: Picture | PictureView | None = None

@@ -55,10 +55,8 @@ class StoryView(QWidget):
 
     decoder_chosen = Signal(str)
 
-    def __init__(
-        self, picture: QWidget, decoders: Sequence[str] = (), parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, picture: QWidget, decoders: Sequence[str] = ()) -> None:
+        super().__init__()
         self._picture = picture
         self.verdict, self.rows = VerdictBar(), StoryRows()
         self._photo_verdict: QWidget | None = None

@@ -23,10 +23,8 @@ _LEAST_THUMBNAIL = 32  # pixels of height of a thumbnail in which a frame can st
 class StripesRow(StoryRow):
     """The rows of the picture that show the panel: a pixel of the screen is its cell's mean."""
 
-    def __init__(
-        self, axis: ColumnAxis, crosshair: Crosshair, parent: QWidget | None = None
-    ) -> None:
-        super().__init__("Picture", axis, crosshair, parent)
+    def __init__(self, axis: ColumnAxis, crosshair: Crosshair) -> None:
+        super().__init__("Picture", axis, crosshair)
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._rows = self._all_rows = range(0)
         self._image: ByteArray | None = None

@@ -3,7 +3,6 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QWidget
 
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import Verdict, result_of, verdict_on
@@ -26,8 +25,8 @@ class VerdictBar(StateBar):
     step_chosen = Signal(object)  # the user takes the step that helps, a :class:`Step`
     lesson_wanted = Signal(str)  # the user asks for the lesson on what is shown, by its name
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._step: Step | None = None
         self._lesson = ""
         self.step_taken.connect(self._take_step)

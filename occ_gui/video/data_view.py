@@ -24,8 +24,8 @@ _LEAST_HEIGHT = 40
 class DataView(QWidget):
     """The text as it comes in, beside the facts of the reading, and its sentences."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.text = QPlainTextEdit()
         self.text.setReadOnly(True)
         self.text.setMinimumHeight(_LEAST_HEIGHT)

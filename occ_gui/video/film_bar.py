@@ -30,8 +30,8 @@ class FilmBar(QWidget):
 
     read_asked = Signal()  # the user begins to read the film, or stops it
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.open = QPushButton("Open fil&m…")
         self.open.setToolTip("Choose a film of a rolling-shutter camera.")
         self.open.clicked.connect(self.open_asked)

@@ -26,8 +26,8 @@ class ShownPicture:
 class _Side(QStackedWidget):
     """A picture with its caption, or a sentence in its place."""
 
-    def __init__(self, name: str, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, name: str) -> None:
+        super().__init__()
         self.pane = PicturePane(name)
         self.instead = QLabel()
         self.instead.setWordWrap(True)
@@ -57,8 +57,8 @@ class _Side(QStackedWidget):
 class FilmPictures(QWidget):
     """The film's picture at the left, the simulated one at the right."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._film = _Side("Film")
         self._simulated = _Side("Simulated film")
         self.film, self.simulated = self._film.pane, self._simulated.pane

@@ -28,8 +28,8 @@ class FrameRows(QWidget):
 
     picture_asked = Signal()  # the user wants to see the whole picture large
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.rows = StoryRows()
         self.rows.stripes.thumbnail.clicked.connect(self.picture_asked)
         self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)

@@ -2,7 +2,6 @@
 
 from PySide6.QtCore import QRectF, QSize, Qt
 from PySide6.QtGui import QBrush, QColor, QPainter, QPalette, QPen
-from PySide6.QtWidgets import QWidget
 
 from occ_gui.video.marks import MarkState
 from occ_gui.widgets.legend import Drawing, LineLegend
@@ -59,8 +58,8 @@ def draw_mark(painter: QPainter, place: QRectF, state: MarkState, palette: QPale
 
 
 class MarkLegend(LineLegend):
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setAccessibleName("Legend of the timeline")
         texts = {
             MarkState.READ: (

@@ -30,8 +30,8 @@ class RecordingForm(QWidget):
     save_asked = Signal()  # the user writes the simulated film to a file
     refused = Signal(str)  # why a value that was entered is refused
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.recording = Recording()
         self.count = CountEdit(FRAMES)
         self.count.setValue(FRAMES.default)

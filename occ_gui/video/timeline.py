@@ -39,8 +39,8 @@ class Timeline(QWidget):
     sought = Signal(int)  # the frame that the user wants to see
     play_asked = Signal()  # the user starts or stops the film by the space bar
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.frames, self.packets = Marks(), Marks()
         self.index = 0
         self._scale = TimelineScale()

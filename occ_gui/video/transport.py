@@ -10,10 +10,8 @@ _ICON = 16
 
 
 class TransportButton(IconButton):
-    def __init__(
-        self, drawing: str, name: str, meaning: str, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(drawing, _ICON, parent)
+    def __init__(self, drawing: str, name: str, meaning: str) -> None:
+        super().__init__(drawing, _ICON)
         self.rename(drawing, name, meaning)
 
     def rename(self, drawing: str, name: str, meaning: str) -> None:
@@ -28,8 +26,8 @@ class Transport(QWidget):
     play_asked = Signal()  # the user starts or stops the film
     step_asked = Signal(int)  # how many frames the user goes on; back where it is below zero
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
         self.play = TransportButton("play", "", "")
         self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")

@@ -28,8 +28,8 @@ class VideoView(QWidget):
 
     step_asked = Signal(int)  # how many frames the user goes on by a key
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.bar, self.pictures = FilmBar(), FilmPictures()
         self.rows, self.data, self.form = FrameRows(), DataView(), RecordingForm()
         self.transport, self.timeline, self.legend = Transport(), Timeline(), MarkLegend()

@@ -86,8 +86,8 @@ class ChipLabel(QWidget):
 class ChipRow(QWidget):
     """Chips in a row at the right; those that do not fit are counted by the last one."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.chips: tuple[Chip, ...] = ()
         # Labels that are not needed are kept hidden: making and deleting one at each movement of a
         # slider took longer than drawing it.

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QEvent, QSize, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QLabel
 
 from occ_gui.widgets.plain_text import LONGEST, in_tool_tip
 from occ_model.errors import one_line
@@ -12,12 +12,9 @@ class ElidedLabel(QLabel):
     """Shows as much of a text as fits, and the whole text in the tooltip."""
 
     def __init__(
-        self,
-        text: str = "",
-        how: Qt.TextElideMode = Qt.TextElideMode.ElideMiddle,
-        parent: QWidget | None = None,
+        self, text: str = "", how: Qt.TextElideMode = Qt.TextElideMode.ElideMiddle
     ) -> None:
-        super().__init__(parent)
+        super().__init__()
         self._how = how
         self._full = ""
         self._fitted: tuple[str, int] | None = None

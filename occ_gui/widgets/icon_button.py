@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QEvent, QSize
 from PySide6.QtGui import QPaintEvent
-from PySide6.QtWidgets import QToolButton, QWidget
+from PySide6.QtWidgets import QToolButton
 
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.icons import icon
@@ -14,8 +14,8 @@ class IconButton(QToolButton):
     ``size``: its width and height, independent of the screen.
     """
 
-    def __init__(self, drawing: str, size: int, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, drawing: str, size: int) -> None:
+        super().__init__()
         self._drawing, self._size, self._is_drawn = drawing, size, False
         self.setAutoRaise(True)
         self.setIconSize(QSize(size, size))

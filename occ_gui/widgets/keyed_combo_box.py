@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QSizePolicy, QWidget
+from PySide6.QtWidgets import QComboBox, QSizePolicy
 
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 
@@ -16,10 +16,8 @@ class KeyedComboBox(QComboBox):
 
     chosen = Signal(str)
 
-    def __init__(
-        self, name: str, meaning: str, words: Mapping[str, str], parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, name: str, meaning: str, words: Mapping[str, str]) -> None:
+        super().__init__()
         for key, word in words.items():
             self.addItem(word, key)
         self.setAccessibleName(name)

@@ -19,8 +19,8 @@ Drawing: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
 class LineLegend(QWidget):
     """Samples of lines with their names, in a row."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._row = QHBoxLayout(self)
         self._row.setContentsMargins(0, 0, 0, 0)
         self._entries: dict[str, QWidget] = {}

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 class ScrollPane(QScrollArea):
     """Shows a widget as wide as the pane, and as high as it needs."""
 
-    def __init__(self, content: QWidget, least: QSize, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, content: QWidget, least: QSize) -> None:
+        super().__init__()
         self._least = least
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)

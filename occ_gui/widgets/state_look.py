@@ -125,8 +125,8 @@ _SIGNS: dict[State, Callable[[QPainter], None]] = {
 
 
 class StateIcon(QWidget):
-    def __init__(self, side: int, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, side: int) -> None:
+        super().__init__()
         self.state = State.NEUTRAL
         self._side = side
         self.setFixedSize(QSize(side, side))

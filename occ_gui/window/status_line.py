@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar, QWidget
+from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.plain_text import LONGEST
@@ -27,8 +27,8 @@ class StatusLine(QStatusBar):
     whole text of each label is its tooltip.
     """
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._message = self._plan_change = self._times = ""
         self._are_told = True
         self._others: list[QLabel] = []

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QActionGroup, QIcon, QKeySequence, QResizeEvent
-from PySide6.QtWidgets import QTabBar, QWidget
+from PySide6.QtWidgets import QTabBar
 
 from occ_gui.widgets.icons import icon
 from occ_gui.widgets.plain_text import plain
@@ -17,8 +17,8 @@ class ModeBar(QTabBar):
     ``modes``: the menu entries of the modes; each has the name of its icon as data.
     """
 
-    def __init__(self, modes: QActionGroup, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, modes: QActionGroup) -> None:
+        super().__init__()
         self._actions = modes.actions()
         self._icons: list[QIcon] = []
         self._has_icons, self._whole = False, 0

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QMenu, QToolButton, QWidget
+from PySide6.QtWidgets import QMenu, QToolButton
 from shiboken6 import isValid
 
 from occ_gui.widgets.icons import icon
@@ -16,8 +16,8 @@ _NATIVE = QKeySequence.SequenceFormat.NativeText
 class ToolButton(QToolButton):
     """Carries out an action, or opens a menu; it is named, enabled and checked as the action is."""
 
-    def __init__(self, drawing: str, action: QAction, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, drawing: str, action: QAction) -> None:
+        super().__init__()
         self._drawing, self.shown = drawing, action
         self.setAutoRaise(True)
         self.setIconSize(QSize(ICON_SIZE, ICON_SIZE))

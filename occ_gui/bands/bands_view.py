@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 from occ_gui.bands.depth_plot import DepthPlot
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.bands.risk_plot import RiskPlot
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth
@@ -50,17 +51,11 @@ class BandsView(QWidget):
         self.map.setMinimumHeight(_LEAST_HEIGHT)
         self.risk = RiskPlot()
         self.risk.setMinimumHeight(_LEAST_HEIGHT)
-        beside = QVBoxLayout()
-        beside.addWidget(self.table, 3)
-        beside.addWidget(self.risk, 2)
+        beside = filled(QVBoxLayout(), (self.table, 3), (self.risk, 2))
         self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
         self._row.addWidget(self.map, 3)
         self._row.addLayout(beside, 2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 8, 8, 8)
-        layout.addWidget(self.headline)
-        layout.addWidget(self.sentences)
-        layout.addLayout(self._row, 1)
+        filled(QVBoxLayout(self), self.headline, self.sentences, (self._row, 1), margins=8)
         self.outdated = OutdatedMark(self)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from occ_gui.bands.jobs import ShownBands
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.scene.parameters import quantity
@@ -46,10 +47,7 @@ class DepthPlot(QWidget):
             "lamp's periods. A click takes an exposure."
         )
         self.legend.setWordWrap(True)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot, 1)
-        layout.addWidget(self.legend)
+        filled(QVBoxLayout(self), (self.plot, 1), self.legend, margins=0)
         self.plot.scene().sigMouseClicked.connect(self._on_click)
 
     def show_depths(self, found: ShownBands) -> None:

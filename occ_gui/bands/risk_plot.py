@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plot import marker, new_plot
@@ -54,9 +55,7 @@ class RiskPlot(QWidget):
             "Lines of IEEE 1789-2015 as lighting makers quote them: its text was not checked."
         )
         self.source.setWordWrap(True)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
+        layout = filled(QVBoxLayout(self), margins=0, spacing=2)
         for legend in (lines, points):
             layout.addWidget(legend, alignment=Qt.AlignmentFlag.AlignLeft)
         layout.addWidget(self.plot, 1)

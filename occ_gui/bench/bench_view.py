@@ -21,7 +21,9 @@ from occ_gui.bench.bench_table import BenchTable
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.named import named
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.pens import thin
 from occ_gui.widgets.plot import marker
@@ -107,9 +109,7 @@ class BenchView(QWidget):
             box.setChecked(name in chosen)
             box.setToolTip("Measure this decoder.")
             box.toggled.connect(self._emit_choice)
-        self.frame_rate = QuantityEdit(FRAME_RATE)
-        self.frame_rate.setAccessibleName(FRAME_RATE.label)
-        self.frame_rate.setToolTip(FRAME_RATE.meaning)
+        self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label, FRAME_RATE.meaning)
         self.frame_rate.edited.connect(self.frame_rate_edited)
         self.frame_rate.refused.connect(self.refused)
         self.measure = QPushButton("Measure")
@@ -131,15 +131,10 @@ class BenchView(QWidget):
         second.addWidget(self.what, 1)
         foot.addWidget(self.state, 1)
         foot.addWidget(self.work)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(4, 2, 4, 2)
-        column.setSpacing(2)
-        for row in (head, second):
-            column.addLayout(row)
-        column.addWidget(self._pages, 3)
-        self._legend_place = QHBoxLayout()
-        self._legend_place.addWidget(self.legend)
-        self._legend_place.addStretch(1)
+        column = filled(
+            QVBoxLayout(self), head, second, (self._pages, 3), margins=(4, 2, 4, 2), spacing=2
+        )
+        self._legend_place = filled(QHBoxLayout(), self.legend, (None, 1))
         column.addLayout(self._legend_place)
         column.addWidget(self.table, 2)
         column.addLayout(foot)

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QLabel, QSizePolicy, QVBoxLayout, QWidget
 from occ_gui.widgets.axes import Axis
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
 from occ_gui.widgets.pens import BAND, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
@@ -158,11 +159,7 @@ class RunLengthPlot(QWidget):
             self.splits.append(split)
         self.plot.dress_with(self._dress)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(title)
-        layout.addWidget(self.plot, 1)
+        filled(QVBoxLayout(self), title, (self.plot, 1), margins=0, spacing=0)
 
     def _dress(self, palette: QPalette) -> None:
         for bars, colour in zip(self.bars, _COLOURS, strict=True):

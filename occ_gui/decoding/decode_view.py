@@ -12,6 +12,7 @@ from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.decoding.payload_text import PayloadText
 from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, result_of, verdict_on
+from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.state_look import State
 from occ_model.results.decoding import DecodeResult, Location
 
@@ -41,14 +42,12 @@ class DecodeView(QWidget):
         font = self.verdict.font()
         font.setBold(True)
         self.verdict.setFont(font)
-        self.origin = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.origin.setAccessibleName("What the code was read from")
+        self.origin = paragraph(name="What the code was read from")
         self.payload = PayloadText()
         self.strip = BitStrip()
         self.reason = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self.reason.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.left_out = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.left_out.setAccessibleName("What the picture leaves out")
+        self.left_out = paragraph(name="What the picture leaves out")
         self._steps = {name: QLabel() for name in _STEPS}
         self.signal, self.run_lengths = SignalPlot(), RunLengthPlot()
         layout = QVBoxLayout(self)

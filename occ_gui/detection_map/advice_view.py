@@ -16,6 +16,8 @@ from PySide6.QtWidgets import (
 from occ_gui.detection_map.advice_sentences import AdviceLine, advice_lines, still_holds
 from occ_gui.detection_map.limit_cards import LimitCards
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, paragraph, push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.advice import Advice
 from occ_model.results.bit_errors import FRAMES_A_SECOND
@@ -46,40 +48,26 @@ class AdviceView(QWidget):
         self._beside: dict[QPushButton, QLabel] = {}
         self._common: list[str] = []
         self._ended = ""
-        self.back = self._button("Back to the map", "Show the map again.")
-        self.back.clicked.connect(self.back_asked)
-        self.again = self._button("Ask again", "Search for the limits of the current scene.")
-        self.again.clicked.connect(self.asked)
-        self.cancel = self._button("Cancel", "Stop the search.")
-        self.cancel.clicked.connect(self.cancelled)
-        self.progress = QProgressBar()
-        self.progress.setAccessibleName("Progress of the search")
-        self.progress.setToolTip("Progress of the search.")
+        self.back = push_button("Back to the map", "Show the map again.", self.back_asked)
+        self.again = push_button(
+            "Ask again", "Search for the limits of the current scene.", self.asked
+        )
+        self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
+        self.progress = named(QProgressBar(), "Progress of the search", "Progress of the search.")
         self.state = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.state.setAccessibleName("State of the search")
         self._lay_out()
         self._show_running(False)
 
-    def _button(self, text: str, meaning: str) -> QPushButton:
-        button = QPushButton(text)
-        button.setToolTip(meaning)
-        button.setAccessibleName(text)
-        return button
-
     def _lay_out(self) -> None:
-        head = QHBoxLayout()
-        for widget in (self.back, self.again, self.cancel):
-            head.addWidget(widget)
-        head.addWidget(self.progress, 1)
-        head.addWidget(self.state, 1)
+        head = filled(
+            QHBoxLayout(), self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1)
+        )
         self._content = QWidget()
-        self._column = QVBoxLayout(self._content)
-        self._column.setContentsMargins(0, 0, 4, 0)
-        self._column.addStretch(1)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 2, 4, 2)
-        layout.addLayout(head)
-        layout.addWidget(ScrollPane(self._content, _LEAST), 1)
+        self._column = filled(QVBoxLayout(self._content), (None, 1), margins=(0, 0, 4, 0))
+        filled(
+            QVBoxLayout(self), head, (ScrollPane(self._content, _LEAST), 1), margins=(4, 2, 4, 2)
+        )
 
     def _show_running(self, running: bool) -> None:
         self.progress.setVisible(running)
@@ -153,10 +141,7 @@ class AdviceView(QWidget):
         row = QWidget()
         layout = QHBoxLayout(row)
         layout.setContentsMargins(0, 0, 0, 0)
-        label = QLabel(line.text)
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        label = paragraph(line.text, is_selectable=True)
         # Not of a least height, which is that of a narrow label: the page would scroll too far.
         label.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         font = label.font()
@@ -173,7 +158,7 @@ class AdviceView(QWidget):
     def _destination(self, line: AdviceLine, decoder: str) -> QPushButton:
         assert line.destination is not None  # noqa: S101 - the caller has checked it
         name, value, text = line.destination
-        button = self._button(
+        button = push_button(
             f"Take me to {text}",
             f"Change the scene to {text}, where it read every bit.",
         )

@@ -18,6 +18,7 @@ from occ_gui.detection_map.colour_map import (
 )
 from occ_gui.detection_map.map_plot import MapPlot, Point
 from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields
+from occ_gui.widgets.layouts import filled
 from occ_model.arrays import FloatArray
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
@@ -47,9 +48,7 @@ class MapPlots(QWidget):
         self._bar_drawn = ""
         self.plots = tuple(self._new_plot() for _ in decoders)
         self.bar = ColourBar()
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
+        layout = filled(QHBoxLayout(self), margins=0, spacing=4)
         self._grid = QGridLayout()
         self._grid.setSpacing(4)
         self._columns = 0

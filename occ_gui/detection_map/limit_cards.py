@@ -4,12 +4,14 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QShowEvent
-from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
 from occ_gui.detection_map.advice_sentences import (
     line_on_highest_frequency,
 )
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.advice import Advice
 from occ_model.results.advice_text import gaps_text, own_text, searched_to, written
@@ -36,9 +38,7 @@ class LimitCards(QWidget):
     def __init__(self, decoders: Sequence[str]) -> None:
         super().__init__()
         self.cards = {name: LimitCard(name) for name in decoders}
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 4, 0, 4)
-        row.setSpacing(8)
+        row = filled(QHBoxLayout(self), margins=(0, 4, 0, 4), spacing=8)
         for card in self.cards.values():
             row.addWidget(card, 1)
             card.chosen.connect(self._go)
@@ -124,9 +124,7 @@ class LimitCard(QFrame):
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")
-        self.go = QPushButton("Go")
-        self.go.setAccessibleName(f"Go to the highest frequency, {decoder}")
-        self.go.clicked.connect(self._choose)
+        self.go = push_button("Go", do=self._choose, name=f"Go to the highest frequency, {decoder}")
         grid = QGridLayout(self)
         grid.setContentsMargins(12, 6, 8, 6)
         grid.setSpacing(2)

@@ -7,6 +7,7 @@ from PySide6.QtGui import QIcon, QPainter, QPalette, QPen, QPixmap
 from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from occ_gui.detection_map.map_plot import STYLES
+from occ_gui.widgets.layouts import filled
 
 _SAMPLE = QSize(28, 12)
 
@@ -35,9 +36,7 @@ class MapLegend(QWidget):
             ),
             "saturation": ("white", "The lit panel reaches the largest value."),
         }
-        row = QHBoxLayout(self)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.setSpacing(2)
+        row = filled(QHBoxLayout(self), margins=0, spacing=2)
         self.buttons: dict[str, QToolButton] = {}
         for key, (text, meaning) in words.items():
             button = self._button(key, text, meaning)

@@ -22,6 +22,7 @@ from occ_gui.detection_map.rate_map import MAP_PARAMETERS, PointFacts, RateMap
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
@@ -117,12 +118,8 @@ class MapView(QWidget):
         head.addWidget(self.what, 2)
         head.addWidget(self.shown, 2)
         head.addWidget(self.frame_rate)
-        self._searches = QHBoxLayout()
-        self._searches.addWidget(self.most_bits, 1)
-        self._searches.addWidget(self.advise)
-        foot = QHBoxLayout()
-        foot.addWidget(self.legend, 1)
-        foot.addWidget(self.image_effects)
+        self._searches = filled(QHBoxLayout(), (self.most_bits, 1), self.advise)
+        foot = filled(QHBoxLayout(), (self.legend, 1), self.image_effects)
         page = QWidget()
         column = QVBoxLayout(page)
         column.setContentsMargins(4, 2, 4, 2)
@@ -139,9 +136,7 @@ class MapView(QWidget):
         self._pages = QStackedWidget()
         self._pages.addWidget(page)
         self._pages.addWidget(self.advice)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._pages)
+        filled(QVBoxLayout(self), self._pages, margins=0)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

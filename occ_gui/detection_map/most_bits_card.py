@@ -1,9 +1,10 @@
 """Card of the search for the code, frequency and number of bits that carry most."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QPushButton
+from PySide6.QtWidgets import QFrame, QHBoxLayout
 
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.named import push_button
 from occ_model.results.most_bits import MostBits
 from occ_model.scene.units import HERTZ
 
@@ -28,18 +29,15 @@ class MostBitsCard(QFrame):
         self._state = ""
         self.text = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.text.setAccessibleName("What carries most bits a second")
-        self.search = self._button(
+        self.search = push_button(
             "Search",
-            (
-                "Try line codes, frequencies and numbers of bits at the scene's exposure and "
-                "distance, with each decoder: some seconds, a minute for the last decoder."
-            ),
+            "Try line codes, frequencies and numbers of bits at the scene's exposure and "
+            "distance, with each decoder: some seconds, a minute for the last decoder.",
+            self.asked,
         )
-        self.cancel = self._button("Cancel", "Stop the search.")
-        self.go = self._button("Go", "Send this code, frequency and number of bits, and read it.")
+        self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
+        self.go = push_button("Go", "Send this code, frequency and number of bits, and read it.")
         self.go.setAccessibleName("Go to what carries most")
-        self.search.clicked.connect(self.asked)
-        self.cancel.clicked.connect(self.cancelled)
         self.go.clicked.connect(lambda: self.chosen.emit(self._best))
         row = QHBoxLayout(self)
         row.setContentsMargins(12, 4, 8, 4)
@@ -48,12 +46,6 @@ class MostBitsCard(QFrame):
         for button in (self.search, self.cancel, self.go):
             row.addWidget(button)
         self._show()
-
-    def _button(self, text: str, meaning: str) -> QPushButton:
-        button = QPushButton(text)
-        button.setToolTip(meaning)
-        button.setAccessibleName(text)
-        return button
 
     def show_begun(self) -> None:
         self._best, self._failures, self._state = None, [], ""

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.teaching import ExposureWindow
@@ -42,11 +43,7 @@ class ExposurePlot(QWidget):
         self.sentence.setAccessibleName("Exposure of the column")
         self._make_plot()
         self._make_controls()
-        row = QHBoxLayout()
-        row.addWidget(QLabel("Column"))
-        row.addWidget(self.column)
-        row.addWidget(self.hold)
-        row.addStretch(1)
+        row = filled(QHBoxLayout(), QLabel("Column"), self.column, self.hold, (None, 1))
         layout = self._layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 2, 4, 4)
         layout.setSpacing(2)

@@ -12,6 +12,7 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.plot import Plot
 
 
@@ -27,9 +28,7 @@ class ExplanationView(QWidget):
         panes.setChildrenCollapsible(False)
         panes.setStretchFactor(0, 3)
         panes.setStretchFactor(1, 2)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(panes)
+        filled(QVBoxLayout(self), panes, margins=0)
 
 
 class ExplanationPane(Pane[Snapshot]):

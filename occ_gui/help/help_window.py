@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.manual_search import Section, search, sections
 from occ_gui.help.pages import pages
+from occ_gui.widgets.layouts import filled
 
 _SIZE = QSize(960, 720)
 _LIST_WIDTH = 190
@@ -70,10 +71,7 @@ class HelpWindow(QMainWindow):
         self.search_all.setToolTip("Lists the places with all these words; Enter shows the first.")
         self.search_all.setClearButtonEnabled(True)
         left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.search_all)
-        column.addWidget(self.page_list)
+        filled(QVBoxLayout(left), self.search_all, self.page_list, margins=0)
         parts = QSplitter()
         parts.addWidget(left)
         parts.addWidget(self.browser)

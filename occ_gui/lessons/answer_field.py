@@ -4,8 +4,10 @@ from PySide6.QtCore import Signal
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QLineEdit, QVBoxLayout, QWidget
 
-from occ_gui.lessons.texts import button, paragraph
+from occ_gui.lessons.texts import paragraph
 from occ_gui.widgets.event_filters import leave_undo_to_window
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_model.results.lessons import CheckedAnswer
 
 _LONGEST = 300  # characters of an answer
@@ -26,21 +28,14 @@ class AnswerField(QWidget):
         self.field.setToolTip("Type your answer here before you look at the explanation.")
         leave_undo_to_window(self.field)
         self.unit = QLabel()
-        self.check = button("Check", "Compare it with the model (Enter).")
-        self.check.clicked.connect(self._ask)
+        self.check = push_button("Check", "Compare it with the model (Enter).", self._ask)
         self.field.returnPressed.connect(self._ask)
         self.field.textEdited.connect(self._forget)
         self.sentence = paragraph()
         self.sentence.setAccessibleName("What the check says")
         self._said, self._is_outdated = "", False
-        row = QHBoxLayout()
-        row.setSpacing(8)
-        row.addWidget(self.field, 1)
-        row.addWidget(self.unit)
-        row.addWidget(self.check)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
+        row = filled(QHBoxLayout(), (self.field, 1), self.unit, self.check, spacing=8)
+        layout = filled(QVBoxLayout(self), margins=0, spacing=4)
         # Above the field, which stands at the lower end of the pane: it stays where it is.
         layout.addWidget(self.sentence)
         layout.addLayout(row)

@@ -6,7 +6,9 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from occ_gui.lessons.step_page import LEAST
-from occ_gui.lessons.texts import button, heading, paragraph
+from occ_gui.lessons.texts import heading, paragraph
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.lessons import CheckedAnswer, Lesson
 
@@ -23,45 +25,31 @@ class EndPage(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.title, self.answers = heading(), paragraph()
-        self.report = button(
+        self.report = push_button(
             "Save the report…",
             "Save one page with your answers and figures, as PDF.",
+            self.report_asked,
         )
         self.author = QLineEdit()
         self.author.setPlaceholderText("Your name, for the report")
         self.author.setAccessibleName("Your name, as it shall stand on the report")
         self.author.setToolTip("The name that stands on the report; it is kept for the next one.")
         self.author.setMaxLength(_LONGEST_NAME)
-        self.all = button("All lessons", "Go back to the list, and to your own scene.")
-        self.next = button("Next lesson", "Begin the lesson that follows in the list.")
-        self.next.clicked.connect(self.next_asked)
-        self.report.clicked.connect(self.report_asked)
-        self.all.clicked.connect(self.list_asked)
+        self.all = push_button(
+            "All lessons", "Go back to the list, and to your own scene.", self.list_asked
+        )
+        self.next = push_button(
+            "Next lesson", "Begin the lesson that follows in the list.", self.next_asked
+        )
         content = QWidget()
-        column = QVBoxLayout(content)
-        column.setContentsMargins(8, 8, 8, 8)
-        column.setSpacing(8)
-        column.addWidget(self.title)
-        column.addWidget(self.answers)
-        column.addStretch()
-        row = QHBoxLayout()
-        row.setContentsMargins(8, 0, 8, 4)
-        row.setSpacing(8)
-        named = QHBoxLayout()
-        named.setContentsMargins(8, 0, 8, 4)
-        named.addWidget(self.author)
+        filled(QVBoxLayout(content), self.title, self.answers, None, margins=8, spacing=8)
+        row = filled(QHBoxLayout(), margins=(8, 0, 8, 4), spacing=8)
+        named = filled(QHBoxLayout(), self.author, margins=(8, 0, 8, 4))
         # Where the button was that ended the lesson stands one that a second click may press.
         row.addWidget(self.report, 1)
         row.addWidget(self.all, 1)
-        above = QHBoxLayout()
-        above.setContentsMargins(8, 0, 8, 4)
-        above.addWidget(self.next)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(ScrollPane(content, LEAST), 1)
-        layout.addLayout(above)
-        layout.addLayout(named)
-        layout.addLayout(row)
+        above = filled(QHBoxLayout(), self.next, margins=(8, 0, 8, 4))
+        filled(QVBoxLayout(self), (ScrollPane(content, LEAST), 1), above, named, row, margins=0)
 
     def show_answers(
         self, lesson: Lesson, answers: Sequence[CheckedAnswer | None], following: str

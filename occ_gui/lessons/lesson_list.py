@@ -5,7 +5,9 @@ from collections.abc import Mapping, Sequence
 from PySide6.QtCore import QEvent, Signal
 from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
-from occ_gui.lessons.texts import button, heading, paragraph
+from occ_gui.lessons.texts import heading, paragraph
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.plain_text import in_menu
 from occ_model.results.lessons import Lesson
 
@@ -26,14 +28,12 @@ class LessonList(QWidget):
         self.problems = paragraph()
         self._rows = QVBoxLayout()
         self._rows.setSpacing(8)
-        self.folder = button(
+        self.folder = push_button(
             "Folder of your own lessons",
             "Open the folder of lessons of your own; the guide tells how to write one.",
+            self.folder_asked,
         )
-        self.folder.clicked.connect(self.folder_asked)
-        foot = QHBoxLayout()
-        foot.addStretch()
-        foot.addWidget(self.folder)
+        foot = filled(QHBoxLayout(), None, self.folder)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(8, 8, 8, 8)
         layout.setSpacing(8)
@@ -92,10 +92,7 @@ class LessonList(QWidget):
         self.choices.append(choice)
         box = QWidget()
         self._boxes.append(box)
-        column = QVBoxLayout(box)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(2)
-        column.addWidget(choice)
+        column = filled(QVBoxLayout(box), choice, margins=0, spacing=2)
         if lesson.summary:
             summary = paragraph(lesson.summary)
             summary.setContentsMargins(8, 0, 8, 0)

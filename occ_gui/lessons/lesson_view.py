@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 from occ_gui.lessons.end_page import EndPage
 from occ_gui.lessons.lesson_list import LessonList
 from occ_gui.lessons.step_page import LEAST, StepPage
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.lessons import CheckedAnswer, Lesson
 
@@ -25,9 +26,7 @@ class LessonView(QWidget):
             self._pages.addWidget(page)
         self.step.list_asked.connect(self.list_asked)
         self.end.list_asked.connect(self.list_asked)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self._pages)
+        filled(QVBoxLayout(self), self._pages, margins=0)
 
     def list_lessons(
         self,

@@ -8,7 +8,9 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QVBoxLayout, QW
 from occ_gui.explanation.equation_text import EquationText
 from occ_gui.lessons.answer_field import AnswerField
 from occ_gui.lessons.shutter_animation import ShutterAnimation
-from occ_gui.lessons.texts import bold, button, heading, paragraph, typeset, typeset_paragraph
+from occ_gui.lessons.texts import bold, heading, paragraph, typeset, typeset_paragraph
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_model.results.lessons import CheckedAnswer, Lesson
 from occ_model.results.teaching import Equation
@@ -42,17 +44,17 @@ class StepPage(QWidget):
         self.progress.setAccessibleName("Progress of the lesson")
         self.animation = ShutterAnimation()
         self.animation.setFixedHeight(_ANIMATION_HEIGHT)
-        self.control = button(
-            "", "Show the control that this step is about, with all others dimmed."
+        self.control = push_button(
+            "",
+            "Show the control that this step is about, with all others dimmed.",
+            self.control_asked,
         )
         self.control.setAccessibleName("Show the control of this step")
-        self.control.clicked.connect(self.control_asked)
         self.changed = paragraph()
         self.changed.setAccessibleName("Your changes of the scene")
         self.changed.hide()
-        self.action = button("", "Do what this step is about.")
+        self.action = push_button("", "Do what this step is about.", self.action_asked)
         self.action.setAccessibleName("Do what this step asks for")
-        self.action.clicked.connect(self.action_asked)
         self.answer_field = AnswerField()
         self.answer_field.checked.connect(self.answer_given)
         self._make_explanation()
@@ -66,7 +68,7 @@ class StepPage(QWidget):
         self.answer.setAccessibleName("Explanation")
         self.equation = EquationText()
         self.equation.setFixedHeight(_EQUATION_HEIGHT)
-        self.reveal = button(
+        self.reveal = push_button(
             "Show the explanation",
             "Show what one finds, to compare with what you found.",
         )
@@ -77,17 +79,16 @@ class StepPage(QWidget):
         self._has_equation = self._is_revealing = False
 
     def _make_buttons(self) -> None:
-        self.all = button("All lessons", "Go back to the list, and to your own scene.")
-        self.back = button("Back", "Go to the step before, and set its scene.")
-        self.next = button("Next", "Go to the next step, and set its scene.")
-        self.again = button(
+        self.all = push_button(
+            "All lessons", "Go back to the list, and to your own scene.", self.list_asked
+        )
+        self.back = push_button("Back", "Go to the step before, and set its scene.", self._go_back)
+        self.next = push_button("Next", "Go to the next step, and set its scene.", self._go_on)
+        self.again = push_button(
             "Set the scene again",
             "Set the scene of this step again, as one step that can be undone.",
+            self.again_asked,
         )
-        self.all.clicked.connect(self.list_asked)
-        self.back.clicked.connect(self._go_back)
-        self.next.clicked.connect(self._go_on)
-        self.again.clicked.connect(self.again_asked)
 
     def _lay_out(self) -> None:
         content = QWidget()
@@ -110,11 +111,7 @@ class StepPage(QWidget):
         fixed.setSpacing(4)
         fixed.addWidget(self.question)
         fixed.addWidget(self.answer_field)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addWidget(self._scroll, 1)
-        layout.addWidget(self.asked)
+        layout = filled(QVBoxLayout(self), (self._scroll, 1), self.asked, margins=0, spacing=4)
         for buttons in ((self.all, self.again), (self.back, self.next)):
             layout.addLayout(_row(buttons))
 
@@ -189,9 +186,7 @@ class StepPage(QWidget):
 
 
 def _row(buttons: Sequence[QWidget]) -> QHBoxLayout:
-    row = QHBoxLayout()
-    row.setContentsMargins(8, 0, 8, 4)
-    row.setSpacing(8)
+    row = filled(QHBoxLayout(), margins=(8, 0, 8, 4), spacing=8)
     for each in buttons:
         row.addWidget(each, 1)
     return row

@@ -1,10 +1,12 @@
-"""Labels and buttons of the lessons, in their few sizes."""
+"""Labels of the lessons, in their few sizes."""
 
 import html
 import re
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QLabel, QPushButton
+from PySide6.QtWidgets import QLabel
+
+from occ_gui.widgets import named
 
 _INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
 _HEADING = 1.25
@@ -16,11 +18,7 @@ def typeset(text: str) -> str:
 
 
 def paragraph(text: str = "") -> QLabel:
-    label = QLabel(text)
-    label.setWordWrap(True)
-    label.setTextFormat(Qt.TextFormat.PlainText)
-    label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-    return label
+    return named.paragraph(text, is_selectable=True)
 
 
 def typeset_paragraph() -> QLabel:
@@ -31,9 +29,8 @@ def typeset_paragraph() -> QLabel:
 
 
 def heading(text: str = "") -> QLabel:
-    label = paragraph(text)
+    label = bold(paragraph(text))
     font = label.font()
-    font.setBold(True)
     font.setPointSizeF(font.pointSizeF() * _HEADING)
     label.setFont(font)
     return label
@@ -44,9 +41,3 @@ def bold(label: QLabel) -> QLabel:
     font.setBold(True)
     label.setFont(font)
     return label
-
-
-def button(text: str, tip: str) -> QPushButton:
-    made = QPushButton(text)
-    made.setToolTip(tip)
-    return made

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QSlider, QStyleOptionGraph
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BEFORE
 from occ_model.arrays import ByteArray
 from occ_model.results.frame import PICTURES, Frame
@@ -91,10 +92,7 @@ class BeforeWipe(QObject):
         self.slider.valueChanged.connect(self._follow_slider)
         self.slider.hide()
         self.controls = QWidget()
-        row = QHBoxLayout(self.controls)
-        row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.slider)
-        row.addWidget(self.chosen)
+        filled(QHBoxLayout(self.controls), self.slider, self.chosen, margins=0)
 
     def show_before(self, snapshot: Snapshot) -> None:
         self._frame = snapshot.frame

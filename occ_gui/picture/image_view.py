@@ -19,6 +19,7 @@ from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.placement import MODES, Placement
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES, Frame
 
@@ -59,10 +60,7 @@ class ImageView(QWidget):
         panes.setChildrenCollapsible(False)
         panes.setSizes([500, 500])
         self._make_controls()
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.addWidget(panes, 1)
-        layout.addWidget(self._row)
+        filled(QVBoxLayout(self), (panes, 1), self._row, margins=4)
         self._arrange()
 
     def _make_switch(self) -> None:
@@ -102,12 +100,9 @@ class ImageView(QWidget):
         self.overlay.difference.set_gain(_FIRST_GAIN)
         self.gain.chosen.connect(self._set_gain)
         self._row = QWidget()
-        layout = QHBoxLayout(self._row)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.mode)
-        layout.addWidget(self.opacity, 2)
-        layout.addWidget(self.gain)
-        layout.addStretch(1)
+        filled(
+            QHBoxLayout(self._row), self.mode, (self.opacity, 2), self.gain, (None, 1), margins=0
+        )
 
     def _mode_words(self) -> dict[str, str]:
         return {

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidg
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import REGION
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
@@ -42,9 +43,7 @@ class PicturePane(QWidget):
         self.box.addItem(self._region, ignoreBounds=True)
         self._image: ByteArray | None = None
         self._rows_step = 1
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
+        layout = filled(QVBoxLayout(self), margins=0, spacing=2)
         self.caption_row = QHBoxLayout()
         self.caption_row.addWidget(self.caption, 1)
         layout.addLayout(self.caption_row)

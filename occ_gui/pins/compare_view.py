@@ -17,7 +17,9 @@ from PySide6.QtWidgets import (
 
 from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.plot import new_plot
@@ -43,10 +45,7 @@ class CompareView(QWidget):
         self._seen = False
         self.pins = {name: self._pin_button(name) for name in ("A", "B")}
         self.returns = {name: self._return_button(name) for name in ("A", "B")}
-        self.clear = QPushButton("Clear")
-        self.clear.setToolTip("Forget A and B.")
-        self.clear.setAccessibleName("Clear A and B")
-        self.clear.clicked.connect(self.clear_asked)
+        self.clear = push_button("Clear", "Forget A and B.", self.clear_asked, name="Clear A and B")
         self.hint = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
         self._make_table()
         self._make_plot()
@@ -116,13 +115,7 @@ class CompareView(QWidget):
         panes.addWidget(self.plot)
         panes.setChildrenCollapsible(False)
         panes.setSizes([560, 380])
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 2, 4, 2)
-        layout.setSpacing(2)
-        layout.addWidget(self.hint)
-        layout.addLayout(row)
-        layout.addWidget(panes, 1)
-        layout.addStretch()
+        filled(QVBoxLayout(self), self.hint, row, (panes, 1), None, margins=(4, 2, 4, 2), spacing=2)
 
     def set_seen(self, seen: bool) -> None:
         """Draw from now on, or stop drawing while the pane is hidden."""

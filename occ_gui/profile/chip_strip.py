@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QToolButton, QWidget
 from occ_gui.widgets.chip_cell import draw_chips
 from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import PHOTO
 from occ_gui.widgets.plot import Plot
 from occ_model.results.match import ChipReading
@@ -30,11 +31,7 @@ class ChipStrip(QWidget):
         self.copy.setFixedWidth(left)
         self.copy.clicked.connect(self._copy)
         self.cells = _Cells(plot)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addWidget(self.copy)
-        layout.addWidget(self.cells, 1)
+        filled(QHBoxLayout(self), self.copy, (self.cells, 1), margins=0, spacing=0)
         self.hide()
 
     def show_chips(self, reading: ChipReading | None) -> None:

@@ -9,7 +9,6 @@ from PySide6.QtGui import QPalette, QShowEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QSizePolicy,
     QVBoxLayout,
@@ -22,7 +21,9 @@ from occ_gui.simulation.band_drift import drift_sentence
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
+from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.pens import BAND, BEFORE, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
@@ -64,8 +65,7 @@ class ProfileView(QWidget):
         self.plot.setClipToView(True)
         self.legend = LineLegend()
         self._make_curves()
-        self.reason = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.reason.setAccessibleName("Why the band model drifts or is undefined")
+        self.reason = paragraph(name="Why the band model drifts or is undefined")
         self._make_controls()
         self.plot.getAxis("left").setWidth(self._axis_width())
         self.plot.getViewBox().sigRangeChangedManually.connect(self._stop_following)
@@ -125,11 +125,9 @@ class ProfileView(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        row = QHBoxLayout()
-        row.addWidget(self.legend)
-        row.addStretch(1)
-        for control in (self.enhanced, self._packets, self._panel):
-            row.addWidget(control)
+        row = filled(
+            QHBoxLayout(), self.legend, (None, 1), self.enhanced, self._packets, self._panel
+        )
         layout = self._rows = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
         layout.setSpacing(2)

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import PHOTO, THRESHOLD, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.match import Comparison
@@ -51,11 +52,7 @@ class ResidualPlot(QWidget):
         self._photo: Photo | None = None
         self._limit = _STEPS[0]
         """The end of the axis: for one photo it only grows, so that a residual is seen to fall."""
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(1)
-        layout.addWidget(self.numbers)
-        layout.addWidget(self.plot, 1)
+        filled(QVBoxLayout(self), self.numbers, (self.plot, 1), margins=0, spacing=1)
 
     def _follow(self, _box: pg.ViewBox, columns: tuple[float, float]) -> None:
         self.plot.setXRange(*columns, padding=0)

@@ -6,6 +6,7 @@ from PySide6.QtCore import QRectF
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from occ_gui.room.jobs import ShownRoom
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 
@@ -24,9 +25,7 @@ class PicturePlot(QWidget):
         self.image = pg.ImageItem(axisOrder="row-major")
         self.plot.addItem(self.image)
         self._over: list[pg.GraphicsObject] = []
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot)
+        filled(QVBoxLayout(self), self.plot, margins=0)
 
     def show_room(self, shown: ShownRoom) -> None:
         rows, columns = shown.image.shape

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from occ_gui.room.jobs import FloorMap, RoomPlan
 from occ_gui.scene.gesture import Gestures
 from occ_gui.widgets.contrast import pen_on
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.arrays import FloatArray
@@ -51,9 +52,7 @@ class PlanPlot(QWidget):
         self._follow(self.camera, self.camera_moved)
         self._follow(self.aim, self.aim_moved)
         self.plot.dress_with(self._dress)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.plot)
+        filled(QVBoxLayout(self), self.plot, margins=0)
 
     def _follow(self, target: pg.TargetItem, moved: SignalInstance) -> None:
         self.plot.addItem(target)

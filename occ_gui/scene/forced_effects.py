@@ -3,7 +3,10 @@
 from collections.abc import Mapping
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QSizePolicy, QWidget
+
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
 
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
@@ -32,18 +35,16 @@ class ForcedEffects(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.text = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.text.setAccessibleName("Effects switched by hand")
+        self.text = paragraph(name="Effects switched by hand")
         self.text.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Minimum)
         self.back = QPushButton("Back to the plan")
         self.back.setToolTip(
             "Let the plan decide on these effects again, as one step that can be undone."
         )
         self.back.clicked.connect(self.released)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.text, 1)
-        layout.addWidget(self.back, 0, Qt.AlignmentFlag.AlignTop)
+        filled(
+            QHBoxLayout(self), (self.text, 1), (self.back, 0, Qt.AlignmentFlag.AlignTop), margins=0
+        )
         self.hide()
 
     def show_list(self, text: str) -> None:

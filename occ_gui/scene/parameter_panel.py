@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
 from occ_gui.scene.play_button import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Parameter, Quantity
@@ -33,9 +34,7 @@ class ParameterPanel(QWidget):
         self.play_buttons: dict[str, PlayButton] = {}
         self.rows: dict[str, ParameterRow] = {}
         self.labels: dict[str, QLabel] = {}
-        layout = QVBoxLayout(self)
-        layout.setSpacing(2)
-        layout.setContentsMargins(*_MARGINS)
+        layout = filled(QVBoxLayout(self), margins=_MARGINS, spacing=2)
         for place, name in enumerate(names):
             if place:
                 layout.addSpacing(6)

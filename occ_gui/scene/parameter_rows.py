@@ -15,6 +15,7 @@ from occ_gui.scene.gesture import Gestures
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
+from occ_gui.widgets.layouts import filled
 from occ_model.errors import ParameterError
 from occ_model.scene.declaration import Declaration
 from occ_model.scene.parameter_kinds import (
@@ -310,9 +311,6 @@ def _name(control: QWidget, declared: Parameter) -> None:
 
 
 def _fill(row: ParameterRow, control: QWidget, declared: Parameter) -> None:
-    layout = QVBoxLayout(row)
-    layout.setContentsMargins(0, 0, 0, 0)
-    layout.setSpacing(1)
-    layout.addWidget(control)
+    filled(QVBoxLayout(row), control, margins=0, spacing=1)
     row.notice = RefusalNotice(control)
     _name(control, declared)

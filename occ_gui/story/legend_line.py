@@ -4,6 +4,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QWidget
 
 from occ_gui.story.curve_legend import CurveLegend
+from occ_gui.widgets.layouts import filled
 
 _SPACING = 6
 
@@ -14,9 +15,7 @@ class LegendLine(QWidget):
     def __init__(self, legend: CurveLegend) -> None:
         super().__init__()
         self._legend = legend
-        self.controls = QHBoxLayout()
-        self.controls.setSpacing(_SPACING)
-        self.controls.addStretch(0)
+        self.controls = filled(QHBoxLayout(), (None, 0), spacing=_SPACING)
         self._layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
         self._layout.setContentsMargins(0, 0, 0, 0)
         self._layout.setSpacing(_SPACING)

@@ -22,6 +22,7 @@ from occ_gui.story.stripes_row import StripesRow
 from occ_gui.story.text_room import gutter_of
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
@@ -57,9 +58,7 @@ class StoryRows(QWidget):
         self.stripes = StripesRow(self.axis, self.crosshair)
         self.profile = ProfileRow(self.axis, self.crosshair)
         self.code = CodeRow(self.axis, self.crosshair)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
+        layout = filled(QVBoxLayout(self), margins=0, spacing=2)
         for part, stretch in (
             (self.time, 0), (self.light, 3), (self.stripes, 4), (self._legend_line(), 0),
             (self.profile, 6), (self.code, 0), (self.columns, 0),

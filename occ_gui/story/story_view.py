@@ -22,6 +22,7 @@ from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.first_periods import first_periods
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.named import push_button
 
 
 class _Held(QWidget):
@@ -132,12 +133,11 @@ class StoryView(QWidget):
             self.ranges[name] = button
         self.ranges[RANGES[0]].setChecked(True)
         self._name_first()
-        self.whole = QPushButton("Whole picture")
+        self.whole = push_button("Whole picture", do=self.show_whole_picture)
         self.whole.setCheckable(True)
         self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
         self.whole.setToolTip("Show the whole picture in place of the four rows.")
         self.whole.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.whole.clicked.connect(self.show_whole_picture)
 
     def _size_by_page(self) -> None:
         """Let only the page that is shown need space."""

@@ -15,6 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.named import paragraph
 
 _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportions of its figure
 
@@ -34,8 +35,8 @@ class TransmitterDialog(QDialog):
         self.setWindowTitle("Transmitter: blink this scene")
         self.board = KeyedComboBox("Board", "The board that blinks the LED.", boards)
         self.board.chosen.connect(self.board_chosen)
-        self.facts = self._text("What is sent")
-        self.note = self._text("Result of saving")
+        self.facts = paragraph(name="What is sent", is_selectable=True)
+        self.note = paragraph(name="Result of saving", is_selectable=True)
         self.wiring = QLabel()
         self.wiring.setFixedSize(_FIGURE)
         self.wiring.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -50,14 +51,6 @@ class TransmitterDialog(QDialog):
         layout.addWidget(self.wiring, alignment=Qt.AlignmentFlag.AlignHCenter)
         layout.addWidget(self.note)
         layout.addWidget(self._make_buttons())
-
-    def _text(self, name: str) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
-        label.setTextFormat(Qt.TextFormat.PlainText)
-        label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        label.setAccessibleName(name)
-        return label
 
     def _make_buttons(self) -> QDialogButtonBox:
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)

@@ -13,6 +13,8 @@ from PySide6.QtWidgets import (
 )
 
 from occ_gui.video.film_reading import FilmReading
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_model.results.fact import Fact
 
@@ -32,8 +34,7 @@ class DataView(QWidget):
         self.text.setAccessibleName("What was read")
         self.text.setPlaceholderText("What is read of the film appears here.")
         self.text.setTabChangesFocus(True)
-        self.sentences = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.sentences.setAccessibleName("What is not sure")
+        self.sentences = paragraph(name="What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.labels: dict[str, QLabel] = {}
         self._names: dict[str, QLabel] = {}
@@ -42,15 +43,8 @@ class DataView(QWidget):
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(2)
         self._grid.setRowStretch(100, 1)
-        line = QHBoxLayout()
-        line.setContentsMargins(0, 0, 0, 0)
-        line.setSpacing(12)
-        line.addWidget(self.text, 1)
-        line.addLayout(self._grid)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(6, 6, 6, 4)
-        layout.addLayout(line, 1)
-        layout.addWidget(self.sentences)
+        line = filled(QHBoxLayout(), (self.text, 1), self._grid, margins=0, spacing=12)
+        filled(QVBoxLayout(self), (line, 1), self.sentences, margins=(6, 6, 6, 4))
         self.show_reading(FilmReading.nothing())
 
     def show_reading(self, reading: FilmReading) -> None:

@@ -17,6 +17,8 @@ from occ_gui.video.camera import CameraDevice
 from occ_gui.video.live_video import AXES
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.plain_text import in_menu
 
 
@@ -35,13 +37,11 @@ class FilmBar(QWidget):
         self.open = QPushButton("Open fil&m…")
         self.open.setToolTip("Choose a film of a rolling-shutter camera.")
         self.open.clicked.connect(self.open_asked)
-        self.camera = QPushButton("Camera")
-        self.camera.setToolTip("Read what a camera of this computer sees, live.")
+        self.camera = push_button("Camera", "Read what a camera of this computer sees, live.")
         self.cameras = QMenu(self.camera)
         self.camera.setMenu(self.cameras)
         self.cameras.aboutToShow.connect(self.cameras_asked)
-        self.close_film = QPushButton("Close")
-        self.close_film.clicked.connect(self.close_asked)
+        self.close_film = push_button("Close", do=self.close_asked)
         self.axis = KeyedComboBox(
             "What the shutter scans",
             (
@@ -54,8 +54,7 @@ class FilmBar(QWidget):
         self.axis.setSizeAdjustPolicy(KeyedComboBox.SizeAdjustPolicy.AdjustToContents)
         self.lock = QCheckBox("Hold exposure")
         self.lock.setToolTip("Keep the camera's exposure as it is now.")
-        self.read = QPushButton()
-        self.read.clicked.connect(self.read_asked)
+        self.read = push_button("", do=self.read_asked)
         self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.title.setAccessibleName("Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -65,11 +64,7 @@ class FilmBar(QWidget):
             buttons.addWidget(part)
         buttons.addStretch()
         buttons.addWidget(self.read)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(4)
-        layout.addLayout(buttons)
-        layout.addWidget(self.title)
+        filled(QVBoxLayout(self), buttons, self.title, margins=0, spacing=4)
         self.show_film("", is_film=False, is_live=False)
         self.show_reading(False)
 

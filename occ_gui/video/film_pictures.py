@@ -6,6 +6,7 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QLabel, QSplitter, QStackedWidget, QVBoxLayout, QWidget
 
 from occ_gui.picture.picture_pane import PicturePane
+from occ_gui.widgets.layouts import filled
 from occ_model.arrays import ByteArray
 from occ_model.results.decoding import Region
 
@@ -65,9 +66,7 @@ class FilmPictures(QWidget):
         self.split = QSplitter(Qt.Orientation.Horizontal, childrenCollapsible=False)
         for side in (self._film, self._simulated):
             self.split.addWidget(side)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.split)
+        filled(QVBoxLayout(self), self.split, margins=0)
 
     def show_film(self, picture: ShownPicture | None, instead: str = "") -> None:
         self._film.show_picture(picture, instead)

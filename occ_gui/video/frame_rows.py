@@ -10,6 +10,7 @@ from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.story.story_rows import RANGES, StoryRows
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.layouts import filled
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,9 +36,7 @@ class FrameRows(QWidget):
         self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.title.setAccessibleName("What the rows show")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        line = QHBoxLayout()
-        line.setContentsMargins(4, 0, 4, 0)
-        line.addWidget(self.title, 1)
+        line = filled(QHBoxLayout(), (self.title, 1), margins=(4, 0, 4, 0))
         texts = (f"{PACKETS_IN_VIEW} packets", "Panel")
         tips = ("Show the first packets.", "Show all columns of the panel.")
         self.ranges: dict[str, QPushButton] = {}
@@ -48,11 +47,7 @@ class FrameRows(QWidget):
             button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
             line.addWidget(button)
             self.ranges[name] = button
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 4, 0, 0)
-        layout.setSpacing(2)
-        layout.addLayout(line)
-        layout.addWidget(self.rows, 1)
+        filled(QVBoxLayout(self), line, (self.rows, 1), margins=(0, 4, 0, 0), spacing=2)
         self.rows.range_left.connect(lambda: self._mark_range(""))
         self.rows.range_kept.connect(lambda: self._mark_range(self.rows.range))
         self._mark_range(RANGES[0])

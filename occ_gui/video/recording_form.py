@@ -1,7 +1,7 @@
 """Form of the recording: how the film of the scene is simulated."""
 
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
 from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.parameter_rows import explain
@@ -9,6 +9,8 @@ from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.values.film_choice import FIRST_FRAMES
 from occ_gui.values.film_choice import FRAMES as COUNTS
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.errors import OccError
 from occ_model.scene.parameter_kinds import Count
@@ -54,8 +56,7 @@ class RecordingForm(QWidget):
             field.edited.connect(lambda value, name=declared.name: self._take(name, value))
             field.refused.connect(self.refused)
             form.addRow(declared.label, field)
-        self.gap = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.gap.setAccessibleName("Gap between two frames")
+        self.gap = paragraph(name="Gap between two frames")
         self.gap.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         form.addRow(self.gap)
         self.save = QPushButton("Sa&ve the simulated film…")
@@ -64,10 +65,7 @@ class RecordingForm(QWidget):
         )
         self.save.clicked.connect(self.save_asked)
         self.saving = WorkBar("How much of the film has been written")
-        line = QHBoxLayout()
-        for part in (self.save, self.saving):
-            line.addWidget(part)
-        line.addStretch()
+        line = filled(QHBoxLayout(), self.save, self.saving, None)
         form.addRow(line)
         self.show_recording(self.recording)
 

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from occ_gui.video.data_view import DataView
 from occ_gui.video.film_bar import FilmBar
@@ -14,6 +14,8 @@ from occ_gui.video.marks import Marks
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
 from occ_gui.video.transport import Transport
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.scroll_pane import ScrollPane
 
@@ -33,8 +35,7 @@ class VideoView(QWidget):
         self.bar, self.pictures = FilmBar(), FilmPictures()
         self.rows, self.data, self.form = FrameRows(), DataView(), RecordingForm()
         self.transport, self.timeline, self.legend = Transport(), Timeline(), MarkLegend()
-        self.message = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        self.message.setAccessibleName("What is wrong with the film")
+        self.message = paragraph(name="What is wrong with the film")
         self.message.hide()
         self.pages = QTabWidget(documentMode=True)
         self.pages.addTab(self.data, "What is read")
@@ -45,10 +46,7 @@ class VideoView(QWidget):
         self.split.addWidget(self.pages)
         self.split.setStretchFactor(0, 5)
         self.split.setStretchFactor(1, 4)
-        line = QHBoxLayout()
-        line.setContentsMargins(0, 0, 0, 0)
-        line.addWidget(self.transport, 1)
-        line.addWidget(self.legend)
+        line = filled(QHBoxLayout(), (self.transport, 1), self.legend, margins=0)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(6, 4, 6, 4)
         layout.setSpacing(4)

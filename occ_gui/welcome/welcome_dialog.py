@@ -4,6 +4,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.welcome.door import Door
+from occ_gui.widgets.layouts import filled
 
 _LARGER = 1.5
 
@@ -53,12 +54,7 @@ class WelcomeDialog(QDialog):
             door.setProperty("door", name)
             door.clicked.connect(self._choose)
             row.addWidget(door)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(24, 24, 24, 24)
-        layout.setSpacing(16)
-        layout.addWidget(title)
-        layout.addWidget(about)
-        layout.addLayout(row)
+        filled(QVBoxLayout(self), title, about, row, margins=24, spacing=16)
 
     def _choose(self) -> None:
         name = self.sender().property("door")

@@ -1,7 +1,10 @@
 """Work bar: the progress of some work, and a button that cancels it."""
 
 from PySide6.QtCore import QTimer, Signal
-from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QPushButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QWidget
+
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 
 _STEPS = 1000
 
@@ -19,16 +22,11 @@ class WorkBar(QWidget):
         self.progress.setRange(0, _STEPS)
         self.progress.setAccessibleName(what)
         self.progress.setToolTip(what)
-        self.cancel = QPushButton("Cancel")
-        self.cancel.setToolTip("Give up what is being worked on.")
-        self.cancel.clicked.connect(self.cancelled)
+        self.cancel = push_button("Cancel", "Give up what is being worked on.", self.cancelled)
         self._patience = QTimer(self, singleShot=True)
         self._patience.setInterval(_PATIENCE_MS)
         self._patience.timeout.connect(self.show)
-        layout = QHBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.addWidget(self.progress)
-        layout.addWidget(self.cancel)
+        filled(QHBoxLayout(self), self.progress, self.cancel, margins=0)
         self.hide()
 
     def begin(self) -> None:

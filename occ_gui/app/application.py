@@ -56,7 +56,7 @@ class Application(QObject):
         self.editor = SceneEditor(self.store)
         self.preferences = Preferences(preferences)
         # Simulates the first picture while the panes are created.
-        self.simulation = SimulationController(self.store, self.settings)
+        self.simulation = SimulationController(self.store)
         self.present = PresentResults(self.simulation)
         self.controls = _controls()
         self.marks = MarkController(self.store, self.controls)

@@ -12,7 +12,6 @@ from occ_gui.detection_map.advice_view import AdviceView
 from occ_gui.detection_map.advice_worker import advise
 from occ_gui.detection_map.worker import left_out, rate_settings
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.receiver.decoders import DECODERS
 from occ_model.results.advice import Advice
@@ -62,13 +61,12 @@ class AdvisorController(QObject):
     def __init__(
         self,
         scenes: SceneStore,
-        settings: SettingsStore,
         queue: WorkQueue,
         channel: JobChannel,
         pane: AdviceView,
     ) -> None:
         super().__init__()
-        self._scenes, self._settings = scenes, settings
+        self._scenes = scenes
         self._queue, self.channel, self._pane = queue, channel, pane
         self._with_image_effects = True
         self._advised: AdviceRequest | None = None
@@ -79,7 +77,7 @@ class AdvisorController(QObject):
         channel.results_ready.connect(self._take)
         channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
-        for store in (scenes, settings):
+        for store in (scenes, scenes.settings):
             store.changed.connect(self._move_on)
 
     def use_image_effects(self, wanted: bool) -> None:
@@ -88,7 +86,9 @@ class AdvisorController(QObject):
         self._move_on()
 
     def _request(self) -> AdviceRequest:
-        return AdviceRequest(self._scenes.scene, self._settings.settings, self._with_image_effects)
+        return AdviceRequest(
+            self._scenes.scene, self._scenes.settings.settings, self._with_image_effects
+        )
 
     def start(self) -> None:
         """Search for the limits of the current scene, as the user asks for them."""

@@ -15,7 +15,6 @@ from occ_gui.detection_map.map_schedule import IMAGES, SHAPE, map_request, map_s
 from occ_gui.detection_map.rate_map import PointFacts, RateMap, TheoryFields, lattice
 from occ_gui.detection_map.worker import UNSEEN, left_out
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.arrays import FloatArray
 from occ_model.parallel.job import Stage
 from occ_model.receiver.decoders import QUICK_DECODERS
@@ -85,18 +84,12 @@ class MapRequest:
 class DetectionMapController(QObject):
     """Connects the stores, the job channel and the pane."""
 
-    def __init__(
-        self,
-        scenes: SceneStore,
-        settings: SettingsStore,
-        channel: JobChannel,
-        pane: MapPane,
-    ) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel, pane: MapPane) -> None:
         super().__init__()
-        self._scenes, self._settings = scenes, settings
+        self._scenes = scenes
         self.channel, self._pane = channel, pane
         bits = scenes.store.select(lambda workspace: (workspace.shown, workspace.frame_rate))
-        bits.changed.connect(self._show_bits)
+        bits.changed.connect(lambda chosen: pane.show_bits(*chosen))
         self._axes = FIRST_AXES
         self._with_image_effects = True
         self._seen = False
@@ -109,7 +102,7 @@ class DetectionMapController(QObject):
         channel.finished.connect(self._finish)
         channel.failed.connect(self._fail)
         channel.status_message.connect(pane.show_failure)
-        for store in (scenes, settings):
+        for store in (scenes, scenes.settings):
             store.changed.connect(self._move_on)
 
     @property
@@ -140,7 +133,7 @@ class DetectionMapController(QObject):
         x, y = self._axes
         given = {name: quantity(name).default for name in self._axes}
         scene = self._scenes.scene.replace(**{**UNSEEN, **given})
-        return MapRequest(scene, x, y, self._settings.settings, self._with_image_effects)
+        return MapRequest(scene, x, y, self._scenes.settings.settings, self._with_image_effects)
 
     def set_seen(self, seen: bool) -> None:
         self._seen = seen
@@ -195,7 +188,7 @@ class DetectionMapController(QObject):
         return RateMap(x, y, *values, QUICK_DECODERS, times)
 
     def _show_left_out(self) -> None:
-        scene, settings = self._scenes.scene, self._settings.settings
+        scene, settings = self._scenes.scene, self._scenes.settings.settings
         self._pane.show_left_out(() if self._with_image_effects else left_out(scene, settings))
 
     def _wait_no_more(self, request: MapRequest) -> None:
@@ -214,9 +207,6 @@ class DetectionMapController(QObject):
         self._show_age()
         self._pane.show_map(self.map)
         self._show_progress()
-
-    def _show_bits(self, bits: tuple[Shown, float]) -> None:
-        self._pane.show_bits(*bits)
 
     def _show_age(self) -> None:
         self._pane.show_age(0.0 if self._shown is None else self._ages.age(self._shown))
@@ -241,11 +231,10 @@ class DetectionMapController(QObject):
     def point_at(self, place: tuple[int, int] | None) -> None:
         """Show the facts of a point, given by its places along both axes."""
         shown = self.map
-        if place is None or shown is None:
-            self._pane.show_facts(None)
-            return
-        x, y = (int(owner[place]) for owner in shown.owners())
-        if x < 0:
+        x, y = -1, -1
+        if place is not None and shown is not None:
+            x, y = (int(owner[place]) for owner in shown.owners())
+        if shown is None or x < 0:
             self._pane.show_facts(None)
             return
         index, sent = x * shown.shape[1] + y, int(shown.sent[x, y])

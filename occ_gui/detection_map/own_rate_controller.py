@@ -10,7 +10,6 @@ from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.resting_controller import RateRequest, RestingController
 from occ_gui.detection_map.worker import UNSEEN, rate_settings
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.sweep.points import MeasuredPoints, measure_points
@@ -36,8 +35,8 @@ class OwnRateController(RestingController):
     changed = Signal(object)
     """The rate, an :class:`OwnRate`; None where it is not known of the present scene."""
 
-    def __init__(self, scenes: SceneStore, settings: SettingsStore, channel: JobChannel) -> None:
-        super().__init__(scenes, settings, channel)
+    def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
+        super().__init__(scenes, channel)
         self.rate: OwnRate | None = None
 
     def _forget(self) -> None:

@@ -23,10 +23,10 @@ class MapPane(Pane[None]):
         view = MapView(QUICK_DECODERS, tuple(DECODERS))
         super().__init__(view)
         self.view = view
-        store, settings, queue = scenes.store, scenes.settings, measuring.queue
+        store, queue = scenes.store, measuring.queue
         of_map, of_advice, of_most = map(measuring.channel, ("map", "advice", "most bits"))
-        self.map = DetectionMapController(scenes, settings, of_map, view)
-        self.advisor = AdvisorController(scenes, settings, queue, of_advice, view.advice)
+        self.map = DetectionMapController(scenes, of_map, view)
+        self.advisor = AdvisorController(scenes, queue, of_advice, view.advice)
         self.most_bits = MostBitsController(scenes, queue, of_most, view.most_bits)
         self.measures = (of_map, of_advice, of_most)
         view.axes_chosen.connect(self.map.choose_axes)

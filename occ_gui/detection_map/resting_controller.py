@@ -9,7 +9,6 @@ from occ_gui.background.result_age import PAUSE
 from occ_gui.background.signals import JobChannel
 from occ_gui.detection_map.worker import UNSEEN
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.scene.parameters import quantity
 from occ_model.scene.scene import Scene
@@ -35,9 +34,9 @@ class RestingController(QObject):
     to put into the channel, and in :meth:`_take` what to do with results.
     """
 
-    def __init__(self, scenes: SceneStore, settings: SettingsStore, channel: JobChannel) -> None:
+    def __init__(self, scenes: SceneStore, channel: JobChannel) -> None:
         super().__init__()
-        self._scenes, self._settings, self._channel = scenes, settings, channel
+        self._scenes, self._channel = scenes, channel
         self._decoder = PAPER_DECODER
         self._seen = False
         self._asked: RateRequest | None = None
@@ -45,7 +44,7 @@ class RestingController(QObject):
         self._resting.setInterval(round(1e3 * PAUSE))
         self._resting.timeout.connect(self._measure)
         channel.results_ready.connect(self._take)
-        for store in (scenes, settings):
+        for store in (scenes, scenes.settings):
             store.changed.connect(self._move_on)
         decoder = scenes.store.select(lambda workspace: workspace.decoder)
         decoder.changed.connect(self._move_on)
@@ -68,7 +67,7 @@ class RestingController(QObject):
 
     def _present(self) -> RateRequest:
         decoder = self._scenes.store.workspace.decoder
-        return RateRequest(self._scenes.scene, self._settings.settings, decoder)
+        return RateRequest(self._scenes.scene, self._scenes.settings.settings, decoder)
 
     def _move_on(self) -> None:
         raise NotImplementedError

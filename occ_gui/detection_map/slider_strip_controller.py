@@ -10,7 +10,6 @@ from occ_gui.detection_map.resting_controller import RateRequest, RestingControl
 from occ_gui.detection_map.slider_strip import IMAGES
 from occ_gui.detection_map.worker import Along, left_out, measure_along, rate_settings
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_model.parallel.job import Job, Stage
 from occ_model.results.sweep_request import SweepPoint
 
@@ -69,18 +68,13 @@ class SliderStripController(RestingController):
     """
 
     def __init__(
-        self,
-        scenes: SceneStore,
-        settings: SettingsStore,
-        channel: JobChannel,
-        pane: SliderStripPane,
-        names: Iterable[str],
+        self, scenes: SceneStore, channel: JobChannel, pane: SliderStripPane, names: Iterable[str]
     ) -> None:
         self._pane = pane
         self._names = tuple(names)
         self._known: dict[str, tuple[RateRequest, dict[int, float | None]]] = {}
         self._missing: dict[str, tuple[RateRequest, set[int]]] = {}
-        super().__init__(scenes, settings, channel)
+        super().__init__(scenes, channel)
 
     def _move_on(self) -> None:
         if not self._seen:

@@ -69,15 +69,14 @@ class Measuring(QObject):
     def slider_strips(self) -> "SliderStripController":
         from occ_gui.detection_map.slider_strip_controller import SliderStripController
 
-        scenes, strips = self._scenes, self._strips
-        channel = self.channel("strips")
-        return SliderStripController(scenes, scenes.settings, channel, strips, strips.strips)
+        strips = self._strips
+        return SliderStripController(self._scenes, self.channel("strips"), strips, strips.strips)
 
     @cached_property
     def own_rate(self) -> "OwnRateController":
         from occ_gui.detection_map.own_rate_controller import OwnRateController
 
-        own = OwnRateController(self._scenes, self._scenes.settings, self.channel("own rate"))
+        own = OwnRateController(self._scenes, self.channel("own rate"))
         own.changed.connect(self._strips.show_present)
         own.changed.connect(self.rate_changed)
         return own

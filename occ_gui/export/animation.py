@@ -9,7 +9,6 @@ from occ_gui.background.file_writer import FileWriter
 from occ_gui.background.task import Report
 from occ_gui.files.preferences import Preferences
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.shell.feature import Service
 from occ_gui.widgets.work_bar import WorkBar
 from occ_model.scene.parameter_kinds import Quantity
@@ -34,16 +33,10 @@ class AnimationExport(Service):
     """Writes animations on a thread, with a bar that shows how far it is and cancels it."""
 
     def __init__(
-        self,
-        window: QWidget | None,
-        scenes: SceneStore,
-        settings: SettingsStore,
-        preferences: Preferences,
-        bar: WorkBar,
+        self, window: QWidget | None, scenes: SceneStore, preferences: Preferences, bar: WorkBar
     ) -> None:
         super().__init__()
-        self._window, self._scenes, self._settings = window, scenes, settings
-        self._preferences = preferences
+        self._window, self._scenes, self._preferences = window, scenes, preferences
         self.writer: FileWriter[_Film] = FileWriter(
             _write, "animation", bar, "The animation was given up."
         )
@@ -74,7 +67,8 @@ class AnimationExport(Service):
             return
         out = [declared.at(place / STEPS) for place in range(STEPS + 1)]
         values = (*out, *out[-2:0:-1])  # the film begins anew with the first value
-        self.writer.start(_Film(path, self._scenes.scene, self._settings.settings, name, values))
+        settings = self._scenes.settings.settings
+        self.writer.start(_Film(path, self._scenes.scene, settings, name, values))
 
 
 def _write(film: _Film, report: Report) -> Path:

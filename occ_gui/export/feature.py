@@ -46,6 +46,6 @@ def animation(
     def make() -> Service:
         from occ_gui.export.animation import AnimationExport
 
-        return AnimationExport(window, scenes, scenes.settings, preferences, bar)
+        return AnimationExport(window, scenes, preferences, bar)
 
     return Feature(name="animation", make=make)

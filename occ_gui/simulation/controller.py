@@ -27,7 +27,6 @@ from occ_gui.background.result_age import ResultAges
 from occ_gui.background.task import Reporter, Task
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.scene.settings_store import SettingsStore
 from occ_gui.simulation.draft_rows import DraftRows
 from occ_gui.simulation.jobs import (
     draft_of,
@@ -97,10 +96,9 @@ class SimulationController(QObject):
     submitted = Signal()
     """The scene or a setting has changed: results of the last request are outdated."""
 
-    def __init__(self, scenes: SceneStore, settings: SettingsStore) -> None:
+    def __init__(self, scenes: SceneStore) -> None:
         super().__init__()
         self._scenes = scenes
-        self._settings = settings
         self._views: Sequence[SnapshotView] = ()
         self._readers: Sequence[ReadingView] = ()
         self._read: Reading | None = None
@@ -113,7 +111,7 @@ class SimulationController(QObject):
         self.runner.finished.connect(self._show)
         self.runner.failed.connect(self.failed)
         self.runner.failed_for.connect(self.failed_for)
-        for store in (scenes, settings):
+        for store in (scenes, scenes.settings):
             store.changed.connect(self._submit)
         scenes.store.select(lambda workspace: workspace.decoder).changed.connect(self.read_with)
         self.ages = ResultAges(self._request())
@@ -149,7 +147,8 @@ class SimulationController(QObject):
         scene = self._scenes.scene
         step = self._draft_rows.step(scene.camera.rows, self._rows_per_pixel())
         whose = self._scenes.store.workspace.whose
-        return SimulationRequest(scene, self._settings.settings, whose, step, self._more)
+        settings = self._scenes.settings.settings
+        return SimulationRequest(scene, settings, whose, step, self._more)
 
     def _submit(self) -> None:
         request = self._request()

@@ -69,7 +69,7 @@ class Bench:
         self.measured: list[SimulationRequest] = []
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
-        self.simulation = SimulationController(self.scenes, self.settings)
+        self.simulation = SimulationController(self.scenes)
         self.pane = RecordingPane()
         self.controller = AccuracyController(self.scenes, self.settings, self.simulation, self.pane)
         self.simulation.snapshot_shown.connect(self.controller.show_snapshot)

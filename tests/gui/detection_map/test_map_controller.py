@@ -91,9 +91,7 @@ class Bench:
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
         self.pane = RecordingPane()
-        self.controller = DetectionMapController(
-            self.scenes, self.settings, self.queue.channels[0], self.pane
-        )
+        self.controller = DetectionMapController(self.scenes, self.queue.channels[0], self.pane)
 
     def wait_until_idle(self) -> RateMap:
         self._qtbot.waitUntil(lambda: self.controller.channel.is_idle)

@@ -52,7 +52,7 @@ class Bench:
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
         self.controller = SliderStripController(
-            self.scenes, self.scenes.settings, self.queue.channels[0], self.strips, NAMES
+            self.scenes, self.queue.channels[0], self.strips, NAMES
         )
 
     def wait_until_idle(self) -> dict[str, Shares]:

@@ -29,7 +29,7 @@ class Bench:
         self.store = store_of(scene)
         self.settings = self.store.settings
         self.views = (RecordingView(), RecordingView())
-        self.controller = SimulationController(self.store, self.settings)
+        self.controller = SimulationController(self.store)
         self.controller.show_in(self.views, self.views)
         self.failures: list[str] = []
         self.controller.failed.connect(self.failures.append)

@@ -26,7 +26,6 @@ from occ_gui.files.session import Session
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.pins.pin_controller import PinController
 from occ_gui.scene.control_panel import ControlPanel
-from occ_gui.scene.mark_controller import MarkController
 from occ_gui.scene.scene_editor import SceneEditor
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.outdated_marks import OutdatedMarks
@@ -59,7 +58,6 @@ class Application(QObject):
         self.simulation = SimulationController(self.store)
         self.present = PresentResults(self.simulation)
         self.controls = _controls()
-        self.marks = MarkController(self.store, self.controls)
         self.slider_strips = SliderStrips(self.controls.main_rows())
         self.board = Board()
         self.shell = Shell(store, self.board)

@@ -7,11 +7,13 @@ from PySide6.QtCore import QObject
 from occ_gui.accuracy.plan_changes import PlanNews
 from occ_gui.app.parts import Parts
 from occ_gui.picture.before_controller import BeforeController
+from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.forced_effects import forced_text
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.plan import Decision
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.teaching.marked_values import marked_values
 
 
 class SceneInWindow(QObject):
@@ -81,6 +83,8 @@ class SceneInWindow(QObject):
         parts.messages.end_refusal()
         parts.controls.show_scene(scene)
         parts.controls.show_preset(*parts.presets.shown)
+        for name in MAIN:  # marks where the picture changes in kind
+            parts.controls.show_marks(name, marked_values(scene, name))
 
     def _show_settings(self, settings: SimulationSettings) -> None:
         parts = self._parts

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QBrush, QColor, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -101,10 +101,9 @@ class ExposurePlot(QWidget):
 
     def show_column(self, column: int, columns: int, held: bool) -> None:
         """Show which of the picture's columns is chosen, without emitting a signal."""
-        self.column.blockSignals(True)
-        self.column.setRange(0, columns - 1)
-        self.column.setValue(column)
-        self.column.blockSignals(False)
+        with QSignalBlocker(self.column):
+            self.column.setRange(0, columns - 1)
+            self.column.setValue(column)
         self.hold.setChecked(held)
 
     def show_window(self, window: ExposureWindow, level: float) -> None:

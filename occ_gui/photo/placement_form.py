@@ -10,7 +10,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.scene.decimal_edit import DecimalEdit
+from occ_gui.scene.number_edits import DecimalEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.values.placement import LARGEST_SCALE, LEAST_SCALE, Placement

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QPointF, Qt, Signal, SignalInstance
+from PySide6.QtCore import QPointF, QSignalBlocker, Qt, Signal, SignalInstance
 from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
@@ -82,9 +82,8 @@ class PlanPlot(QWidget):
         closed = np.vstack([plan.seen, plan.seen[:1]]) if len(plan.seen) else plan.seen
         self.seen.setData(closed[:, 0], closed[:, 1])
         for target, at in ((self.camera, (place.x, place.y)), (self.aim, plan.aim)):
-            target.blockSignals(True)
-            target.setPos(QPointF(*at))
-            target.blockSignals(False)
+            with QSignalBlocker(target):
+                target.setPos(QPointF(*at))
         if is_new:
             self._show_names(plan.outlines)
             low, high = joined.min(axis=0) - _MARGIN, joined.max(axis=0) + _MARGIN

@@ -2,12 +2,12 @@
 
 import re
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
-from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.gesture import Gestures
+from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import leave_undo_to_window
 from occ_model.errors import ParameterError, one_line, shown
@@ -70,9 +70,8 @@ class CodeEntry(QWidget):
         if (transmitter.bits, transmitter.code, transmitter.payload) == shown:
             return
         self._bits, self._payload = transmitter.bits, transmitter.payload
-        self.number.blockSignals(True)
-        self.number.limit(2**self._bits - 1)
-        self.number.blockSignals(False)
+        with QSignalBlocker(self.number):
+            self.number.limit(2**self._bits - 1)
         self.number.setToolTip(f"The code sent, from 0 to {2**self._bits - 1}.")
         self._display(transmitter.code)
 
@@ -93,9 +92,8 @@ class CodeEntry(QWidget):
 
     def _display(self, code: int) -> None:
         self._code = code
-        self.number.blockSignals(True)
-        self.number.setValue(code)
-        self.number.blockSignals(False)
+        with QSignalBlocker(self.number):
+            self.number.setValue(code)
         self._write()
 
     def _write(self) -> None:

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.scene.parameter_rows import ParameterRow, QuantityRow, explain, row_for
-from occ_gui.scene.play_button import PlayButton
+from occ_gui.scene.player import PlayButton
 from occ_gui.scene.slider_scale import SliderScale
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.text_scale import TextSize, scaled

@@ -1,6 +1,6 @@
 """Parameter rows: the controls of one parameter, a class for each kind of declaration."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QGridLayout,
@@ -10,8 +10,8 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.scene.count_edit import CountEdit
 from occ_gui.scene.gesture import Gestures
+from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling, leave_undo_to_window
@@ -49,8 +49,8 @@ class ParameterRow(QWidget):
     notice: RefusalNotice
     """Why the last input was refused, or what is wrong with the value, under the field."""
 
-    def __init__(self, declaration: Declaration, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, declaration: Declaration) -> None:
+        super().__init__()
         self.name = declaration.name
         self._gestures = Gestures()
         self.refused.connect(self.show_problem)
@@ -79,8 +79,8 @@ class ParameterRow(QWidget):
 class QuantityRow(ParameterRow):
     """A slider and a number field."""
 
-    def __init__(self, quantity: Quantity, parent: QWidget | None = None) -> None:
-        super().__init__(quantity, parent)
+    def __init__(self, quantity: Quantity) -> None:
+        super().__init__(quantity)
         self._quantity = quantity
         self._is_running = False
         self.slider = QSlider(Qt.Orientation.Horizontal)
@@ -147,9 +147,8 @@ class QuantityRow(ParameterRow):
         self._gestures.end()
 
     def _place_slider(self, value: float) -> None:
-        self.slider.blockSignals(True)
-        self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
-        self.slider.blockSignals(False)
+        with QSignalBlocker(self.slider):
+            self.slider.setValue(round(self._quantity.fraction(value) * _SLIDER_STEPS))
         self._tell_value(value)
 
     def _tell_value(self, value: float) -> None:
@@ -185,28 +184,24 @@ class CountRow(ParameterRow):
         self.field.refused.connect(self.refused)
 
     def _display(self, value: ParameterValue) -> None:
-        self.field.blockSignals(True)
-        self.field.setValue(int(value))
-        self.field.blockSignals(False)
+        with QSignalBlocker(self.field):
+            self.field.setValue(int(value))
 
     def show_instead(self, number: int | None, reason: str = "") -> None:
         """Show a number that follows from something else, and why; None: the own value again."""
         self.field.setEnabled(number is None)
         self.field.setToolTip(reason or explain(self._declared))
-        self.field.blockSignals(True)
-        if number is None:
-            self.field.limit(self._declared.high)
-            self.field.setValue(int(self.value or self._declared.low))
-        else:
-            self.field.setRange(number, number)
-        self.field.blockSignals(False)
+        with QSignalBlocker(self.field):
+            if number is None:
+                self.field.limit(self._declared.high)
+                self.field.setValue(int(self.value or self._declared.low))
+            else:
+                self.field.setRange(number, number)
 
 
 class ChoiceRow(ParameterRow):
-    def __init__(
-        self, declared: Choice, parent: QWidget | None = None, field: QComboBox | None = None
-    ) -> None:
-        super().__init__(declared, parent)
+    def __init__(self, declared: Choice, field: QComboBox | None = None) -> None:
+        super().__init__(declared)
         self.field = field or QComboBox()
         self.field.addItems(declared.choices)
         keep_wheel_for_scrolling(self.field)

@@ -1,18 +1,43 @@
 """Player: runs a slider from end to end and back, while the picture follows."""
 
-from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal
+from PySide6.QtCore import QElapsedTimer, QObject, Qt, QTimer, Signal
 from PySide6.QtGui import QAction, QActionGroup
 from PySide6.QtWidgets import QMenu
 
 from occ_gui.scene.parameter_rows import QuantityRow
-from occ_gui.scene.play_button import PlayButton
+from occ_gui.widgets.icon_button import IconButton
 from occ_model.scene.scene import Scene
 
 _TURN_MS = 40
 
+_ICON = 12
+
 SPEEDS = {"slow": 20.0, "normal": 10.0, "fast": 5.0}  # seconds from one end to the other
 
 _RELATIVE_TOLERANCE = 1e-9
+
+
+class PlayButton(IconButton):
+    """Shows whether a slider runs; the right mouse button asks for a menu."""
+
+    switched = Signal(str, bool)  # the parameter, and whether its slider is to run
+    menu_asked = Signal(str)  # the parameter whose menu is to be opened
+
+    def __init__(self, name: str, label: str) -> None:
+        super().__init__("play", _ICON)
+        self.setCheckable(True)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.setAccessibleName(f"Play: {label}")
+        self.setToolTip(
+            "Run the slider from end to end and back.\n"
+            "The right mouse button offers speed, loop and a film of it."
+        )
+        self.clicked.connect(lambda on: self.switched.emit(name, on))
+        self.customContextMenuRequested.connect(lambda: self.menu_asked.emit(name))
+
+    def show_playing(self, playing: bool) -> None:
+        self.setChecked(playing)
+        self.show_drawing("pause" if playing else "play")
 
 
 class Player(QObject):
@@ -100,12 +125,9 @@ class Player(QObject):
     def menu_of(self, name: str) -> QMenu:
         """Make the menu of a slider's button: speed, loop, and a film of it."""
         menu = QMenu(self._buttons[name])
-        words = {
-            "slow": "&Slow", "normal": "&Normal", "fast": "&Fast",
-        }  # fmt: skip
         speeds = QActionGroup(menu)
         for speed in SPEEDS:
-            action = menu.addAction(words[speed])
+            action = menu.addAction(f"&{speed.capitalize()}")
             action.setCheckable(True)
             action.setChecked(speed == self.speed)
             action.setData(speed)
@@ -117,20 +139,12 @@ class Player(QObject):
         loop.setChecked(self.is_looping)
         loop.toggled.connect(self._set_loop)
         film = menu.addAction("Save as &animation…")
-        film.setData(name)
-        film.triggered.connect(self._ask_film)
+        film.triggered.connect(lambda: self.film_asked.emit(name))
         menu.aboutToHide.connect(menu.deleteLater)
         return menu
 
-    def _choose_speed(self) -> None:
-        group = self.sender()
-        if isinstance(group, QActionGroup):
-            self.speed = str(group.checkedAction().data())
+    def _choose_speed(self, action: QAction) -> None:
+        self.speed = str(action.data())
 
     def _set_loop(self, on: bool) -> None:
         self.is_looping = on
-
-    def _ask_film(self) -> None:
-        action = self.sender()
-        if isinstance(action, QAction):
-            self.film_asked.emit(action.data())

@@ -1,9 +1,9 @@
 """Form of the recording: how the film of the scene is simulated."""
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import QFormLayout, QHBoxLayout, QPushButton, QSizePolicy, QWidget
 
-from occ_gui.scene.count_edit import CountEdit
+from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.values.film_choice import FIRST_FRAMES
@@ -81,9 +81,8 @@ class RecordingForm(QWidget):
 
     def show_frames(self, frames: int) -> None:
         """Show how many frames the film has, without a signal."""
-        self.count.blockSignals(True)
-        self.count.setValue(frames)
-        self.count.blockSignals(False)
+        with QSignalBlocker(self.count):
+            self.count.setValue(frames)
 
     def show_scene(self, scene: Scene) -> None:
         """Show what a film of this scene misses between two frames, or why there is none."""

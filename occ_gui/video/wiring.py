@@ -4,7 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 
 from occ_gui.background.file_writer import FileWriter
 from occ_gui.scene.scene_store import SceneStore
@@ -199,9 +199,8 @@ class VideoWiring(Pane[FilmChoice]):
 
     def _on_exposure_refused(self, sentence: str) -> None:
         lock = self.view.bar.lock
-        lock.blockSignals(True)
-        lock.setChecked(not lock.isChecked())
-        lock.blockSignals(False)
+        with QSignalBlocker(lock):
+            lock.setChecked(not lock.isChecked())
         self.view.show_message(sentence)
 
     def _scan_along(self, axis: str) -> None:

@@ -118,8 +118,8 @@ class PaneBench:
     @cached_property
     def measuring(self) -> Measuring:
         """The channels of the processes; nothing is measured along a slider."""
-        row = QuantityRow(quantity("iso"), self.window)
-        row.hide()
+        row = QuantityRow(quantity("iso"))
+        row.setParent(self.window)
         return Measuring(self.scenes, SliderStrips({"iso": row}), lambda: False)
 
     @cached_property

@@ -1,6 +1,6 @@
 """Mode bar: a tab with an icon and a word for each mode."""
 
-from PySide6.QtCore import QSize
+from PySide6.QtCore import QSignalBlocker, QSize
 from PySide6.QtGui import QActionGroup, QIcon, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import QTabBar
 
@@ -39,9 +39,8 @@ class ModeBar(QTabBar):
     def _follow(self) -> None:
         for place, action in enumerate(self._actions):
             if action.isChecked() and place != self.currentIndex():
-                self.blockSignals(True)
-                self.setCurrentIndex(place)
-                self.blockSignals(False)
+                with QSignalBlocker(self):
+                    self.setCurrentIndex(place)
 
     def _choose(self, place: int) -> None:
         self._actions[place].trigger()

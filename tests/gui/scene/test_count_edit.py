@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from occ_gui.scene.count_edit import CountEdit
+from occ_gui.scene.number_edits import CountEdit
 from occ_model.scene.parameters import count
 
 

@@ -7,7 +7,7 @@ from gui.pane_bench import ControlsBench
 from PySide6.QtWidgets import QToolTip
 from pytestqt.qtbot import QtBot
 
-from occ_gui.scene.mark_controller import MarkController
+from occ_gui.app.application import Application
 from occ_gui.scene.slider_scale import SliderScale
 from occ_model.scene.scene import Scene
 
@@ -88,13 +88,13 @@ def test_the_menu_sets_speed_and_loop_and_asks_for_a_film(bench: ControlsBench) 
     assert not again["&Loop"].isChecked()
 
 
-def test_the_marks_follow_the_scene(bench: ControlsBench, qtbot: QtBot) -> None:
-    panel, _marks = bench.controls.panels["Main"], MarkController(bench.scenes, bench.controls)
+def test_the_marks_follow_the_scene(application: Application) -> None:
+    panel = application.controls.panels["Main"]
     (scale,) = panel.rows[NAME].findChildren(SliderScale)
-    bench.scenes.change(exposure_time=100e-6)
+    application.store.change(exposure_time=100e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([10e3, 20e3])
     assert "10 kHz: Exposure and switching period are equal" in scale.accessibleDescription()
     assert scale.accessibleName() == "From 500 Hz to 100 kHz"
-    bench.scenes.change(exposure_time=15e-6)
+    application.store.change(exposure_time=15e-6)
     assert [mark.value for mark in scale.marks] == pytest.approx([1 / 15e-6])
     QToolTip.hideText()

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.scene.count_edit import CountEdit
+from occ_gui.scene.number_edits import CountEdit
 from occ_gui.scene.parameter_rows import PatternRow, QuantityRow, row_for
 from occ_gui.scene.refusal_notice import RefusalNotice
 from occ_gui.widgets.contrast import contrast

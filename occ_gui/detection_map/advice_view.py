@@ -64,7 +64,12 @@ class AdviceView(QWidget):
             QHBoxLayout(), self.back, self.again, self.cancel, (self.progress, 1), (self.state, 1)
         )
         self._content = QWidget()
-        self._column = filled(QVBoxLayout(self._content), (None, 1), margins=(0, 0, 4, 0))
+        self.hint = paragraph(
+            "Searching: the limits of each decoder appear here as soon as they are found."
+        )
+        self._column = filled(
+            QVBoxLayout(self._content), self.hint, (None, 1), margins=(0, 0, 4, 0)
+        )
         filled(
             QVBoxLayout(self), head, (ScrollPane(self._content, _LEAST), 1), margins=(4, 2, 4, 2)
         )
@@ -73,6 +78,7 @@ class AdviceView(QWidget):
         self.progress.setVisible(running)
         self.cancel.setVisible(running)
         self.again.setVisible(not running)
+        self.hint.setVisible(running)
         self.state.setVisible(not running)
 
     def use_frame_rate(self, frames_a_second: float) -> None:
@@ -97,6 +103,7 @@ class AdviceView(QWidget):
         self.progress.setValue(round(100 * share))
 
     def show_advice(self, advice: Advice) -> None:
+        self.hint.hide()
         self.cards.show_advice(advice)
         for line in advice_lines(advice, self._frames_a_second):
             if not line.is_common:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt, QTimer, Signal
-from PySide6.QtGui import QHideEvent, QShowEvent
+from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
 from occ_gui.detection_map.advice_sentences import (
@@ -11,7 +11,7 @@ from occ_gui.detection_map.advice_sentences import (
 )
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.advice import Advice
 from occ_model.results.advice_text import gaps_text, own_text, searched_to, written
@@ -19,6 +19,7 @@ from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.limits import RangeEnd, WorkingRange
 
 _PARAMETER = "switching_frequency"
+_BESIDE = 32  # pixels of margins and gaps in a line of title and button
 
 _REST_MS = 800  # milliseconds that a scene must be at rest before its limits are searched
 
@@ -118,18 +119,18 @@ class LimitCard(QFrame):
         self._decoder = decoder
         self._destination: float | None = None
         self._is_outdated = False
-        self.name = ElidedLabel(decoder, Qt.TextElideMode.ElideRight)
+        self._is_beside: bool | None = None
+        self.name = paragraph()
         self.value = QLabel()
         self.range = ElidedLabel(how=Qt.TextElideMode.ElideRight)  # not a gap's end
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")
         self.go = push_button("Go", do=self._choose, name=f"Go to the highest frequency, {decoder}")
-        grid = QGridLayout(self)
+        grid = self._grid = QGridLayout(self)
         grid.setContentsMargins(12, 6, 8, 6)
         grid.setSpacing(2)
         grid.addWidget(self.name, 0, 0)
-        grid.addWidget(self.go, 0, 1)
         grid.addWidget(self.value, 1, 0, 1, 2)  # beside the button it would widen the window
         grid.addWidget(self.range, 2, 0, 1, 2)
         grid.setColumnStretch(0, 1)
@@ -140,6 +141,19 @@ class LimitCard(QFrame):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
+            self._place_button()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._place_button()
+
+    def _place_button(self) -> None:
+        """Put the button beside the title, or below all else where it would cut the title off."""
+        title = self.name.fontMetrics().horizontalAdvance(self.name.text())
+        is_beside = title + self.go.sizeHint().width() + _BESIDE <= self.contentsRect().width()
+        if is_beside != self._is_beside:
+            self._is_beside = is_beside
+            self._grid.addWidget(self.go, *((0, 1) if is_beside else (3, 0, 1, 2)))
 
     def _choose(self) -> None:
         if self._destination is not None:
@@ -152,6 +166,7 @@ class LimitCard(QFrame):
         self.value.setToolTip(tip)
         # Not the limit itself, but a frequency inside of it: the button says which.
         self.go.setText("Go" if destination is None else f"Go to {_written(destination)}")
+        self._place_button()
         self._show_way()
 
     def _show_way(self) -> None:
@@ -166,7 +181,7 @@ class LimitCard(QFrame):
     def show_unknown(self, why: str = "") -> None:
         self._show("?" if why else "", why or "Not searched yet.", None)
         if why:
-            self.name.set_full_text(why)
+            self.name.setText(why)
 
     def show_searching(self) -> None:
         self._show("…", "Searching for the highest frequency that is read.", None)
@@ -201,9 +216,10 @@ class LimitCard(QFrame):
         self._is_outdated = outdated
         self.range.setEnabled(not outdated)
         self.value.setEnabled(not outdated)
-        self.name.set_full_text(
+        self.name.setText(
             f"Decoder {self._decoder}, an earlier scene"
             if outdated
-            else f"{self._decoder.capitalize()} reads up to"
+            else f"{self._decoder.capitalize()}: up to"
         )
+        self._place_button()
         self._show_way()

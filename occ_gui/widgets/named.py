@@ -6,6 +6,8 @@ from typing import TypeVar
 from PySide6.QtCore import Qt, SignalInstance
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
+from occ_gui.widgets.plain_text import plain
+
 Widget = TypeVar("Widget", bound=QWidget)
 
 
@@ -24,8 +26,8 @@ def push_button(
     *,
     name: str = "",
 ) -> QPushButton:
-    """Make a button; a screen reader tells its text, if it has no other name."""
-    made = named(QPushButton(text), name, tip)
+    """Make a button, whose name is its text by default."""
+    made = named(QPushButton(text), name or plain(text), tip)
     if do is not None:
         made.clicked.connect(do)
     return made

@@ -86,7 +86,7 @@ def test_limits_of_an_earlier_scene_are_marked_and_asked_again(
     with qtbot.waitSignal(cards.asked):
         cards.show_outdated(True)
         assert not card.go.isEnabled()
-        assert "earlier scene" in card.name.toolTip()
+        assert "earlier scene" in card.name.text()
     cards.show_begun()
     assert card.value.text() == "…"
 
@@ -167,9 +167,37 @@ def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene
     cards.show_ended(why)
     for card in cards.cards.values():
         assert (card.value.text(), card.value.toolTip()) == ("?", why)
-        assert card.name._full == why
+        assert card.name.text() == why
         assert not card.go.isEnabled()
     cards.show_begun()
     cards.show_advice(advice_on(small_scene))
     card = cards.cards["threshold"]
-    assert card.name._full == "Threshold reads up to"
+    assert card.name.text() == "Threshold: up to"
+
+
+@pytest.mark.parametrize("width", [300, 420])
+def test_titles_are_seen_whole_however_narrow_the_cards_are(
+    cards: LimitCards, small_scene: Scene, width: int
+) -> None:
+    cards.show_advice(advice_on(small_scene))
+    cards.show_outdated(True)  # the longest title
+    cards.resize(width, 10)
+    cards.resize(width, cards.heightForWidth(width))
+    cards.show()
+    for card in cards.cards.values():
+        needed = card.name.heightForWidth(card.name.width())
+        assert card.name.height() >= needed
+        assert not card.name.geometry().intersects(card.go.geometry())
+
+
+def test_a_search_that_has_found_nothing_yet_says_what_will_appear(
+    small_scene: Scene, qtbot: QtBot
+) -> None:
+    view = AdviceView()
+    qtbot.addWidget(view)
+    view.show()
+    assert not view.hint.isVisible()
+    view.show_advice_begun(())
+    assert view.hint.isVisible()
+    view.show_advice(advice_on(small_scene))
+    assert not view.hint.isVisible()

@@ -115,36 +115,23 @@ class FileController(QObject):
             self.open_file(Path(names[0]))
 
     def ask_for_film(self) -> None:
-        kinds = f"Films ({_FILMS});;All files (*)"
-        name, _ = QFileDialog.getOpenFileName(
-            self._window, "Open film", self._preferences.folder, kinds
-        )
-        if name:
-            self.open_film(Path(name))
+        if path := self._chosen("Open film", f"Films ({_FILMS})"):
+            self.open_film(path)
 
     def open_film(self, path: Path) -> None:
         self._preferences.add(path)
         self.film_asked.emit(path)
 
     def ask_to_save_film(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
-            self._window, "Save the simulated film", self._in_folder("film.mkv"),
-            "Films (*.mkv *.mp4 *.gif *.png)",
-        )  # fmt: skip
-        if name:
-            path = Path(name) if Path(name).suffix else Path(name).with_suffix(".mkv")
+        kinds = "Films (*.mkv *.mp4 *.gif *.png)"
+        if path := self._named("Save the simulated film", "film.mkv", kinds):
             self._preferences.visit(path)
             self.film_save_asked.emit(path)
 
     def ask_for_scene(self) -> None:
-        kinds = "Scenes and figures ({patterns});;All files (*)".format(
-            patterns=" ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
-        )
-        name, _ = QFileDialog.getOpenFileName(
-            self._window, "Open scene", self._preferences.folder, kinds
-        )
-        if name:
-            self.open_scene(Path(name))
+        patterns = " ".join(f"*{ending}" for ending in (SCENE_ENDING, *ENDINGS))
+        if path := self._chosen("Open scene", f"Scenes and figures ({patterns})"):
+            self.open_scene(path)
 
     def open_file(self, path: Path) -> None:
         """Open a scene file, an exported figure, a film or a photo."""
@@ -192,21 +179,18 @@ class FileController(QObject):
         opened = [one_line(path.name) for path in shown]
         if len(paths) > len(scenes[:1]) + len(photos) + len(films[:1]):
             self.status_message.emit(
-                "Of {count} things that were dropped, only {names} can be shown.".format(
-                    count=len(paths), names=" and ".join(opened)
-                )
+                f"Of {len(paths)} things that were dropped, only {' and '.join(opened)} can be "
+                "shown."
             )
 
     def open_scene(self, path: Path) -> None:
         if self._put_scene(path):
             self._preferences.add(path)
-            if path.suffix.lower() != SCENE_ENDING:
-                # The scene is not saved to a figure or table.
-                message = "Opened the scene inside {name}"
-            else:
-                message = "Opened {name}"
+            is_scene = path.suffix.lower() == SCENE_ENDING
+            if is_scene:  # a scene is not saved to a figure or table
                 self.scene_opened.emit(path)
-            self.status_message.emit(message.format(name=one_line(path.name)))
+            inside = "" if is_scene else "the scene inside "
+            self.status_message.emit(f"Opened {inside}{one_line(path.name)}")
 
     def _put_scene(self, path: Path) -> bool:
         try:
@@ -219,13 +203,8 @@ class FileController(QObject):
         return True
 
     def ask_to_save_scene(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
-            self._window, "Save scene", self._in_folder("scene.occ.toml"),
-            "Scenes (*.toml)",
-        )  # fmt: skip
-        if name:
-            path = Path(name)
-            self.save_scene(path if path.suffix else path.with_suffix(SCENE_ENDING))
+        if path := self._named("Save scene", "scene.occ.toml", "Scenes (*.toml)"):
+            self.save_scene(path)
 
     def save_scene(self, path: Path) -> None:
         scene = self._store.scene
@@ -234,26 +213,14 @@ class FileController(QObject):
             self.scene_saved.emit(path)
 
     def ask_to_save_picture(self) -> None:
-        titles = {
-            "camera": "Save the camera's picture",
-            "receiver": "Save the receiver's picture",
-        }
         whose = self._store.store.workspace.whose
-        name, _ = QFileDialog.getSaveFileName(
-            self._window, titles[whose], self._in_folder(f"simulation-{whose}.png"),
-            f"Pictures ({_PICTURES})",
-        )  # fmt: skip
-        if name:
-            self.save_picture(Path(name))
+        title, kinds = f"Save the {whose}'s picture", f"Pictures ({_PICTURES})"
+        if path := self._named(title, f"simulation-{whose}.png", kinds):
+            self.save_picture(path)
 
     def ask_to_save_table(self, text: str) -> None:
         """Let the user choose where to save the table of several photos, written as CSV."""
-        name, _ = QFileDialog.getSaveFileName(
-            self._window, "Save the table of the photos", self._in_folder("readout.csv"),
-            "Tables (*.csv)",
-        )  # fmt: skip
-        if name:
-            path = Path(name) if Path(name).suffix else Path(name).with_suffix(".csv")
+        if path := self._named("Save the table of the photos", "readout.csv", "Tables (*.csv)"):
             self._save(path, lambda: write_whole(path, text.encode("utf-8")))
 
     def save_picture(self, path: Path) -> None:
@@ -276,14 +243,25 @@ class FileController(QObject):
             self.status_message.emit(str(error))
             return False
         self._preferences.visit(path)
-        name = one_line(path.name)
-        saved = "Saved {name}: the {what}" if what else "Saved {name}"
-        self.status_message.emit(saved.format(name=name, what=what))
+        self.status_message.emit(f"Saved {one_line(path.name)}{f': the {what}' if what else ''}")
         return True
 
-    def _in_folder(self, name: str) -> str:
+    def _chosen(self, title: str, kinds: str) -> Path | None:
         folder = self._preferences.folder
-        return str(Path(folder, name)) if folder else name
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, title, folder, f"{kinds};;All files (*)"
+        )
+        return Path(name) if name else None
+
+    def _named(self, title: str, first: str, kinds: str) -> Path | None:
+        """Let the user name a file to be written; without an ending it has that of the first."""
+        folder = self._preferences.folder
+        start = str(Path(folder, first)) if folder else first
+        name, _ = QFileDialog.getSaveFileName(self._window, title, start, kinds)
+        if not name:
+            return None
+        path = Path(name)
+        return path if path.suffix else path.with_suffix(Path(first).suffix)
 
     def _remember(self, photo: "Photo | None") -> None:
         if photo is not None and photo.path not in sample_photos():

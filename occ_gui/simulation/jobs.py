@@ -1,39 +1,24 @@
 """Jobs of the simulation: read a scene by its profile at once, and its picture when it is there."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter
-from typing import TypedDict
+from typing import Any
 
 import occ_model as occ
 from occ_gui.simulation.snapshot import Reading, Snapshot
 from occ_gui.values.simulated import SimulationRequest
-from occ_model.arrays import FloatArray
 from occ_model.effects.plan import called_for_by_signal
 from occ_model.errors import PluginError
 from occ_model.receiver.decoders import QUICK_DECODERS, decoder_named
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import Frame
-from occ_model.results.plan import Plan
 from occ_model.scene.scene import Scene
 from occ_model.simulation.band_model import band_drift, enhanced_band_profile
 from occ_model.simulation.render import PlannedScene, render_with
-from occ_model.study.profile_reading import read_profile
+from occ_model.study.profile_reading import ProfileReading, read_profile
 
 SMALL = 1_000_000  # pixels of a picture up to which it is there at once, with whatever effects
-
-
-class _Beside(TypedDict):
-    """What is shown beside any reading of a scene."""
-
-    scene: Scene
-    has_edges: bool
-    sent: tuple[int, ...]
-    packet_columns: float
-    band: FloatArray | None
-    enhanced_band: FloatArray | None
-    band_undefined: str
-    band_drift: float
 
 
 def reading_by_profile(
@@ -46,18 +31,7 @@ def reading_by_profile(
     found = read_profile(request.scene, request.settings, decoders, view)
     if found is None:
         return None
-    first, *others = found.results
-    return Reading(
-        request=request,
-        source="profile",
-        plan=found.plan,
-        profile=found.profile,
-        signal=found.signal,
-        corners=found.corners,
-        decoded=first,
-        others=tuple(others),
-        **_beside(request.scene, found.plan),
-    )
+    return Reading(source="profile", **_seen(request, request.scene, found, found.results))
 
 
 def is_soon(planned: PlannedScene) -> bool:
@@ -79,20 +53,9 @@ def reading_of_draft(request: SimulationRequest, frame: Frame) -> Reading:
     """Read a draft of a picture, in the rows of the whole one."""
     scene = frame.scene
     first = occ.decode(frame.image, scene)
-    results = [_in_whole_picture(first, frame)]
-    others = _decode_with_others(first, scene, request.more)
-    results += [_in_whole_picture(other, frame) for other in others]
-    return Reading(
-        request=request,
-        source="draft",
-        plan=frame.plan,
-        profile=frame.profile,
-        signal=frame.signal,
-        corners=frame.corners,
-        decoded=results[0],
-        others=tuple(results[1:]),
-        **_beside(scene, frame.plan),
-    )
+    results = (first, *_decode_with_others(first, scene, request.more))
+    results = tuple(_in_whole_picture(result, frame) for result in results)
+    return Reading(source="draft", **_seen(request, scene, frame, results))
 
 
 def _in_whole_picture(result: DecodeResult, draft: Frame) -> DecodeResult:
@@ -109,24 +72,24 @@ def snapshot_of(request: SimulationRequest, frame: Frame) -> Snapshot:
     start = perf_counter()
     decoded = occ.decode(frame.image, scene)
     seconds = perf_counter() - start
+    results = [decoded, *_decode_with_others(decoded, scene, request.more)]
     return Snapshot(
-        request=request,
         source="picture",
-        plan=frame.plan,
-        profile=frame.profile,
-        signal=frame.signal,
-        corners=frame.corners,
-        decoded=decoded,
-        others=tuple(_decode_with_others(decoded, scene, request.more)),
         called_for=called_for_by_signal(frame.plan, scene),
         has_picture=True,
         frame=frame,
         reading_seconds=seconds,
-        **_beside(scene, frame.plan),
+        **_seen(request, scene, frame, results),
     )
 
 
-def _beside(scene: Scene, plan: Plan) -> _Beside:
+def _seen(
+    request: SimulationRequest,
+    scene: Scene,
+    found: Frame | ProfileReading,
+    results: Sequence[DecodeResult],
+) -> dict[str, Any]:
+    """Return what any reading has: what was found, its results, and the band model beside it."""
     band, enhanced_band, undefined, drift = None, None, "", 0.0
     try:
         band = occ.band_profile(scene)
@@ -137,8 +100,15 @@ def _beside(scene: Scene, plan: Plan) -> _Beside:
     transmitter = scene.transmitter
     chip_columns = transmitter.switching_period / scene.camera.readout_time
     return {
+        "request": request,
         "scene": scene,
-        "has_edges": "led-edges" in plan,
+        "plan": found.plan,
+        "profile": found.profile,
+        "signal": found.signal,
+        "corners": found.corners,
+        "decoded": results[0],
+        "others": tuple(results[1:]),
+        "has_edges": "led-edges" in found.plan,
         "sent": () if transmitter.pattern else transmitter.payload_bits,
         "packet_columns": chip_columns * len(occ.packet(scene)),
         "band": band,

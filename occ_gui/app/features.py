@@ -29,6 +29,7 @@ from occ_gui.welcome.feature import welcome
 from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.from_text import DEFAULT_PRESET
 from occ_model.scene.presets import load_preset
+from occ_model.version import __version__
 
 
 def middle(parts: Parts) -> QWidget:
@@ -114,7 +115,7 @@ def _entries(parts: Parts, photos: PhotoInWindow) -> Feature[None]:
 
 
 def _fit(parts: Parts) -> None:
-    parts.story.fit()
+    parts.story.rows.fit()
     if (pane := parts.shell.made_pane("picture")) is not None:
         pane.view.fit()
 
@@ -130,9 +131,13 @@ def _show_report(parts: Parts) -> None:
 
 
 def _show_about(parts: Parts) -> None:
-    from occ_gui.app.about import show_about
+    from PySide6.QtWidgets import QMessageBox
 
-    show_about(parts.window)
+    text = (
+        f"Optical Camera Communication {__version__}\n\nSimulates the pictures that a "
+        "rolling-shutter camera takes of a blinking LED panel, and decodes the code in them."
+    )
+    QMessageBox.about(parts.window, "About", text)
 
 
 def _show_shortcuts(parts: Parts) -> None:

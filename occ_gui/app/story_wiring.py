@@ -21,7 +21,7 @@ def connect_story(parts: Parts) -> None:
     """Connect the story with the menus, and with the panes that show the same in detail."""
     story, menus = parts.story, parts.window.menus
     parts.simulation.draft_for(lambda: _rows_per_pixel(story, parts.shell))
-    parts.lessons.columns_held.connect(story.hold_columns)
+    parts.lessons.columns_held.connect(story.rows.hold_columns)
     _SimulationNaming(parts)
     crosshair, before = story.rows.crosshair, menus.actions["before"]
 

@@ -5,7 +5,6 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
-    QSizePolicy,
     QSlider,
     QSplitter,
     QVBoxLayout,
@@ -26,6 +25,21 @@ from occ_model.results.frame import PICTURES, Frame
 _GAINS = (1, 2, 4, 8)
 _APART = 8  # pixels between the controls of one picture and the caption of the other
 _FIRST_GAIN = 4  # without a factor, differences of a few grey levels would look black
+
+_MODES = {
+    "beside": "Side by side",
+    "blend": "Blended",
+    "split": "Split",
+    "difference": "Difference",
+}
+_MEANINGS = (
+    "Side by side: each picture in its own view.\n"
+    "Blended: the photo over the simulation, with the opacity of the slider.\n"
+    "Split: the simulation above a line that can be dragged, the photo below it; matching "
+    "stripes continue across it.\n"
+    "Difference: the absolute difference in grey levels, black where both are equal; "
+    "averaged over each pixel of the screen."
+)
 
 
 class ImageView(QWidget):
@@ -66,20 +80,15 @@ class ImageView(QWidget):
     def _make_switch(self) -> None:
         self.switch = KeyedComboBox(
             "Whose picture is shown",
-            (
-                "Camera: the picture as the camera gives it; a photo is compared with it.\n"
-                "Receiver: the picture with its contrast enhanced, as it is decoded."
-            ),
+            "Camera: the picture as the camera gives it; a photo is compared with it.\n"
+            "Receiver: the picture with its contrast enhanced, as it is decoded.",
             {"camera": "Camera", "receiver": "Receiver"},
+            is_fixed=True,
         )
-        self.switch.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        self.switch.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.switch.chosen.connect(self.choose_picture)
 
     def _make_controls(self) -> None:
-        self.mode = KeyedComboBox(
-            "How photo and simulation are shown", self._mode_meanings(), self._mode_words()
-        )
+        self.mode = KeyedComboBox("How photo and simulation are shown", _MEANINGS, _MODES)
         # Its words must not be cut off: some begin alike.
         self.mode.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         self.mode.chosen.connect(self.mode_chosen)
@@ -104,32 +113,13 @@ class ImageView(QWidget):
             QHBoxLayout(self._row), self.mode, (self.opacity, 2), self.gain, (None, 1), margins=0
         )
 
-    def _mode_words(self) -> dict[str, str]:
-        return {
-            "beside": "Side by side",
-            "blend": "Blended",
-            "split": "Split",
-            "difference": "Difference",
-        }
-
-    def _mode_meanings(self) -> str:
-        return (
-            "Side by side: each picture in its own view.\n"
-            "Blended: the photo over the simulation, with the opacity of the slider.\n"
-            "Split: the simulation above a line that can be dragged, the photo below it; matching "
-            "stripes continue across it.\n"
-            "Difference: the absolute difference in grey levels, black where both are equal; "
-            "averaged over each pixel of the screen."
-        )
-
     def _caption(self) -> str:
         frame, mode = self._frame, self._mode
         picture = "Simulated picture"
         if frame is not None:
             picture = frame.picture_title(self.whose)
             if frame.rows_step > 1:
-                text = "Draft, one row in {step}: {picture}"
-                picture = text.format(step=frame.rows_step, picture=picture)
+                picture = f"Draft, one row in {frame.rows_step}: {picture}"
         if self.shown_photo is None:
             return picture
         if mode == "beside":  # whose picture it is stands in the choice beside it
@@ -139,8 +129,8 @@ class ImageView(QWidget):
             return f"Photo over: {picture}"
         if mode == "split":
             return f"{picture}, above the line; photo below"
-        text = "Difference × {gain}: photo and {picture}; black where equal"  # noqa: RUF001 - the sign for times
-        return text.format(gain=self.gain.key(), picture=picture[:1].lower() + picture[1:])
+        picture = picture[:1].lower() + picture[1:]
+        return f"Difference × {self.gain.key()}: photo and {picture}; black where equal"  # noqa: RUF001
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
         if snapshot.frame is not self._frame:  # it may have been shown before it was decoded

@@ -2,11 +2,12 @@
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QGraphicsOpacityEffect, QScrollArea, QTabWidget, QWidget
+from PySide6.QtWidgets import QGraphicsOpacityEffect, QWidget
 
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_panel import ParameterPanel
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_model.scene.parameters import PARAMETERS
 
 _DIMMED = 0.75
@@ -52,13 +53,12 @@ class Spotlight(QObject):
 
     def _mark(self, panel: ParameterPanel, name: str) -> None:
         row, label = panel.rows[name], panel.labels[name]
-        _bring_into_view(panel, row)
+        bring_into_view(row, 4 * _MARGIN)
         children = panel.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly)
         marked = (row, label, panel.play_buttons.get(name))
         why = (
             f"This step of the lesson is about “{PARAMETERS[name].label}”. The other "
-            "controls of this page take "
-            "nothing until it is left."
+            "controls of this page take nothing until it is left."
         )
         for widget in children:
             if widget not in marked:
@@ -77,19 +77,6 @@ class Spotlight(QObject):
             if part.toolTip():
                 self._tool_tips.append((part, part.toolTip()))
                 part.setToolTip(f"{why}\n\n{part.toolTip()}")
-
-
-def _bring_into_view(panel: QWidget, row: QWidget) -> None:
-    parent = panel.parentWidget()
-    scroll: QScrollArea | None = None
-    while parent is not None:
-        if isinstance(parent, QScrollArea) and scroll is None:
-            scroll = parent
-        if isinstance(parent, QTabWidget) and scroll is not None:
-            parent.setCurrentWidget(scroll)
-        parent = parent.parentWidget()
-    if scroll is not None:
-        scroll.ensureWidgetVisible(row, 0, 4 * _MARGIN)
 
 
 class _Frame(QWidget):

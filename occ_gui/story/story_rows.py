@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import QEvent, Qt, Signal
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.simulation.band_drift import drift_of, what_is_compared, why_it_drifts
 from occ_gui.simulation.preview import Picture, PictureView
@@ -21,8 +21,9 @@ from occ_gui.story.scales import ColumnScale, TimeScale
 from occ_gui.story.stripes_row import StripesRow
 from occ_gui.story.text_room import gutter_of
 from occ_gui.values.photo_results import PhotoProfile
-from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
+from occ_gui.widgets.first_periods import PACKETS_IN_VIEW, first_periods
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import push_button
 from occ_gui.widgets.pens import BAND, PHOTO, SIMULATION, THRESHOLD, thin
 from occ_model.results.decoding import DecodeResult
 from occ_model.results.frame import PICTURES
@@ -41,9 +42,6 @@ class StoryRows(QWidget):
     measured_changed = Signal(str)
     """What is measured between the cursors, in words; empty while nothing is."""
 
-    range_left = Signal()  # the user has zoomed or moved the columns
-    range_kept = Signal()  # the range is again the one that is set for the results
-
     def __init__(self) -> None:
         super().__init__()
         self.axis, self.crosshair = ColumnAxis(self), Crosshair(self)
@@ -53,6 +51,16 @@ class StoryRows(QWidget):
         self._whose = PICTURES[0]
         self.range = RANGES[0]
         self._held: float | None = None
+        self.ranges: dict[str, QPushButton] = {}  # buttons that choose the range, of RANGES
+        for name in RANGES:
+            self.ranges[name] = button = push_button(
+                "Panel",
+                "Show all columns of the panel, and follow it.",
+                lambda _=False, name=name: self.choose_range(name),
+            )
+            button.setCheckable(True)
+        self._mark_range()
+        self._name_first(has_packets=True)
         self.time, self.columns = TimeScale(self.axis), ColumnScale(self.axis)
         self.light = LightRow(self.axis, self.crosshair)
         self.stripes = StripesRow(self.axis, self.crosshair)
@@ -66,7 +74,7 @@ class StoryRows(QWidget):
             layout.addWidget(part, stretch)
         for signal in (self.crosshair.pointed_at, self.crosshair.chosen):
             signal.connect(self._read_out)
-        self.axis.changed.connect(self._on_range)
+        self.axis.changed.connect(self._mark_range)
         self.crosshair.cursors.changed.connect(self._measure)
 
     def _legend_line(self) -> QWidget:
@@ -128,6 +136,7 @@ class StoryRows(QWidget):
         self.light.show_reading(reading)
         self._show_decoded()
         self._set_range()
+        self._name_first(has_packets=not reading.scene.transmitter.pattern)
         first = int(reading.panel_origin[0] + reading.packet_columns / 2)
         self.crosshair.set_columns(len(reading.profile), first)
         if was_seen and not self._sees_chosen():
@@ -158,7 +167,12 @@ class StoryRows(QWidget):
         """Show the first packets or the whole panel, one of RANGES, and follow it."""
         self.range = name
         self._set_range()
+        self.fit()
+
+    def fit(self) -> None:
+        """Follow the range that was chosen last again."""
         self.axis.fit()
+        self._mark_range()
 
     def hold_columns(self, columns: float | None) -> None:
         """Keep so many columns in view in place of the first packets; None for the packets again.
@@ -167,6 +181,16 @@ class StoryRows(QWidget):
         """
         self._held = columns
         self._set_range()
+        reading = self._reading
+        self._name_first(has_packets=reading is None or not reading.scene.transmitter.pattern)
+
+    def _name_first(self, *, has_packets: bool) -> None:
+        text, tip = first_periods(has_packets)
+        if self._held is not None:
+            text = f"{self._held:.0f} columns"
+            tip = "Show so many columns from the panel's first on, whatever is sent."
+        self.ranges[RANGES[0]].setText(text)
+        self.ranges[RANGES[0]].setToolTip(tip)
 
     @property
     def decoded(self) -> DecodeResult | None:
@@ -209,8 +233,10 @@ class StoryRows(QWidget):
         beside = _MARGIN_FRACTION * (last - first)
         self.axis.set_home(first - beside, last + beside, last_column + 1)
 
-    def _on_range(self) -> None:
-        (self.range_kept if self.axis.is_following else self.range_left).emit()
+    def _mark_range(self) -> None:
+        """Mark the range that is followed; none while the user looks elsewhere."""
+        for name, button in self.ranges.items():
+            button.setChecked(self.axis.is_following and name == self.range)
 
     def _read_out(self) -> None:
         values = self.values()

@@ -5,9 +5,7 @@ from collections.abc import Sequence
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
-    QComboBox,
     QHBoxLayout,
-    QPushButton,
     QSizePolicy,
     QStackedWidget,
     QVBoxLayout,
@@ -16,11 +14,10 @@ from PySide6.QtWidgets import (
 
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.story.story_rows import RANGES, StoryRows
+from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.first_periods import first_periods
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.named import push_button
 
@@ -63,8 +60,6 @@ class StoryView(QWidget):
         self._photo_verdict: QWidget | None = None
         self._is_about_photo = False
         self.rows.stripes.thumbnail.clicked.connect(lambda: self.show_whole_picture(True))
-        self.rows.range_left.connect(lambda: self._mark_range(""))
-        self.rows.range_kept.connect(lambda: self._mark_range(self.rows.range))
         self.readout = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.readout.setAccessibleName("Values at the crosshair")
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
@@ -74,8 +69,6 @@ class StoryView(QWidget):
         self.measured.setContentsMargins(4, 0, 0, 0)
         self.measured.hide()
         self.rows.measured_changed.connect(self._show_measured)
-        self._held: float | None = None
-        self._has_packets = True
         self._make_controls(decoders)
         self._pages = QStackedWidget()
         for page in (self.rows, picture):
@@ -87,7 +80,7 @@ class StoryView(QWidget):
         line.addWidget(_Held(self.readout), 1)
         line.addWidget(self.decoder)
         line.addWidget(self.whole, 0, Qt.AlignmentFlag.AlignRight)
-        for control in (self.whose, *self.ranges.values()):
+        for control in (self.whose, *self.rows.ranges.values()):
             self.rows.controls.addWidget(control)
         layout = self._layout = QVBoxLayout(self)
         layout.setContentsMargins(4, 4, 4, 4)
@@ -105,34 +98,18 @@ class StoryView(QWidget):
 
     def _make_controls(self, decoders: Sequence[str]) -> None:
         self.decoder = KeyedComboBox(
-            "Decoder",
-            "Whose verdict, threshold, chips and bits are shown.",
-            {},
+            "Decoder", "Whose verdict, threshold, chips and bits are shown.", {}, is_fixed=True
         )
         self.offer(decoders)
-        self.decoder.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        self.decoder.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.decoder.chosen.connect(self.decoder_chosen)
         self.whose = KeyedComboBox(
             "Whose picture and profile are shown",
-            (
-                "Camera: picture and profile as the camera gives them.\n"
-                "Receiver: with the contrast enhanced, as they are decoded."
-            ),
+            "Camera: picture and profile as the camera gives them.\n"
+            "Receiver: with the contrast enhanced, as they are decoded.",
             {"camera": "Camera", "receiver": "Receiver"},
+            is_fixed=True,
         )
-        self.whose.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
-        self.whose.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         self.whose.chosen.connect(self.picture_chosen)
-        self.ranges = {}
-        for name in RANGES:
-            button = QPushButton("Panel")
-            button.setCheckable(True)
-            button.setToolTip("Show all columns of the panel, and follow it.")
-            button.clicked.connect(lambda _=False, name=name: self.choose_range(name))
-            self.ranges[name] = button
-        self.ranges[RANGES[0]].setChecked(True)
-        self._name_first()
         self.whole = push_button("Whole picture", do=self.show_whole_picture)
         self.whole.setCheckable(True)
         self.whole.setObjectName("way")  # its text says what it does: it need not look pressed
@@ -192,8 +169,6 @@ class StoryView(QWidget):
     def show_reading(self, reading: Reading) -> None:
         self.verdict.show_reading(reading)
         self.rows.show_reading(reading)
-        self._has_packets = not reading.scene.transmitter.pattern
-        self._name_first()
 
     def show_photo_profile(self, photo: PhotoProfile | None) -> None:
         self.rows.show_photo_profile(photo)
@@ -209,29 +184,6 @@ class StoryView(QWidget):
         self.whose.show_key(whose)
         self.rows.choose_picture(whose)
 
-    def choose_range(self, name: str) -> None:
-        """Show the first packets or the whole panel, one of RANGES."""
-        self.rows.choose_range(name)
-        self._mark_range(name)
-
-    def hold_columns(self, columns: float | None) -> None:
-        """Keep so many columns in view whatever is sent; None for the first packets again."""
-        self._held = columns
-        self.rows.hold_columns(columns)
-        self._name_first()
-
-    def _name_first(self) -> None:
-        button = self.ranges[RANGES[0]]
-        text, tip = first_periods(self._has_packets)
-        if self._held is not None:
-            text = f"{self._held:.0f} columns"
-            tip = "Show so many columns from the panel's first on, whatever is sent."
-        button.setText(text)
-        button.setToolTip(tip)
-
-    def fit(self) -> None:
-        self.choose_range(self.rows.range)
-
     def switch_measuring(self, on: bool) -> None:
         if on:
             self.show_whole_picture(False)
@@ -240,7 +192,3 @@ class StoryView(QWidget):
     def _show_measured(self, text: str) -> None:
         self.measured.set_full_text(text)
         self.measured.setVisible(bool(text))
-
-    def _mark_range(self, name: str) -> None:
-        for key, button in self.ranges.items():
-            button.setChecked(key == name)

@@ -44,14 +44,11 @@ class FilmBar(QWidget):
         self.close_film = push_button("Close", do=self.close_asked)
         self.axis = KeyedComboBox(
             "What the shutter scans",
-            (
-                "Whether the shutter scans the picture line by line or column by column.\n"
-                "Of a film it is found on the first frames; choose, where that went wrong."
-            ),
+            "Whether the shutter scans the picture line by line or column by column.\n"
+            "Of a film it is found on the first frames; choose, where that went wrong.",
             dict(zip(AXES, ("line by line", "column by column"), strict=True)),
+            is_fixed=True,
         )
-        self.axis.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
-        self.axis.setSizeAdjustPolicy(KeyedComboBox.SizeAdjustPolicy.AdjustToContents)
         self.lock = QCheckBox("Hold exposure")
         self.lock.setToolTip("Keep the camera's exposure as it is now.")
         self.read = push_button("", do=self.read_asked)

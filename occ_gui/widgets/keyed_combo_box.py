@@ -12,18 +12,23 @@ _POPUP_MARGIN = 36
 
 
 class KeyedComboBox(QComboBox):
-    """A combo box that emits the key of the chosen word."""
+    """A combo box that emits the key of the chosen word; a fixed one is as wide as its words."""
 
     chosen = Signal(str)
 
-    def __init__(self, name: str, meaning: str, words: Mapping[str, str]) -> None:
+    def __init__(
+        self, name: str, meaning: str, words: Mapping[str, str], *, is_fixed: bool = False
+    ) -> None:
         super().__init__()
         for key, word in words.items():
             self.addItem(word, key)
         self.setAccessibleName(name)
         self.setToolTip(meaning)
-        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        width, adjust = QSizePolicy.Policy, QComboBox.SizeAdjustPolicy
+        self.setSizePolicy(width.Fixed if is_fixed else width.Expanding, width.Fixed)
+        self.setSizeAdjustPolicy(
+            adjust.AdjustToContents if is_fixed else adjust.AdjustToMinimumContentsLengthWithIcon
+        )
         keep_wheel_for_scrolling(self)
         self.activated.connect(lambda: self.chosen.emit(self.key()))
 

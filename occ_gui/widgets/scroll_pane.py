@@ -1,7 +1,7 @@
 """Scroll pane: scrolls vertically where its content is higher."""
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt
-from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
+from PySide6.QtWidgets import QFrame, QScrollArea, QTabWidget, QWidget
 
 
 class ScrollPane(QScrollArea):
@@ -29,3 +29,15 @@ class ScrollPane(QScrollArea):
         least, bar = content.minimumSizeHint(), self.verticalScrollBar().sizeHint().width()
         width = max(self._least.width(), least.width() + bar)
         return QSize(width, min(self._least.height(), least.height()))
+
+
+def bring_into_view(widget: QWidget, margin: int = 50) -> None:
+    """Choose the tabs and scroll all around a widget so that it is seen."""
+    page, around = widget, widget.parentWidget()
+    while around is not None:
+        tabs = around.parentWidget()
+        if isinstance(around, QScrollArea):
+            around.ensureWidgetVisible(widget, 0, margin)
+        elif isinstance(tabs, QTabWidget):
+            tabs.setCurrentWidget(page)
+        page, around = around, tabs

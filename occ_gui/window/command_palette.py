@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QListWidget,
     QMenu,
     QMenuBar,
-    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -21,6 +20,7 @@ from PySide6.QtWidgets import (
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.scene.parameter_rows import ParameterRow
 from occ_gui.widgets.plain_text import plain
+from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.search_words import words_of
 from occ_model.scene.parameters import PARAMETERS
 
@@ -149,7 +149,7 @@ def _jump(
 
     def jump() -> None:
         bring_to_front("controls")
-        _show_page_of(row)
+        bring_into_view(row)
         field: QWidget = getattr(row, "field")  # noqa: B009 - each kind of row has one of its own
         field.setFocus()
         if isinstance(field, QAbstractSpinBox | QLineEdit):
@@ -157,14 +157,3 @@ def _jump(
 
     symbol = f" {declared.symbol}" if declared.symbol else ""
     return Command(f"{page}: {declared.label}{symbol}", "", jump, declared.meaning)
-
-
-def _show_page_of(widget: QWidget) -> None:
-    page: QWidget | None = widget
-    while page is not None:
-        around = page.parentWidget()
-        pages = around.parentWidget() if around is not None else None
-        if isinstance(pages, QTabWidget):
-            pages.setCurrentWidget(page)
-            return
-        page = around

@@ -15,11 +15,12 @@ from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QWidget
 from occ_gui.scene.control_panel import ControlPanel
 from occ_gui.story.story_view import StoryView
 from occ_gui.widgets.event_filters import leave_drops_to_window
+from occ_gui.widgets.scroll_pane import bring_into_view
 from occ_gui.window.dock import Dock
 from occ_gui.window.menus import Menus
 from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
 from occ_gui.window.modes.mode_switch import ModeSwitch
-from occ_gui.window.reading_order import bring_into_view, next_to_focus
+from occ_gui.window.reading_order import next_to_focus
 from occ_gui.window.status_line import StatusLine
 from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar

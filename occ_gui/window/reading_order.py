@@ -7,7 +7,7 @@ nothing to do with where they stand.
 from collections.abc import Callable, Iterator, Sequence
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QScrollArea, QWidget
+from PySide6.QtWidgets import QWidget
 
 _OVERLAP = 6  # pixels by which the ends of two neighbours may overlap at most and still stand apart
 
@@ -35,15 +35,6 @@ def focus_stops(widget: QWidget) -> Iterator[QWidget]:
         if child.focusPolicy() & Qt.FocusPolicy.TabFocus and child.focusProxy() is None:
             yield child
         yield from focus_stops(child)
-
-
-def bring_into_view(widget: QWidget) -> None:
-    """Scroll all around a widget so that it is seen."""
-    around = widget.parentWidget()
-    while around is not None:
-        if isinstance(around, QScrollArea):
-            around.ensureWidgetVisible(widget)
-        around = around.parentWidget()
 
 
 def _children(widget: QWidget) -> list[QWidget]:

@@ -250,7 +250,7 @@ def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
     guide.list.choices[0].click()
     user.wait_until_idle()
     held = story.rows.axis.span
-    assert story.ranges["packets"].text() == "250 columns"
+    assert story.rows.ranges["packets"].text() == "250 columns"
     assert held == pytest.approx(250, rel=0.05)
     for readout in (20e-6, 4e-6):
         application.store.change(readout_time=readout)
@@ -258,11 +258,11 @@ def test_a_lesson_keeps_as_many_columns_in_view_while_the_scene_is_changed(
         assert story.rows.axis.span == pytest.approx(held)
     guide.step.all.click()
     user.wait_until_idle()
-    assert story.ranges["packets"].text() == "2 packets"
+    assert story.rows.ranges["packets"].text() == "2 packets"
     assert story.rows.axis.span == pytest.approx(usual)
     application.store.change(pattern="10")
     user.wait_until_idle()
-    assert story.ranges["packets"].text() == "2 cycles"
+    assert story.rows.ranges["packets"].text() == "2 cycles"
 
 
 def test_a_lab_sheet_has_buttons_for_what_it_asks(

@@ -23,7 +23,7 @@ def view(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
 
 
 def checked(view: StoryView) -> list[str]:
-    return [name for name, button in view.ranges.items() if button.isChecked()]
+    return [name for name, button in view.rows.ranges.items() if button.isChecked()]
 
 
 def test_only_the_page_that_is_shown_needs_space(view: StoryView) -> None:
@@ -50,12 +50,12 @@ def test_it_fits_beside_other_panes_of_a_small_window(view: StoryView) -> None:
 def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     assert checked(view) == ["packets"]
     packets = view.rows.axis.span
-    view.ranges["panel"].click()
+    view.rows.ranges["panel"].click()
     assert checked(view) == ["panel"]
     assert view.rows.axis.span > 1.5 * packets
     view.rows.axis.zoom(0.5, 1500.0)
     assert checked(view) == []
-    view.fit()
+    view.rows.fit()
     assert checked(view) == ["panel"]
 
 

@@ -60,7 +60,7 @@ def test_larger_text_is_not_cut_in_bars_and_buttons(
     application.options.text_size.choose(percent)
     user.wait_until_idle()
     story, bar = application.story, application.story.verdict
-    legend, buttons = story.rows.legend, [story.whole, *story.ranges.values()]
+    legend, buttons = story.rows.legend, [story.whole, *story.rows.ranges.values()]
     qtbot.waitUntil(lambda: bar.title.text() == bar.heading)
     qtbot.waitUntil(lambda: all(b.width() >= b.minimumSizeHint().width() for b in buttons))
     qtbot.waitUntil(lambda: all(b.height() >= b.minimumSizeHint().height() for b in buttons))

@@ -123,11 +123,11 @@ class BandsView(QWidget):
         self.table.setMinimumWidth(columns + bar.sizeHint().width() + 2 * self.table.frameWidth())
 
     def _headline(self, found: ShownBands) -> str:
-        depth, exposure = found.depth, SECOND.format(found.scene.camera.exposure_time, _DIGITS)
-        if depth.peak_to_peak < found.advice.limit:
-            return f"No bars at {exposure}: {_percent(depth.peak_to_peak)}"
-        text = "Bars of {depth} of the mean light at {exposure}"
-        return text.format(depth=_percent(depth.peak_to_peak), exposure=exposure)
+        depth = found.depth.peak_to_peak
+        exposure = SECOND.format(found.scene.camera.exposure_time, _DIGITS)
+        if depth < found.advice.limit:
+            return f"No bars at {exposure}: {_percent(depth)}"
+        return f"Bars of {_percent(depth)} of the mean light at {exposure}"
 
     def _sentences(self, found: ShownBands) -> list[str]:
         depth, advice, eye = found.depth, found.advice, found.eye

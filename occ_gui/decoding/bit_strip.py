@@ -6,7 +6,7 @@ from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from occ_gui.simulation.verdict import wrong_places
+from occ_gui.simulation.verdict import received_in_words, wrong_places
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model import colours
 
@@ -60,10 +60,8 @@ class BitStrip(QWidget):
                 f"sent {len(self._sent)} bits, received {len(self._received)}, {len(wrong)} wrong"
             )
         else:
-            sent_text, received_text = ("".join(map(str, b)) for b in (self._sent, self._received))
-            text = "sent {sent}, received {received}, {wrong} wrong".format(
-                sent=sent_text, received=received_text or "nothing", wrong=len(wrong)
-            )
+            sent, received = ("".join(map(str, bits)) for bits in (self._sent, self._received))
+            text = received_in_words(sent, received, len(wrong))
         if not self.isEnabled():
             text = f"earlier scene: {text}"
         self.setAccessibleDescription(text)

@@ -11,7 +11,7 @@ from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.decoding.payload_text import PayloadText
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.simulation.verdict import is_right, result_of, verdict_on
+from occ_gui.simulation.verdict import is_right, left_out_in_words, result_of, verdict_on
 from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.state_look import State
 from occ_model.results.decoding import DecodeResult, Location
@@ -103,11 +103,7 @@ class DecodeView(QWidget):
         self.origin.show()
         self.strip.setVisible(bool(reading.sent))
         self.left_out.setVisible(bool(reading.called_for))
-        self.left_out.setText(
-            "This picture leaves out what map and strips take in: {effects}.".format(
-                effects=", ".join(reading.called_for)
-            )
-        )
+        self.left_out.setText(left_out_in_words(reading))
         self._show_chosen()
 
     def offer(self, decoders: Sequence[str]) -> None:
@@ -208,16 +204,14 @@ class DecodeView(QWidget):
         if early is not None:
             before, now = (self._in_words(self._chosen(each)) for each in (early, reading))
             if before != now:
-                return "Read from the picture. {source} had said: {verdict}.".format(
-                    source="The column profile alone" if early.source == "profile" else "Its draft",
-                    verdict=before,
-                )
+                is_profile = early.source == "profile"
+                source = "The column profile alone" if is_profile else "Its draft"
+                return f"Read from the picture. {source} had said: {before}."
         return "Read from the picture."
 
     def _in_words(self, decoded: DecodeResult) -> str:
         verdict = verdict_on(decoded, self._sent)
-        mark = _MARKS.get(verdict.state, "✗ ")
-        return f"{mark}{verdict.title}"
+        return f"{_MARKS.get(verdict.state, '✗ ')}{verdict.title}"
 
     def _verdict(self, decoded: DecodeResult) -> str:
         text = self._in_words(decoded)

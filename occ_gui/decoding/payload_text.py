@@ -6,6 +6,7 @@ from html import escape
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
+from occ_gui.simulation.verdict import received_in_words
 from occ_model import colours
 from occ_model.scene.payload import Piece, compared
 
@@ -31,13 +32,8 @@ class PayloadText(QLabel):
         sent = _shortened("".join(piece.sent for piece in pieces))
         wrong = sum(not piece.is_right for piece in pieces)
         self.setText(f"sent <b>{escape(sent)}</b><br>received <b>{_marked(pieces)}</b>")
-        self.setAccessibleDescription(
-            "sent {sent}, received {received}, {wrong} wrong".format(
-                sent=sent,
-                received=_shortened("".join(piece.received or _MISSING for piece in pieces)),
-                wrong=wrong,
-            )
-        )
+        read = _shortened("".join(piece.received or _MISSING for piece in pieces))
+        self.setAccessibleDescription(received_in_words(sent, read, wrong))
 
 
 def _shortened(text: str) -> str:

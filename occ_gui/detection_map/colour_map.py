@@ -28,17 +28,7 @@ def colour_table(name: str) -> ByteArray:
 
 
 def to_colours(values: FloatArray, low: float, high: float, name: str) -> ByteArray:
-    """Map values to colours.
-
-    Parameters
-    ----------
-    values : ndarray of float64, shape (points along x, points along y)
-        Not-a-number becomes transparent.
-
-    Returns
-    -------
-    ndarray of uint8, shape (points along x, points along y, 4)
-    """
+    """Map values, shape (x, y), to colours, shape (x, y, 4); not-a-number becomes transparent."""
     there = np.isfinite(values)
     share = np.where(there, (values - low) / (high - low), 0.0)
     steps = np.rint(np.clip(share, 0.0, 1.0) * (_STEPS - 1)).astype(np.int64)

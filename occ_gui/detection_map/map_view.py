@@ -188,14 +188,12 @@ class MapView(QWidget):
 
     def show_progress(self, known: int, total: int, images: int) -> None:
         """Show how many points are known, and how many images each has at least."""
-        if known < total:
-            text = f"{known} of {total} points measured"
-        else:
-            text = (
-                "{total} points, each in the middle of its cell; images a point: {images} or more; "
-                "colour: {what}"
-            ).format(total=total, images=images, what="{what}")
-        self._progress = text
+        self._progress = f"{known} of {total} points measured"
+        if known >= total:
+            self._progress = (
+                f"{total} points, each in the middle of its cell; images a point: {images} or "
+                "more; colour: {what}"
+            )
         self._show_status()
 
     def show_failure(self, sentence: str) -> None:
@@ -211,9 +209,7 @@ class MapView(QWidget):
 
     def show_left_out(self, effects: tuple[str, ...]) -> None:
         self.left_out.setVisible(bool(effects))
-        self.left_out.set_full_text(
-            "The map leaves out: {effects}.".format(effects=", ".join(effects))
-        )
+        self.left_out.set_full_text(f"The map leaves out: {', '.join(effects)}.")
 
     def show_bits(self, shown: Shown, frames_a_second: float) -> None:
         self.shown.show_key(shown)

@@ -92,6 +92,5 @@ class MostBitsCard(QFrame):
         text = (f"{best.bits_a_second:,.0f} bits a second, {sent.payload_length} a picture in "
 f"{sent.line_code} at {HERTZ.format(sent.switching_frequency, _DIGITS)}, "
             f"read by {best.decoder}")  # fmt: skip
-        if self._is_outdated:
-            return f"Earlier scene: {text}"
-        return ("So far: {text}" if self._state else "Most: {text}").format(text=text)
+        when = "Earlier scene" if self._is_outdated else "So far" if self._state else "Most"
+        return f"{when}: {text}"

@@ -127,26 +127,14 @@ class RateMap:
         return int(self.images.min())
 
     def rates(self, decoder: str) -> FloatArray:
-        """Return a decoder's rate at every point, in percent.
-
-        Returns
-        -------
-        ndarray of float64, shape (points along x, points along y)
-            NaN where the rate is not known or the model refuses the point.
-        """
+        """Return a decoder's rate at every point in percent; NaN where it is unknown or refused."""
         rates = np.full(self.shape, np.nan)
         right = 100.0 * self.right[..., self.decoders.index(decoder)]
         np.divide(right, self.sent, out=rates, where=self.sent > 0)
         return rates
 
     def bits_a_second(self, decoder: str, frames_a_second: float) -> FloatArray:
-        """Return the net bits a second at every point, of a payload in each picture.
-
-        Returns
-        -------
-        ndarray of float64, shape (points along x, points along y)
-            NaN where it is not known or the model refuses the point.
-        """
+        """Return the net bits a second at every point, of a payload a picture; NaN as above."""
         share = np.full(self.shape, np.nan)
         whole = self.whole[..., self.decoders.index(decoder)]
         np.divide(whole, self.images, out=share, where=self.sent > 0)
@@ -173,10 +161,7 @@ class RateMap:
     def owners(self) -> tuple[IndexArray, IndexArray]:
         """Return for every point the known one whose rate it shows: coarse points fill large cells.
 
-        Returns
-        -------
-        ndarray of int64, shape (points along x, points along y)
-            Twice: indices along x and along y; -1 where no point nearby is known.
+        Twice, as indices along x and along y; -1 where no point nearby is known.
         """
         x, y = (np.full(self.shape, -1, dtype=np.int64) for _ in range(2))
         for stride in STRIDES:

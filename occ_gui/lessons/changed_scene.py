@@ -11,11 +11,8 @@ _MOST_NAMED = 2
 def changed_sentence(step: Step, scene: Scene) -> str:
     """Say what differs from the step's scene, and what is about which.
 
-    Returns
-    -------
-    str
-        One or two sentences; empty where the scene is that of the step or of its check, and where
-        the step is about a photo, whose match changes the scene when it is applied.
+    Empty where the scene is that of the step or of its check, and where the step is about a photo,
+    whose match changes the scene when it is applied.
     """
     if step.own_photo or step.photo or scene in {step.scene, step.asked}:
         return ""
@@ -29,6 +26,6 @@ def changed_sentence(step: Step, scene: Scene) -> str:
     if len(changes) > _MOST_NAMED:
         named.append(f"{len(changes) - _MOST_NAMED} more")
     return (
-        "You have changed the scene: {changes}. Picture, formula, check and report are of your "
-        "scene; the numbers in the text are of the lesson's own."
-    ).format(changes=" and ".join(named))
+        f"You have changed the scene: {' and '.join(named)}. Picture, formula, check and report "
+        "are of your scene; the numbers in the text are of the lesson's own."
+    )

@@ -30,8 +30,6 @@ class LessonController(QObject):
 
     A lesson begins with the window's first settings and no forced effects; when it ends,
     the user's own scene, settings and photo are restored.
-
-    ``store``: what the user has set, which a lesson replaces while it is under way.
     """
 
     status_message = Signal(str)  # the reason why a step is incomplete

@@ -79,12 +79,10 @@ class LessonList(QWidget):
 
     def _add(self, lesson: Lesson, reached: int | None) -> None:
         count = len(lesson.steps)
-        words = {None: "{title}  ({count} steps)", count: "✓  {title}"}
-        text = words.get(reached, "{title}  (step {place} of {count})")
-        choice = QPushButton(
-            text.format(title=in_menu(lesson.title), count=count, place=(reached or 0) + 1)
-        )
-        choice.setToolTip("Set the scene of its step and show its question.")
+        title = in_menu(lesson.title)
+        words = {None: f"{title}  ({count} steps)", count: f"✓  {title}"}
+        text = words.get(reached, f"{title}  (step {(reached or 0) + 1} of {count})")
+        choice = push_button(text, "Set the scene of its step and show its question.")
         choice.setAccessibleDescription(lesson.summary)
         choice.setStyleSheet(_LEFT)
         choice.setProperty("lesson", lesson.name)

@@ -20,12 +20,7 @@ from occ_model.teaching.lessons import begin_lessons_folder
 
 
 class LessonPane(Pane[None]):
-    """The lessons and all that they move.
-
-    ``board``: the match of a photo.
-    ``controls``: the controls, of which a step marks one.
-    ``preferences``: stores the folder of a report and the student's name.
-    """
+    """The lessons and all that they move; a step marks one of the controls."""
 
     noted = Signal(str)  # the outcome of an action, for as long as the scene stays
 

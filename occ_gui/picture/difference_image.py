@@ -77,18 +77,10 @@ class DifferenceImage(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph has
 
 
 def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArray, QRectF] | None:
-    """Compare two images where they overlap, averaged over at most so many cells a side.
+    """Return the absolute difference of two images in grey levels, and the rectangle they share.
 
-    Parameters
-    ----------
-    most
-        Most cells a side; none is smaller than a unit of the rectangles.
-
-    Returns
-    -------
-    tuple or None
-        The absolute difference in grey levels, shape (rows, columns), and its rectangle; None where
-        the images do not overlap.
+    It is averaged over at most so many cells a side, none smaller than a unit of the rectangles;
+    None where the images do not overlap.
     """
     grid = first[1].intersected(second[1])
     if grid.isEmpty():
@@ -99,22 +91,10 @@ def difference_cells(first: _Layer, second: _Layer, most: int) -> tuple[FloatArr
 
 
 def cell_means(image: ByteArray, rect: QRectF, grid: QRectF, shape: tuple[int, int]) -> FloatArray:
-    """Average an image over the cells of a grid.
+    """Average an image over the cells of a grid of this shape, in grey levels.
 
     Two images of different sizes are compared without false stripes: each cell holds the exact
     mean of the pixels under it, weighted by the area they share with the cell.
-
-    Parameters
-    ----------
-    image : ndarray of uint8, shape (rows, columns)
-        The image.
-    shape
-        Rows and columns of the grid.
-
-    Returns
-    -------
-    ndarray of float64, shape ``shape``
-        The means in grey levels.
     """
     rows, columns = image.shape
     x = _edges(grid.left() - rect.left(), grid.width(), columns / rect.width(), shape[1], columns)

@@ -134,13 +134,13 @@ class PinController(QObject):
         self._found[name] = self._pin_of(snapshot)
         self._keep(name, PinnedScene(snapshot.request, self._store.workspace.preset))
         self._compare()
-        told = "Pinned the current state as {name}."
+        pinned = f"Pinned the current state as {name}"
         if len(self._found) < len(_NAMES):
-            told = "Pinned the current state as {name}: change it, and pin {other}, too."
-        else:
-            self.both_pinned.emit()
-        other = "B" if name == "A" else "A"
-        self.status_message.emit(told.format(name=name, other=other))
+            other = "B" if name == "A" else "A"
+            self.status_message.emit(f"{pinned}: change it, and pin {other}, too.")
+            return
+        self.both_pinned.emit()
+        self.status_message.emit(f"{pinned}.")
 
     def clear(self) -> None:
         self._store.put(replace(self._store.workspace, pins=(None, None)))

@@ -79,11 +79,9 @@ class CodeEntry(QWidget):
         if scene is not None and scene.transmitter.pattern:
             text = "Code: not sent, a raw pattern is"
         elif scene is not None and scene.transmitter.payload:
-            text = {
-                "text": "Sent as text: {bits} bits",
-                "hex": "Sent as bytes: {bits} bits",
-                "bits": "Sent as bits: {bits} bits",
-            }[form_of(scene.transmitter.payload)].format(bits=scene.transmitter.payload_length)
+            form = form_of(scene.transmitter.payload)
+            form = "bytes" if form == "hex" else form
+            text = f"Sent as {form}: {scene.transmitter.payload_length} bits"
         else:
             text = "Code, as a number and as bits"
         if text != self.title.text():

@@ -11,12 +11,8 @@ from occ_gui.widgets.named import paragraph
 
 def switch_text(effect: str, included: bool | None, labels: Mapping[str, str]) -> str:
     """Say in words how an effect is switched: on or off by hand, or by the plan (None)."""
-    texts = {
-        True: "{effect} on by hand",
-        False: "{effect} off by hand",
-        None: "{effect} as planned",
-    }
-    return texts[included].format(effect=labels.get(effect, effect))
+    how = {True: "on by hand", False: "off by hand", None: "as planned"}[included]
+    return f"{labels.get(effect, effect)} {how}"
 
 
 def forced_text(force: Mapping[str, bool], labels: Mapping[str, str]) -> str:

@@ -3,6 +3,7 @@
 from occ_gui.simulation.snapshot import ColumnView
 from occ_model.scene.parameters import PARAMETERS
 
+_FIELD = PARAMETERS["band_reading"].label
 _MIN_VISIBLE_DRIFT = 0.05  # drift in columns per packet below which it is not seen
 
 
@@ -11,19 +12,15 @@ def drift_of(reading: ColumnView) -> str:
     columns = abs(reading.band_drift)
     if columns < _MIN_VISIBLE_DRIFT:
         return ""
-    text = (
-        "drifts {columns} columns a cycle"
-        if reading.scene.transmitter.pattern
-        else "drifts {columns} columns a packet"
-    )
-    return text.format(columns=f"{columns:.0f}" if columns >= 10.0 else f"{columns:.1f}")
+    period = "cycle" if reading.scene.transmitter.pattern else "packet"
+    return f"drifts {columns:.{0 if columns >= 10.0 else 1}f} columns a {period}"
 
 
 def drift_sentence(reading: ColumnView) -> str:
     """Say so with the reason in a line; empty where it does not."""
-    drift = drift_of(reading)
-    text = "The band model {drift}: it rounds, and skips the exposure between equal chips."
-    return text.format(drift=drift) if drift else ""
+    if not (drift := drift_of(reading)):
+        return ""
+    return f"The band model {drift}: it rounds, and skips the exposure between equal chips."
 
 
 def what_is_compared() -> str:
@@ -31,8 +28,8 @@ def what_is_compared() -> str:
     return (
         "The band model is drawn with the exact length of each run of chips, so that its bands lie "
         "where those of the simulation do: compare the width and levels of the bands of a packet. "
-        "Read literally, in whole columns, it drifts: the field “{field}” under Model."
-    ).format(field=PARAMETERS["band_reading"].label)
+        f"Read literally, in whole columns, it drifts: the field “{_FIELD}” under Model."
+    )
 
 
 def why_it_drifts() -> str:
@@ -40,6 +37,6 @@ def why_it_drifts() -> str:
     return (
         "The band model rounds each band to whole columns, and leaves out the exposure between two "
         "equal chips. Both add up along the picture, so that its bands drift away from those of "
-        "the simulation. The field “{field}” under Model aligns them: exact run lengths, so that "
+        f"the simulation. The field “{_FIELD}” under Model aligns them: exact run lengths, so that "
         "width and levels of the bands can be compared packet by packet."
-    ).format(field=PARAMETERS["band_reading"].label)
+    )

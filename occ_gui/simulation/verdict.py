@@ -4,12 +4,14 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from occ_gui.simulation.snapshot import ColumnView
+from occ_gui.simulation.snapshot import ColumnView, Reading
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
 from occ_model.results.decoding import DecodeResult
 
 _LONGEST_PAYLOAD = 24  # characters of a payload that a title shows
+
+_AWAITED = "This decoder takes longer: it reads the picture now."
 
 _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
@@ -46,11 +48,7 @@ class Verdict:
 def result_of(reading: ColumnView, decoder: str) -> DecodeResult:
     """Return what a decoder read; of one that has not read yet, that it will."""
     found = (result for result in reading.results if result.decoder == decoder)
-    return next(found, None) or DecodeResult(decoder, failure=_awaited())
-
-
-def _awaited() -> str:
-    return "This decoder takes longer: it reads the picture now."
+    return next(found, None) or DecodeResult(decoder, failure=_AWAITED)
 
 
 def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
@@ -60,6 +58,14 @@ def wrong_places(sent: Sequence[int], received: Sequence[int]) -> list[int]:
 
 def is_right(decoded: DecodeResult, sent: Sequence[int]) -> bool:
     return decoded.code is not None and tuple(decoded.bits.tolist()) == tuple(sent)
+
+
+def received_in_words(sent: str, received: str, wrong: int) -> str:
+    return f"sent {sent or 'no code'}, received {received or 'nothing'}, {wrong} wrong"
+
+
+def left_out_in_words(reading: Reading) -> str:
+    return f"This picture leaves out what map and strips take in: {', '.join(reading.called_for)}."
 
 
 def what_was_read(decoded: DecodeResult) -> str:
@@ -73,7 +79,7 @@ def verdict_on(decoded: DecodeResult, sent: Sequence[int]) -> Verdict:
     """Compare what a decoder read with the bits sent; these are empty for a raw pattern."""
     if not sent:
         return Verdict(State.NEUTRAL, "No code is sent", decoded.failure or "")
-    if decoded.failure == _awaited():
+    if decoded.failure == _AWAITED:
         title = f"Reading by the decoder {decoded.decoder}"
         return Verdict(State.WAITING, title, decoded.failure)
     if decoded.code is None:

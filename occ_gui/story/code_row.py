@@ -8,7 +8,7 @@ from PySide6.QtGui import QPainter, QPalette
 from PySide6.QtWidgets import QSizePolicy
 
 from occ_gui.simulation.snapshot import ColumnView
-from occ_gui.simulation.verdict import wrong_places
+from occ_gui.simulation.verdict import received_in_words, wrong_places
 from occ_gui.story.bit_cells import (
     draw_field,
     have_room_for_bits,
@@ -72,11 +72,8 @@ class CodeRow(StoryRow):
         if self._decoded is None:
             return ""
         bits = self._decoded.bits.tolist()
-        return "sent {sent}, received {received}, {wrong} wrong".format(
-            sent="".join(map(str, self._sent)) or "no code",
-            received="".join(map(str, bits)) or "nothing",
-            wrong=len(wrong_places(self._sent, bits)),
-        )
+        wrong = len(wrong_places(self._sent, bits))
+        return received_in_words("".join(map(str, self._sent)), "".join(map(str, bits)), wrong)
 
     def value_of(self, bit: int) -> int | None:
         if self._decoded is None or bit >= self._decoded.bits.size:

@@ -7,19 +7,11 @@ from occ_model.arrays import ByteArray, FloatArray
 
 
 def resampled(pixels: ByteArray, edges: FloatArray, rows: int) -> ByteArray:
-    """Average a picture over cells of the screen, exactly, whatever their size.
+    """Average a picture over cells of the screen, exactly, whatever their size: (rows, cells).
 
-    Parameters
-    ----------
-    edges : ndarray of float64, shape (cells + 1,)
-        Where each cell begins and the last one ends, in columns from the left edge of the first.
-        They may lie within a column, or beyond the picture, which goes on there with its last one.
-    rows
-        Height of the result; at most that of the picture is averaged, more are repeated.
-
-    Returns
-    -------
-    ndarray of uint8, shape (rows, cells)
+    ``edges``: where each cell begins and the last one ends, in columns from the left edge of the
+    first; beyond the picture, this goes on with its last column.
+    ``rows``: at most those of the picture are averaged, more are repeated.
     """
     height = min(rows, pixels.shape[0])
     low = cv2.resize(pixels, (pixels.shape[1], height), interpolation=cv2.INTER_AREA)
@@ -64,18 +56,10 @@ def shrunk(pixels: ByteArray, rows: int, columns: int) -> ByteArray:
 def envelope(
     positions: FloatArray, values: FloatArray, left: float, right: float, cells: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Reduce a curve to its extremes over the cells of a screen, where it has more points.
+    """Reduce a curve of evenly spaced points to its extremes over the cells of a screen.
 
-    Parameters
-    ----------
-    positions : ndarray of float64, shape (points,)
-        In ascending order, evenly spaced.
-
-    Returns
-    -------
-    positions, values : ndarray of float64
-        The curve in view and the point beyond each end; of each cell with more than two points
-        the lowest and the highest one, in their order.
+    What is in view and the point beyond each end are returned; of each cell with more than two
+    points the lowest and the highest one, in their order.
     """
     first = max(int(np.searchsorted(positions, left)) - 1, 0)
     last = int(np.searchsorted(positions, right, side="right")) + 1

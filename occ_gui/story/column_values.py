@@ -68,8 +68,7 @@ def in_words(values: ColumnValues, scene: Scene) -> str:
         parts.append(f"chip {values.chip}")
     if values.bit is not None and values.value is not None:
         mark = {State.GOOD: "right", State.BAD: "wrong"}.get(values.state, "")
-        text = "bit {number}: {value} {mark}"
-        parts.append(text.format(number=values.bit + 1, value=values.value, mark=mark).rstrip())
+        parts.append(f"bit {values.bit + 1}: {values.value} {mark}".rstrip())
     return "  ·  ".join(parts)
 
 

@@ -215,12 +215,10 @@ class LightRow(StoryRow):
         sent = self._scene.transmitter
         if sent.pattern:
             return f"a raw pattern of {len(sent.pattern)} chips"
+        what = f"code {sent.code}"
         if sent.payload:
-            what = one_line(sent.payload.partition(":")[2], _MOST_LETTERS)
-            text = "“{what}”, {bits} bits"
-        else:
-            what, text = str(sent.code), "code {what}, {bits} bits"
-        return text.format(what=what, bits=len(self._sent))
+            what = f"“{one_line(sent.payload.partition(':')[2], _MOST_LETTERS)}”"
+        return f"{what}, {len(self._sent)} bits"
 
     def draw_beside(self, painter: QPainter, area: QRectF) -> None:
         light = self._light_area(area)

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from occ_gui.scene.forced_effects import switch_text
 from occ_gui.simulation.snapshot import Reading
-from occ_gui.simulation.verdict import is_right
+from occ_gui.simulation.verdict import is_right, left_out_in_words
 from occ_gui.story.column_facts import READ_BY_ALL
 from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_look import State
@@ -89,14 +89,14 @@ def _other_decoders(reading: Reading, decoder: str) -> list[Chip]:
     others = [name for name in right if name != decoder]
     if not reading.sent or not others:
         return []
-    text = "also read: {names}" if decoder in right else "read by: {names}"
     names = ", ".join(others)
     meaning = (
-        "Of the decoders that every picture is read with ({tried}), these too read the code from "
-        "the same signal, all bits right: {names}. The others read it where they are chosen."
-    ).format(tried=", ".join(READ_BY_ALL), names=names)
-    chip = Chip("others", text.format(names=names), meaning, State.GOOD)
-    return [chip]
+        f"Of the decoders that every picture is read with ({', '.join(READ_BY_ALL)}), these too "
+        f"read the code from the same signal, all bits right: {names}. The others read it where "
+        "they are chosen."
+    )
+    text = f"also read: {names}" if decoder in right else f"read by: {names}"
+    return [Chip("others", text, meaning, State.GOOD)]
 
 
 def _by_hand(reading: Reading) -> list[Chip]:
@@ -113,7 +113,4 @@ def _by_hand(reading: Reading) -> list[Chip]:
 def _left_out(reading: Reading) -> list[Chip]:
     if not reading.called_for:
         return []
-    meaning = "This picture leaves out what map and strips take in: {effects}.".format(
-        effects=", ".join(reading.called_for)
-    )
-    return [Chip("left out", "effects left out", meaning, State.DOUBTFUL)]
+    return [Chip("left out", "effects left out", left_out_in_words(reading), State.DOUBTFUL)]

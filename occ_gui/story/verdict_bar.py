@@ -132,16 +132,10 @@ class VerdictBar(StateBar):
         """Write whose verdict it is, where that is not plain."""
         if self._run:
             verdict = f"{self._run}: {verdict[:1].lower()}{verdict[1:]}"
-        if self._is_named:
-            verdict = verdict[:1].lower() + verdict[1:]
-            text = (
-                "Simulation of the earlier scene: {verdict}"
-                if self._is_outdated
-                else "Simulation: {verdict}"
-            )
-        else:
-            text = "Earlier scene: {verdict}" if self._is_outdated else "{verdict}"
-        return text.replace("{verdict}", verdict)
+        if not self._is_named:
+            return f"Earlier scene: {verdict}" if self._is_outdated else verdict
+        whose = "Simulation of the earlier scene" if self._is_outdated else "Simulation"
+        return f"{whose}: {verdict[:1].lower()}{verdict[1:]}"
 
     def _why(self, verdict: Verdict, reading: Reading) -> list[str]:
         if verdict.explanation:
@@ -149,33 +143,25 @@ class VerdictBar(StateBar):
             first, more, _ = verdict.explanation.partition(";")
             return [verdict.explanation, f"{first}."] if more else [verdict.explanation]
         scene = reading.scene
-        fewest = chips_in_exposure(scene)
-        texts = [
-            (
-                "A column gathers light for {exposure}, a chip lasts {period}: each column sees "
-                "{fewest} or {most} chips."
-            ),
-            "{exposure} of light, {period} a chip: {fewest} or {most} chips a column.",
-            "{exposure} of light, {period} a chip",
-        ]
-        if _is_averaged(verdict, reading):
-            texts[:0] = [
-                (
-                    "Exposed for {exposure}, a chip lasts {period}: each column averages {fewest} "
-                    "or {most} chips, and the averages of different codes differ; so it is read, "
-                    "though the band model ends."
-                ),
-                (
-                    "Each column averages {fewest} or {most} chips, and the averages of different "
-                    "codes differ; so it is read."
-                ),
-                "No column sees one chip alone: the band model ends.",
-            ]
         exposure = SECOND.format(scene.camera.exposure_time, 4)
         period = SECOND.format(scene.transmitter.switching_period, 4)
+        fewest = chips_in_exposure(scene)
+        chips = f"{fewest} or {fewest + 1} chips"
+        texts = [
+            f"A column gathers light for {exposure}, a chip lasts {period}: each column sees "
+            f"{chips}.",
+            f"{exposure} of light, {period} a chip: {chips} a column.",
+            f"{exposure} of light, {period} a chip",
+        ]
+        if not _is_averaged(verdict, reading):
+            return texts
+        averages = f"averages {chips}, and the averages of different codes differ; so it is read"
         return [
-            text.format(exposure=exposure, period=period, fewest=fewest, most=fewest + 1)
-            for text in texts
+            f"Exposed for {exposure}, a chip lasts {period}: each column {averages}, though the "
+            "band model ends.",
+            f"Each column {averages}.",
+            "No column sees one chip alone: the band model ends.",
+            *texts,
         ]
 
 

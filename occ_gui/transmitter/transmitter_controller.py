@@ -113,8 +113,8 @@ class TransmitterController(Service):
 
     def _report(self, saved: Saved) -> None:
         self._preferences.visit(saved.folder)
-        said = "Saved {count} files into {folder}; scene.toml has the sent frequency."
-        text = said.format(count=saved.files, folder=one_line(str(saved.folder)))
+        folder = one_line(str(saved.folder))
+        text = f"Saved {saved.files} files into {folder}; scene.toml has the sent frequency."
         self._say(f"{text} {saved.missing}".strip())
 
     def _say(self, text: str) -> None:

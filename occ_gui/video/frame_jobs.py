@@ -82,13 +82,10 @@ def _at(frame: VideoFrame) -> str:
 
 
 def start_of(decoded: DecodeResult, scene: Scene) -> float | None:
-    """Return the start time with which the scene sends what was read, in seconds.
+    """Return the start time with which the scene sends what was read: seconds below a packet's.
 
-    Returns
-    -------
-    float or None
-        From 0 to below the length of a packet; None where another code was read than the scene
-        sends, or the decoder does not say where a packet begins.
+    None where another code was read than the scene sends, or the decoder does not say where a
+    packet begins.
     """
     transmitter, region = scene.transmitter, decoded.region
     starts = decoded.chip_starts

@@ -19,40 +19,21 @@ class MarkState(IntEnum):
     LOST = 3  # not read, or read wrong
 
 
-def _no_times() -> FloatArray:
-    return np.zeros(0, dtype=np.float64)
-
-
-def _no_states() -> ByteArray:
-    return np.zeros(0, dtype=np.uint8)
-
-
 @dataclass(frozen=True, eq=False, slots=True)
 class Marks:
     """Marks, in order of time but where a film states another one."""
 
     # Shape (marks,): when each begins and ends, in seconds
-    starts: FloatArray = field(default_factory=_no_times)
-    ends: FloatArray = field(default_factory=_no_times)
+    starts: FloatArray = field(default_factory=lambda: np.zeros(0))
+    ends: FloatArray = field(default_factory=lambda: np.zeros(0))
     # Shape (marks,): A :class:`MarkState` each
-    states: ByteArray = field(default_factory=_no_states)
+    states: ByteArray = field(default_factory=lambda: np.zeros(0, dtype=np.uint8))
 
     def __len__(self) -> int:
         return len(self.starts)
 
     def counted(self, edges: FloatArray) -> IndexArray:
-        """Count the marks that begin between each pair of edges.
-
-        Parameters
-        ----------
-        edges : ndarray of float64, shape (bins + 1,)
-            Rising times; the last one belongs to the last bin.
-
-        Returns
-        -------
-        ndarray of int64, shape (bins, 4)
-            The marks of each state.
-        """
+        """Count the marks of each state that begin between rising edges, shape (bins, states)."""
         counts = [
             np.histogram(self.starts[self.states == state], bins=edges)[0] for state in MarkState
         ]

@@ -57,9 +57,8 @@ class Transport(QWidget):
         if time is None:
             self.place.set_full_text("")
             return
-        of_all = "frame {number} of {count}" if count else "frame {number}"
-        text = of_all.format(number=index + 1, count=count)
-        self.place.set_full_text(f"{text}, {time:.4f} s")
+        of_all = f" of {count}" if count else ""
+        self.place.set_full_text(f"frame {index + 1}{of_all}, {time:.4f} s")
 
     def set_usable(self, usable: bool) -> None:
         """Let the buttons be pressed while there is a film of several frames."""

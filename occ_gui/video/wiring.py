@@ -221,8 +221,7 @@ class VideoWiring(Pane[FilmChoice]):
         if film is None:
             title = f"Simulated film: {form.frames} frames, {form.recording.frame_rate:g} a second"
         elif self.films.is_live:
-            title = "{name}, live" if self.live.is_filming else "{name}, stopped"
-            title = title.format(name=one_line(film.title))
+            title = f"{one_line(film.title)}, {'live' if self.live.is_filming else 'stopped'}"
         else:
             title = _title_of(film)
         self.view.bar.show_film(title, is_film=film is not None, is_live=self.live.is_filming)

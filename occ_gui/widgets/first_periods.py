@@ -5,8 +5,6 @@ PACKETS_IN_VIEW = 2  # packets in the first view of a plot over columns
 
 def first_periods(has_packets: bool) -> tuple[str, str]:
     """Return the text of the button and its tooltip."""
-    if has_packets:
-        text, tip = "{count} packets", "Show the panel's first packets, and follow them."
-    else:
-        text, tip = "{count} cycles", "Show the pattern's first cycles, and follow them."
-    return text.format(count=PACKETS_IN_VIEW), tip
+    whose, periods = ("panel", "packets") if has_packets else ("pattern", "cycles")
+    tip = f"Show the {whose}'s first {periods}, and follow them."
+    return f"{PACKETS_IN_VIEW} {periods}", tip

@@ -47,10 +47,8 @@ class _PictureFollower(_Follower):
         levels = self._image.levels_at(column, row)
         if levels is None:
             return ""
-        return (
-            "Simulation: column {column}, row {row}, camera level {camera}, "
-            "receiver level {receiver}"
-        ).format(column=column, row=row, **levels)
+        of_both = ", ".join(f"{whose} level {level}" for whose, level in levels.items())
+        return f"Simulation: column {column}, row {row}, {of_both}"
 
 
 class _PhotoFollower(_Follower):

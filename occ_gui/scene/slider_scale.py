@@ -6,9 +6,8 @@ from typing import TypeAlias
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QFontMetricsF, QHelpEvent, QPainter, QPaintEvent, QPalette, QPen
-from PySide6.QtWidgets import QSizePolicy, QSlider, QToolTip, QWidget
+from PySide6.QtWidgets import QSizePolicy, QSlider, QStyle, QStyleOptionSlider, QToolTip, QWidget
 
-from occ_gui.scene.slider_travel import slider_travel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.teaching import MarkedValue
 from occ_model.scene.parameter_kinds import Quantity
@@ -144,3 +143,26 @@ class SliderScale(QWidget):
 
 def _is_free(box: QRectF, taken: Sequence[QRectF]) -> bool:
     return not any(box.adjusted(-_GAP, 0, _GAP, 0).intersects(other) for other in taken)
+
+
+def slider_travel(slider: QSlider) -> tuple[float, float]:
+    """Return the x of the handle's centre at both ends, in the slider's own pixels."""
+    ends = (_handle(slider, place) for place in (slider.minimum(), slider.maximum()))
+    first, last = (end.center().x() for end in ends)
+    return first, last
+
+
+def slider_handle(slider: QSlider) -> tuple[float, float]:
+    """Return the x of the handle's left and right side, in the slider's own pixels."""
+    handle = _handle(slider, slider.sliderPosition())
+    return handle.left(), handle.right()
+
+
+def _handle(slider: QSlider, position: int) -> QRectF:
+    option = QStyleOptionSlider()
+    slider.initStyleOption(option)
+    option.sliderPosition = position
+    handle = slider.style().subControlRect(
+        QStyle.ComplexControl.CC_Slider, option, QStyle.SubControl.SC_SliderHandle, slider
+    )
+    return QRectF(handle)

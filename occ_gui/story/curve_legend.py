@@ -5,12 +5,14 @@ from itertools import zip_longest
 
 from PySide6.QtCore import QEvent, QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen, QResizeEvent
-from PySide6.QtWidgets import QSizePolicy, QWidget
+from PySide6.QtWidgets import QBoxLayout, QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.widgets.contrast import pen_on
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.layouts import filled
 
 _SAMPLE, _GAP, _APART = 24, 6, 16
+_SPACING = 6  # pixels between the legend and what stands beside it
 
 
 class CurveLegend(QWidget):
@@ -118,3 +120,25 @@ class CurveLegend(QWidget):
             painter.setPen(text)
             painter.drawText(place, Qt.AlignmentFlag.AlignVCenter, name)
         painter.end()
+
+
+class LegendLine(QWidget):
+    """A legend, and at its right the controls of what is shown."""
+
+    def __init__(self, legend: CurveLegend) -> None:
+        super().__init__()
+        self._legend = legend
+        self.controls = filled(QHBoxLayout(), (None, 0), spacing=_SPACING)
+        self._layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
+        self._layout.setSpacing(_SPACING)
+        self._layout.addWidget(legend, 1)
+        self._layout.addLayout(self.controls)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        beside = self.contentsRect().width() - self.controls.sizeHint().width() - _SPACING
+        way = QBoxLayout.Direction
+        direction = way.LeftToRight if beside >= self._legend.widest else way.TopToBottom
+        if direction != self._layout.direction():
+            self._layout.setDirection(direction)

@@ -11,8 +11,7 @@ from occ_gui.simulation.verdict import result_of
 from occ_gui.story.code_row import CodeRow
 from occ_gui.story.column_axis import MARGIN, ColumnAxis, Crosshair
 from occ_gui.story.column_values import ColumnValues, in_words, values_at
-from occ_gui.story.curve_legend import CurveLegend
-from occ_gui.story.legend_line import LegendLine
+from occ_gui.story.curve_legend import CurveLegend, LegendLine
 from occ_gui.story.light_row import LightRow
 from occ_gui.story.measure_cursors import in_words as difference_in_words
 from occ_gui.story.measure_cursors import measure

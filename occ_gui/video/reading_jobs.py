@@ -10,7 +10,6 @@ import occ_model as occ
 from occ_gui.background.task import Report
 from occ_gui.video.film_reading import FilmReading
 from occ_gui.video.marks import Marks, MarkState
-from occ_gui.video.reading_words import sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video import Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
@@ -155,3 +154,29 @@ def _joined(before: Marks, after: Marks, first: float) -> Marks:
         np.concatenate([before.ends[kept], after.ends]),
         np.concatenate([before.states[kept], after.states]),
     )
+
+
+def sentences_of(
+    known: FilmProgress, whole: VideoReading | None, problem: str | None
+) -> tuple[str, ...]:
+    said = [problem] if problem else []
+    if whole is not None and whole.failure is not None:
+        said.append(whole.failure)
+    if whole is not None:
+        said += whole.problems
+    elif known.clock is not None:
+        said += known.clock.problems
+    if whole is not None and whole.cut_off:
+        said.append(_losses(known, whole))
+    return tuple(dict.fromkeys(said))
+
+
+def _losses(known: FilmProgress, whole: VideoReading) -> str:
+    """Say why packets are lost, and that their bits are not counted as wrong ones."""
+    where = "sent in the gap between two frames, or cut off by a frame's edge"
+    if unplaced := known.frames - known.placed:
+        where += f", or in one of {unplaced} frames that were not placed"
+    text = f"Of {whole.lost} lost packets no frame shows {whole.cut_off} whole: {where}."
+    if misread := whole.lost - whole.cut_off:
+        text += f" {misread} were in view and misread."
+    return text + " The bit error rate counts only bits of packets in view."

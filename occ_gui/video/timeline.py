@@ -1,5 +1,8 @@
 """Timeline of a film: its frames and packets, read or lost, and the frame that is shown."""
 
+import math
+from dataclasses import dataclass
+
 import numpy as np
 from PySide6.QtCore import QEvent, QPoint, QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import (
@@ -15,15 +18,16 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from occ_gui.story.scales import round_step
 from occ_gui.video.mark_look import brush_of, draw_mark
 from occ_gui.video.marks import Marks, MarkState
-from occ_gui.video.timeline_scale import TimelineScale, tick_step
 from occ_gui.widgets.guarded_paint import guarded
 
 _LEAST_GUTTER, _BESIDE, _MARGIN = 64, 6, 10
 """Pixels at the left at least, around the names of the rows, and at the right."""
 
 _FRAMES, _PACKETS, _TICKS, _GAP = 24, 18, 18, 4
+_LEAST_SPACING = 80.0  # fewest pixels between two ticks
 _LEAST_MARK = 3.0
 """Fewest pixels of a mark that is drawn by itself; narrower ones are counted in bins."""
 
@@ -31,6 +35,31 @@ _STEPS = {
     Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1,
     Qt.Key.Key_PageUp: -10, Qt.Key.Key_PageDown: 10,
 }  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class TimelineScale:
+    """The times at both ends, in seconds."""
+
+    first: float = 0.0
+    last: float = 0.0
+
+    @classmethod
+    def of(cls, frames: Marks) -> "TimelineScale":
+        if not len(frames):
+            return cls()
+        return cls(float(frames.starts.min()), float(frames.ends.max()))
+
+    @property
+    def span(self) -> float:
+        return self.last - self.first
+
+    def share(self, time: float) -> float:
+        """Return where a time lies, from 0 to 1 between the ends."""
+        return (time - self.first) / self.span if self.span > 0.0 else 0.0
+
+    def time(self, share: float) -> float:
+        return self.first + share * self.span
 
 
 class Timeline(QWidget):
@@ -273,3 +302,13 @@ class Timeline(QWidget):
         if index >= 0 and index != self.index:
             self.show_index(index)
             self.sought.emit(index)
+
+
+def tick_step(span: float, width: float) -> tuple[float, int]:
+    """Return the seconds between two ticks, and the decimals that tell them apart.
+
+    ``span``: the time in view, in seconds; more than zero.
+    ``width``: the pixels that it takes.
+    """
+    step = round_step(span * _LEAST_SPACING / max(width, 1.0) * 0.999)
+    return step, max(0, -math.floor(math.log10(step * 1.001)))

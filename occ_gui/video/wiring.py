@@ -1,12 +1,14 @@
 """Connections of the film: its pane with what opens it, shows it, reads it, and films."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from PySide6.QtCore import QSignalBlocker, Signal
 
+import occ_model as occ
 from occ_gui.background.file_writer import FileWriter
+from occ_gui.background.task import Report
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
@@ -16,13 +18,24 @@ from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
 from occ_gui.video.marks import Marks, MarkState, frame_marks
 from occ_gui.video.reading_controller import ReadingController
-from occ_gui.video.save_jobs import FilmToSave, save_film
 from occ_gui.video.video_view import VideoView
 from occ_model.errors import OccError, one_line
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
 
 _USUAL_RATE = 30.0  # frames a second where a film does not say how many
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _FilmToSave:
+    path: Path
+    film: Video
+
+
+def _save(request: _FilmToSave, report: Report) -> Path:
+    count = request.film.frame_count or 1
+    occ.write_video(request.film, request.path, lambda frames: report(frames / count))
+    return request.path
 
 
 class VideoWiring(Pane[FilmChoice]):
@@ -40,8 +53,8 @@ class VideoWiring(Pane[FilmChoice]):
         self.films = FilmController(scenes, board)
         self.readings = ReadingController()
         self.live = LiveController(self.films, self.readings, lambda: scenes.scene)
-        self.saving: FileWriter[FilmToSave] = FileWriter(
-            save_film, "writing of the film", self.view.form.saving,
+        self.saving: FileWriter[_FilmToSave] = FileWriter(
+            _save, "writing of the film", self.view.form.saving,
             "The film was given up.",
         )  # fmt: skip
         self.saving.status_message.connect(self.status_message)
@@ -138,7 +151,7 @@ class VideoWiring(Pane[FilmChoice]):
     def save(self, path: Path) -> None:
         """Write the simulated film of the present scene to a file."""
         try:
-            self.saving.start(FilmToSave(path, self.films.simulated()))
+            self.saving.start(_FilmToSave(path, self.films.simulated()))
         except OccError as error:
             self.status_message.emit(str(error))
 

@@ -16,9 +16,8 @@ from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
+from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips, StripLegend
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
-from occ_gui.detection_map.strip_legend import StripLegend
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.parameters import quantity

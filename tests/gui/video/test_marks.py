@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from occ_gui.video.marks import Marks, MarkState, frame_marks
-from occ_gui.video.timeline_scale import TimelineScale, tick_step
+from occ_gui.video.timeline import TimelineScale, tick_step
 
 
 @given(st.lists(st.sampled_from(list(MarkState)), min_size=1, max_size=300), st.integers(1, 40))

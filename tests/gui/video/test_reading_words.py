@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from occ_gui.video.reading_words import sentences_of
+from occ_gui.video.reading_jobs import sentences_of
 from occ_model.results.sent_packets import PacketReading, SentPackets
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.study.reading_facts import error_rate, film_facts

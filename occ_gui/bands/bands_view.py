@@ -1,12 +1,11 @@
 """View of the bars: how deep they are, the map of the least depth, and the shutter speeds."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QBoxLayout,
     QHeaderView,
-    QLabel,
     QTableWidget,
     QTableWidgetItem,
     QVBoxLayout,
@@ -17,6 +16,7 @@ from occ_gui.bands.depth_plot import DepthPlot
 from occ_gui.bands.jobs import ShownBands
 from occ_gui.bands.risk_plot import RiskPlot
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.results.bands import SpeedDepth
@@ -38,12 +38,8 @@ class BandsView(QWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.headline, self.sentences = QLabel(), QLabel()
+        self.headline, self.sentences = (paragraph(is_selectable=True) for _ in range(2))
         self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
-        for label in (self.headline, self.sentences):
-            label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
-            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.map = DepthPlot()
         self.map.chosen.connect(self.exposure_chosen)
         self._make_table()

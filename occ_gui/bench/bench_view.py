@@ -8,7 +8,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QStackedWidget,
     QVBoxLayout,
     QWidget,
@@ -23,7 +22,7 @@ from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.named import named
+from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_gui.widgets.pens import thin
 from occ_gui.widgets.plot import marker
@@ -42,8 +41,6 @@ class BenchView(QWidget):
     asked = Signal()
 
     cancelled = Signal()  # the user stops the measurement
-    frame_rate_edited = Signal(float)  # the pictures a second that the user has entered
-    refused = Signal(str)  # why an entered value is refused
 
     def __init__(self, decoders: Sequence[str], chosen: Sequence[str]) -> None:
         super().__init__()
@@ -110,11 +107,9 @@ class BenchView(QWidget):
             box.setToolTip("Measure this decoder.")
             box.toggled.connect(self._emit_choice)
         self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label, FRAME_RATE.meaning)
-        self.frame_rate.edited.connect(self.frame_rate_edited)
-        self.frame_rate.refused.connect(self.refused)
-        self.measure = QPushButton("Measure")
-        self.measure.setToolTip("Measure the chosen decoders in the background.")
-        self.measure.clicked.connect(self.asked)
+        self.measure = push_button(
+            "Measure", "Measure the chosen decoders in the background.", self.asked
+        )
         for choice in (self.whose, self.effort):
             choice.chosen.connect(self._emit_choice)
         self.what.chosen.connect(self._show_what)

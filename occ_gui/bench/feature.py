@@ -23,7 +23,7 @@ def bench(
         from occ_gui.bench.pane import BenchPane
 
         pane = BenchPane(scenes, channel())
-        pane.view.refused.connect(say)
+        pane.view.frame_rate.refused.connect(say)
         return pane
 
     return Feature(

@@ -25,6 +25,6 @@ class BenchPane(Pane[None]):
         view.asked.connect(self.controller.start)
         view.cancelled.connect(self.controller.cancel)
         store = scenes.store
-        view.frame_rate_edited.connect(
+        view.frame_rate.edited.connect(
             lambda rate: store.put(replace(store.workspace, frame_rate=rate))
         )

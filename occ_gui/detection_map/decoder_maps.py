@@ -165,11 +165,9 @@ class MapPlots(QWidget):
         low, high = _SCALES[scheme]
         if self._shown == "rate":
             return low, high
-        known = 0.0 if self._rates is None else float(self._most(self._rates))
+        rates = self._rates
+        known = 0.0 if rates is None else float(rates.most_bits(self._frames_a_second).max())
         return math.copysign(known, low) if low else 0.0, known or 1.0
-
-    def _most(self, rates: RateMap) -> float:
-        return float(rates.most_bits(self._frames_a_second).max())
 
     def _values(self, rates: RateMap, name: str) -> FloatArray:
         if name == "difference":
@@ -207,8 +205,4 @@ class MapPlots(QWidget):
     def _number(self, value: float, signed: bool) -> str:
         if self._shown == "bits":
             return f"{value:+,.0f}" if signed and value else f"{value:,.0f}"
-        return _signed(value) if signed else f"{value:.0f} %"
-
-
-def _signed(percent: float) -> str:
-    return f"{percent:+.0f} %" if percent else "0 %"
+        return f"{value:+.0f} %" if signed and value else f"{value:.0f} %"

@@ -8,7 +8,6 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QStackedWidget,
     QVBoxLayout,
     QWidget,
@@ -23,6 +22,7 @@ from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_model.results.sweep_request import Shown
 from occ_model.scene.parameters import quantity
@@ -37,16 +37,6 @@ class MapView(QWidget):
 
     axes_chosen = Signal(str, str)  # the parameters that the user chose for the axes, x and y
 
-    image_effects_switched = Signal(bool)
-    """Whether rows of the picture are simulated where the scene needs them."""
-
-    shown_chosen = Signal(str)
-    """Whether the user sees success rates (``"rate"``) or bits a second (``"bits"``)."""
-
-    frame_rate_edited = Signal(float)  # the pictures a second that the user has entered
-    picked = Signal(object)  # the point that the user chose, by its indices along both axes
-    pointed = Signal(object)  # the point under the mouse, None if there is none
-
     def __init__(self, decoders: Sequence[str], advised: Sequence[str] | None = None) -> None:
         super().__init__()
         self._failure = self._refusal = ""
@@ -57,22 +47,20 @@ class MapView(QWidget):
         self._make_choices(decoders)
         self.plots, self.legend = MapPlots(decoders), MapLegend()
         self.outdated = OutdatedMark(self.plots)
-        self.image_effects = QCheckBox("image effects")
-        self.image_effects.setChecked(True)
-        self.image_effects.setToolTip(
+        self.image_effects = named(
+            QCheckBox("image effects"),
+            "Image effects",
             "Simulate lens, tilt and JPEG where the scene has them: some 20 times slower. "
-            "Otherwise the map and the advice leave them out, and say so."
+            "Otherwise the map and the advice leave them out, and say so.",
         )
-        self.image_effects.setAccessibleName("Image effects")
-        self.advise = QPushButton("How fast can I go?")
-        self.advise.setToolTip(
-            "Search for the highest frequency and the exposures at which codes are read."
+        self.image_effects.setChecked(True)
+        self.advise = push_button(
+            "How fast can I go?",
+            "Search for the highest frequency and the exposures at which codes are read.",
+            self._show_advice,
         )
-        self.advise.setAccessibleName("How fast can I go?")
-        self.status = ElidedLabel()
-        self.status.setAccessibleName("State of the map")
-        self.left_out = ElidedLabel()
-        self.left_out.setAccessibleName("Effects that the map leaves out")
+        self.status = named(ElidedLabel(), "State of the map")
+        self.left_out = named(ElidedLabel(), "Effects that the map leaves out")
         self.left_out.hide()
         self.advice = AdviceView(decoders if advised is None else advised)
         self.cards = self.advice.cards
@@ -152,22 +140,13 @@ class MapView(QWidget):
         self.across.chosen.connect(lambda x: self.axes_chosen.emit(x, self._axes[1]))
         self.up.chosen.connect(lambda y: self.axes_chosen.emit(self._axes[0], y))
         self.what.chosen.connect(self.plots.show_what)
-        self.shown.chosen.connect(self.shown_chosen)
-        self.frame_rate.edited.connect(self.frame_rate_edited)
         self.frame_rate.refused.connect(self.show_failure)
         self.legend.toggled.connect(self.plots.show_limit)
-        self.image_effects.toggled.connect(self.image_effects_switched)
-        self.plots.picked.connect(self.picked)
-        self.plots.pointed.connect(self.pointed)
-        self.advise.clicked.connect(self._show_advice)
-        self.advice.back_asked.connect(self._show_map_page)
+        self.advice.back_asked.connect(lambda: self._pages.setCurrentIndex(0))
 
     def _show_advice(self) -> None:
         self._pages.setCurrentWidget(self.advice)
         self.advice.asked.emit()
-
-    def _show_map_page(self) -> None:
-        self._pages.setCurrentIndex(0)
 
     def show_axes(self, x: str, y: str) -> None:
         """Set the parameters of the axes without emitting a signal."""

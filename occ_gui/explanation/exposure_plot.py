@@ -74,7 +74,12 @@ class ExposurePlot(QWidget):
         self.shade = pg.LinearRegionItem(brush=colour, pen=thin(REGION), movable=False)
         self.shade.setZValue(-10)
         self.lit = pg.BarGraphItem(
-            x0=[], x1=[], y0=0.0, y1=1.0, pen=thin(BAND), brush=_hatching(BAND)
+            x0=[],
+            x1=[],
+            y0=0.0,
+            y1=1.0,
+            pen=thin(BAND),
+            brush=QBrush(BAND, Qt.BrushStyle.BDiagPattern),
         )
         self.chips = pg.PlotCurveItem()
         self.plot.dress_with(lambda palette: self.chips.setPen(pen_on(palette, thin(SIMULATION))))
@@ -131,7 +136,3 @@ class ExposurePlot(QWidget):
         self.sentence.setText(text)
         self._fit_height()
         self.plot.setAccessibleDescription(text)
-
-
-def _hatching(colour: QColor) -> QBrush:
-    return QBrush(colour, Qt.BrushStyle.BDiagPattern)

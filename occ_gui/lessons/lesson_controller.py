@@ -46,16 +46,11 @@ class LessonController(QObject):
     report_asked = Signal(Lesson)
 
     def __init__(
-        self,
-        store: Store,
-        board: Board,
-        pane: LessonView,
-        answers: LessonAnswers,
+        self, store: Store, board: Board, pane: LessonView, answers: LessonAnswers
     ) -> None:
         super().__init__()
         self._store, self._board = store, board
-        self._pane = pane
-        self._answers = answers
+        self._pane, self._answers = pane, answers
         self._all = LessonList(())
         self._current: Lesson | None = None
         self._done: dict[str, int] = {}

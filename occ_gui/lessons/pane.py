@@ -25,11 +25,7 @@ class LessonPane(Pane[None]):
     noted = Signal(str)  # the outcome of an action, for as long as the scene stays
 
     def __init__(
-        self,
-        scenes: SceneStore,
-        board: Board,
-        controls: ControlPanel,
-        preferences: Preferences,
+        self, scenes: SceneStore, board: Board, controls: ControlPanel, preferences: Preferences
     ) -> None:
         self.view = pane = LessonView()
         super().__init__(pane)
@@ -39,7 +35,9 @@ class LessonPane(Pane[None]):
         self.tasks = (self.answers.runner, self.reports.runner)
         self._end = pane.end
         self._end.author.setText(self.reports.author)
-        self._end.author.editingFinished.connect(self._keep_author)
+        self._end.author.editingFinished.connect(
+            lambda: self.reports.keep_author(self._end.author.text())
+        )
         self.spotlight = Spotlight(controls)
         self._equations = EquationController(scenes, pane.step)
         self.controller.control_wanted.connect(self.spotlight.show_only)
@@ -65,9 +63,6 @@ class LessonPane(Pane[None]):
     def end(self) -> None:
         self.spotlight.end()
         self.controller.restore_user()
-
-    def _keep_author(self) -> None:
-        self.reports.keep_author(self._end.author.text())
 
     def _write_report(self, lesson: Lesson) -> None:
         self.reports.ask(lesson, self.answers.all_of(lesson), self._end.author.text())

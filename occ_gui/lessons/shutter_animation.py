@@ -14,6 +14,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from occ_gui.widgets.contrast import mixed
 from occ_gui.widgets.guarded_paint import guarded
 from occ_model.results.teaching import RollingShutter
 
@@ -97,9 +98,7 @@ class ShutterAnimation(QWidget):
     def paintEvent(self, _event: QPaintEvent) -> None:  # noqa: N802 - Qt's name
         if self._shutter is None:
             return
-        painter = QPainter(self)
-        _Drawing(painter, self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)).draw()
-        painter.end()
+        _Drawing(QPainter(self), self, self._shutter, min(self.moment / (1.0 - _PAUSE), 1.0)).draw()
 
 
 class _Drawing:
@@ -168,11 +167,7 @@ class _Drawing:
 
 def _light(share: float) -> QColor:
     """Return the colour between dark and lit that stands for a share of light."""
-    return QColor.fromRgbF(
-        _DARK.redF() + share * (_LIT.redF() - _DARK.redF()),
-        _DARK.greenF() + share * (_LIT.greenF() - _DARK.greenF()),
-        _DARK.blueF() + share * (_LIT.blueF() - _DARK.blueF()),
-    )
+    return mixed(_LIT, _DARK, share)
 
 
 def _grey(share: float) -> QColor:

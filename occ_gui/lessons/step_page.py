@@ -23,6 +23,11 @@ _EQUATION_HEIGHT = 112
 _REVEALING_MS = 100  # how long the explanation is being laid out at most
 
 _ANIMATION_HEIGHT = 200
+_ACTIONS = {
+    "transmitter": "Make a transmitter…",
+    "photo": "Open your photo…",
+    "match": "Match the photo",
+}
 
 
 class StepPage(QWidget):
@@ -48,13 +53,14 @@ class StepPage(QWidget):
             "",
             "Show the control that this step is about, with all others dimmed.",
             self.control_asked,
+            name="Show the control of this step",
         )
-        self.control.setAccessibleName("Show the control of this step")
         self.changed = paragraph()
         self.changed.setAccessibleName("Your changes of the scene")
         self.changed.hide()
-        self.action = push_button("", "Do what this step is about.", self.action_asked)
-        self.action.setAccessibleName("Do what this step asks for")
+        self.action = push_button(
+            "", "Do what this step is about.", self.action_asked, name="Do what this step asks for"
+        )
         self.answer_field = AnswerField()
         self.answer_field.checked.connect(self.answer_given)
         self._make_explanation()
@@ -69,8 +75,7 @@ class StepPage(QWidget):
         self.equation = EquationText()
         self.equation.setFixedHeight(_EQUATION_HEIGHT)
         self.reveal = push_button(
-            "Show the explanation",
-            "Show what one finds, to compare with what you found.",
+            "Show the explanation", "Show what one finds, to compare with what you found."
         )
         self.reveal.setCheckable(True)
         self.reveal.toggled.connect(self._show_answer)
@@ -82,8 +87,12 @@ class StepPage(QWidget):
         self.all = push_button(
             "All lessons", "Go back to the list, and to your own scene.", self.list_asked
         )
-        self.back = push_button("Back", "Go to the step before, and set its scene.", self._go_back)
-        self.next = push_button("Next", "Go to the next step, and set its scene.", self._go_on)
+        self.back = push_button(
+            "Back", "Go to the step before, and set its scene.", lambda: self.moved.emit(-1)
+        )
+        self.next = push_button(
+            "Next", "Go to the next step, and set its scene.", lambda: self.moved.emit(1)
+        )
         self.again = push_button(
             "Set the scene again",
             "Set the scene of this step again, as one step that can be undone.",
@@ -128,7 +137,7 @@ class StepPage(QWidget):
         label = PARAMETERS[step.control].label if step.control else ""
         self.control.setText(f"Change: {label}")
         self.control.setVisible(bool(step.control))
-        self.action.setText(self._action_text(step.action))
+        self.action.setText(_ACTIONS.get(step.action, ""))
         self.action.setVisible(bool(step.action))
         unit = step.check.asked_in if step.check else ""
         self.answer_field.begin(unit, step.check is not None, before)
@@ -147,19 +156,6 @@ class StepPage(QWidget):
 
     def show_equations(self, equations: Sequence[Equation], changed: frozenset[str]) -> None:
         self.equation.show_equations(equations, changed)
-
-    def _action_text(self, action: str) -> str:
-        return {
-            "transmitter": "Make a transmitter…",
-            "photo": "Open your photo…",
-            "match": "Match the photo",
-        }.get(action, "")
-
-    def _go_back(self) -> None:
-        self.moved.emit(-1)
-
-    def _go_on(self) -> None:
-        self.moved.emit(1)
 
     def _show_answer(self, shown: bool) -> None:
         self.answer.setVisible(shown)

@@ -6,8 +6,6 @@ from PySide6.QtWidgets import (
     QAbstractItemView,
     QHBoxLayout,
     QHeaderView,
-    QLabel,
-    QPushButton,
     QSplitter,
     QTableWidget,
     QTableWidgetItem,
@@ -19,7 +17,7 @@ from occ_gui.pins.pinned import ComparedRow, Pin, Pinned
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.legend import LineLegend
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import paragraph, push_button
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plain_text import in_tool_tip
 from occ_gui.widgets.plot import new_plot
@@ -43,26 +41,28 @@ class CompareView(QWidget):
         self._pinned = Pinned()
         self._drawn: Pinned | None = None
         self._seen = False
-        self.pins = {name: self._pin_button(name) for name in ("A", "B")}
-        self.returns = {name: self._return_button(name) for name in ("A", "B")}
+        self.pins = {
+            name: push_button(
+                f"Pin {name}",
+                f"Keep the current state as {name}, to compare it (Ctrl+Shift+{name}).",
+                lambda _=False, name=name: self.pin_asked.emit(name),
+            )
+            for name in ("A", "B")
+        }
+        self.returns = {
+            name: push_button(
+                f"Take me to {name}",
+                f"Replace the scene by that of {name}, as one step that can be undone.",
+                lambda _=False, name=name: self.go_asked.emit(name),
+            )
+            for name in ("A", "B")
+        }
         self.clear = push_button("Clear", "Forget A and B.", self.clear_asked, name="Clear A and B")
-        self.hint = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.hint = paragraph()
         self._make_table()
         self._make_plot()
         self._lay_out()
         self._redraw()
-
-    def _pin_button(self, name: str) -> QPushButton:
-        button = QPushButton(f"Pin {name}")
-        button.setToolTip(f"Keep the current state as {name}, to compare it (Ctrl+Shift+{name}).")
-        button.clicked.connect(lambda: self.pin_asked.emit(name))
-        return button
-
-    def _return_button(self, name: str) -> QPushButton:
-        button = QPushButton(f"Take me to {name}")
-        button.setToolTip(f"Replace the scene by that of {name}, as one step that can be undone.")
-        button.clicked.connect(lambda: self.go_asked.emit(name))
-        return button
 
     def _make_table(self) -> None:
         self.table = QTableWidget(0, 3)

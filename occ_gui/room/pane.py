@@ -44,10 +44,12 @@ class RoomPane(Pane[RoomChoice]):
         self.tasks = (self._look, self._map)
         self._mapped: Room | None = None  # the room whose map is shown or measured
         self._lengths = Gestures()
-        self.view.room_chosen.connect(lambda name: self.take(name, load_room(name)))
+        self.view.rooms.textActivated.connect(lambda name: self.take(name, load_room(name)))
         self.view.file_asked.connect(self._ask_for_file)
         self.view.photo_asked.connect(self._ask_for_photo)
-        self.view.photo_closed.connect(self._close_photo)
+        self.view.photo_closed.connect(
+            lambda: self._edit("closing of the photo", photo=None, focal_length=None)
+        )
         self.view.focal_length_given.connect(self._with_focal_length)
         self.view.map_asked.connect(self._measure)
         self.view.plan.camera_moved.connect(self._move)
@@ -92,9 +94,6 @@ class RoomPane(Pane[RoomChoice]):
 
     def open_photo(self, path: Path) -> None:
         self._edit(f"photo {path.name}", photo=path, focal_length=None)
-
-    def _close_photo(self) -> None:
-        self._edit("closing of the photo", photo=None, focal_length=None)
 
     def _with_focal_length(self, focal_length: float) -> None:
         self._edit("focal length of the photo", self._lengths.of_change(),

@@ -4,13 +4,11 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QDoubleSpinBox,
     QHBoxLayout,
-    QLabel,
-    QPushButton,
     QVBoxLayout,
     QWidget,
 )
@@ -18,6 +16,8 @@ from PySide6.QtWidgets import (
 from occ_gui.room.jobs import FloorMap, RoomPlan, ShownRoom
 from occ_gui.room.picture_plot import PicturePlot
 from occ_gui.room.plan_plot import PlanPlot
+from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph, push_button
 from occ_gui.widgets.text_scale import TextSize, scaled
 from occ_model.errors import one_line
 from occ_model.room.locate import RoomReading
@@ -35,7 +35,6 @@ _LEGEND = (
 class RoomView(QWidget):
     """A choice of rooms, a headline, the plan beside the picture, and the floor's map."""
 
-    room_chosen = Signal(str)  # the user chooses a room of the program
     file_asked = Signal()  # the user wants to choose a room file
     photo_asked = Signal()  # the user wants to choose a photo of the room
     photo_closed = Signal()  # the user wants to see what the camera sees in place of the photo
@@ -51,16 +50,19 @@ class RoomView(QWidget):
         self.rooms.setAccessibleName("Room")
         self.rooms.setToolTip("The room that is shown: one of those that come with the program.")
         self.rooms.addItems(names)
-        self.rooms.textActivated.connect(self.room_chosen)
-        self.open = QPushButton("&Open a room file…")
-        self.open.setToolTip("Show a room of your own: a file of its lamps and its camera.")
-        self.open.clicked.connect(self.file_asked)
-        self.photo = QPushButton("Open a &photo…")
-        self.photo.setToolTip("Name the lamps in a photo of this room, and see where it was taken.")
-        self.photo.clicked.connect(self.photo_asked)
-        self.close_photo = QPushButton("&Close the photo")
-        self.close_photo.setToolTip("Show what the camera of the plan sees.")
-        self.close_photo.clicked.connect(self.photo_closed)
+        self.open = push_button(
+            "&Open a room file…",
+            "Show a room of your own: a file of its lamps and its camera.",
+            self.file_asked,
+        )
+        self.photo = push_button(
+            "Open a &photo…",
+            "Name the lamps in a photo of this room, and see where it was taken.",
+            self.photo_asked,
+        )
+        self.close_photo = push_button(
+            "&Close the photo", "Show what the camera of the plan sees.", self.photo_closed
+        )
         self.focal_length = QDoubleSpinBox()
         allowed = quantity("equivalent_focal_length")
         self.focal_length.setRange(1e3 * allowed.low, 1e3 * allowed.high)
@@ -73,34 +75,25 @@ class RoomView(QWidget):
         self.focal_length.valueChanged.connect(lambda mm: self.focal_length_given.emit(1e-3 * mm))
         for widget in (self.close_photo, self.focal_length):
             widget.hide()
-        self.measure = QPushButton("&Measure the floor")
-        self.measure.setToolTip(
-            "Take a picture at each of 25 places below the lamps, and see where the place is told."
+        self.measure = push_button(
+            "&Measure the floor",
+            "Take a picture at each of 25 places below the lamps, and see where the place is told.",
+            self.map_asked,
         )
-        self.measure.clicked.connect(self.map_asked)
-        self.headline, self.sentences, self.floor = QLabel(), QLabel(), QLabel()
+        self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()
         self.headline.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         self.plan, self.picture = PlanPlot(), PicturePlot()
         for plot in (self.plan, self.picture):
             plot.setMinimumHeight(_LEAST_HEIGHT)
-        legend = QLabel(_LEGEND)
-        for label in (self.headline, self.sentences, self.floor, legend):
-            label.setWordWrap(True)
-            label.setTextFormat(Qt.TextFormat.PlainText)
-        chosen, row, layout = QHBoxLayout(), QHBoxLayout(), QVBoxLayout(self)
-        for button in (
-            self.rooms, self.open, self.photo, self.close_photo, self.focal_length, self.measure
-        ):  # fmt: skip
-            chosen.addWidget(button)
-        chosen.addStretch()
-        row.addWidget(self.plan, 1)
-        row.addWidget(self.picture, 1)
-        layout.addLayout(chosen)
-        for label in (self.headline, self.sentences):
-            layout.addWidget(label)
-        layout.addLayout(row, 1)
-        for label in (legend, self.floor):
-            layout.addWidget(label)
+        chosen = filled(
+            QHBoxLayout(), self.rooms, self.open, self.photo, self.close_photo, self.focal_length,
+            self.measure, None,
+        )  # fmt: skip
+        row = filled(QHBoxLayout(), (self.plan, 1), (self.picture, 1))
+        filled(
+            QVBoxLayout(self), chosen, self.headline, self.sentences, (row, 1), paragraph(_LEGEND),
+            self.floor,
+        )  # fmt: skip
 
     def show_name(self, name: str) -> None:
         self.rooms.setPlaceholderText(one_line(name))

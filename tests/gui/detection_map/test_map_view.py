@@ -109,7 +109,7 @@ def test_a_click_tells_the_cell_that_it_is_in(qtbot: QtBot, view: MapView) -> No
     view.show_map(whole((10, 10)))
     picked: list[tuple[float, float]] = []
     plot = view.plots.plots[0]
-    view.picked.connect(picked.append)
+    view.plots.picked.connect(picked.append)
     for cell in ((0, 0), (12, 6), (5, 3)):
         place = plot.place_of((cell[0] / 12, cell[1] / 6)).toPoint()
         qtbot.mouseClick(plot, Qt.MouseButton.LeftButton, pos=place)
@@ -123,8 +123,8 @@ def test_arrows_and_enter_do_what_the_mouse_does(qtbot: QtBot, view: MapView) ->
     picked: list[object] = []
     pointed: list[tuple[int, int]] = []
     plot = view.plots.plots[0]
-    view.picked.connect(picked.append)
-    view.pointed.connect(pointed.append)
+    view.plots.picked.connect(picked.append)
+    view.plots.pointed.connect(pointed.append)
     qtbot.keyClick(plot, Qt.Key.Key_Right)
     qtbot.keyClick(plot, Qt.Key.Key_Up)
     qtbot.keyClick(plot, Qt.Key.Key_Return)
@@ -294,7 +294,7 @@ def test_a_click_on_the_map_is_undone_as_one_step(map_bench: MapBench) -> None:
     controller, scenes = map_bench.pane.map, map_bench.scenes
     controller.map = whole((10, 10))
     before = scenes.scene
-    map_bench.view.picked.emit((2, 3))
+    map_bench.view.plots.picked.emit((2, 3))
     assert scenes.scene.value(FREQUENCY) == controller.map.x_values[2]
     assert scenes.scene.value(DISTANCE) == controller.map.y_values[3]
     scenes.undo_stack.undo()

@@ -81,7 +81,6 @@ def features(parts: Parts, of_photo: PhotoInWindow) -> tuple[Feature[Any], ...]:
 
 
 def _entries(parts: Parts, photos: PhotoInWindow) -> Feature[None]:
-    """Declare the entries of the menus that belong to no pane."""
     files, options, window = parts.files, parts.options, parts.window
     return Feature(
         name="entries",

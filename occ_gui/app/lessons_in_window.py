@@ -13,8 +13,6 @@ _ENTRY_OF_ACTION = {"transmitter": "transmitter", "photo": "open_photo", "match"
 
 
 class LessonsInWindow(QObject):
-    """Connects the lessons with the window, once their pane is made."""
-
     noted = Signal(str)  # the outcome of an action, shown until the scene changes
 
     columns_held = Signal(object)

@@ -17,8 +17,6 @@ from occ_model.teaching.marked_values import marked_values
 
 
 class SceneInWindow(QObject):
-    """Connects store, controls and simulation with the window."""
-
     def __init__(self, parts: Parts) -> None:
         super().__init__(parts.window)
         self._parts = parts

@@ -29,8 +29,6 @@ class DefaultOption(str):
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What a window starts with."""
-
     workspace: Workspace  # what the command line asks for, or the last session has left
     # Whether the command line names a scene, which takes precedence over the last session's
     is_scene_asked: bool

@@ -144,21 +144,17 @@ class WorkQueue(QObject):
         self._results_ready.emit(channel, run, results)
 
     def finished(self, channel: int, run: int) -> None:
-        """Send the end of a run to the window's thread."""
         self._ended.emit(channel, run, "")
 
     def failed(self, channel: int, run: int, error: Exception) -> None:
-        """Send the reason for a run's failure to the window's thread."""
         request = self.channels[channel].request(run)
         self._ended.emit(channel, run, sentence_of(error, "work in the background", request))
 
     def workers_replaced(self, channel: int, run: int) -> None:
-        """Send to the window's thread that jobs are repeated."""
         sentence = "A process in the background ended; its work is done again."
         self._reported.emit(channel, run, sentence)
 
     def workers_missing(self, channel: int, run: int, error: Exception) -> None:
-        """Send to the window's thread that there are no processes."""
         sentence = (
             f"No processes can be started ({one_line(str(error))}): the window does their work "
             "itself, and answers more slowly meanwhile."

@@ -161,8 +161,6 @@ class Task(QObject, Generic[Request, Result]):
 
 
 class _Worker(QObject):
-    """The part that lives on the other thread."""
-
     reported = Signal(object, object)
     paint_awaited = Signal(object)
     ended = Signal(object, object, str, object)

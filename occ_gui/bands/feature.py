@@ -30,8 +30,6 @@ def bands(scenes: SceneStore) -> Feature[Scene]:
 
 
 def bands_figures() -> tuple[Figure, ...]:
-    """Declare the figures: both need the scene alone."""
-
     def bars(_pane: object, shown: Snapshot) -> Draw:
         def draw() -> "Drawing":
             from occ_model.figures.bands import bands_drawing

@@ -20,8 +20,6 @@ _RANK = -1  # below all others: somebody waits for it
 
 
 class BenchController(QObject):
-    """Connects the stores, the job channel and the pane."""
-
     def __init__(self, scenes: SceneStore, channel: JobChannel, pane: BenchView) -> None:
         super().__init__()
         self._scenes = scenes

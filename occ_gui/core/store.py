@@ -134,8 +134,6 @@ class Store(QObject):
 
 
 class _Command(QUndoCommand):
-    """One step from a part of the workspace to another."""
-
     def __init__(self, store: Store, before: Step, after: Step, title: str, gesture: int) -> None:
         super().__init__(one_line(title).replace("&", "&&"))  # in a menu, & marks a shortcut
         self._store, self._title = store, title

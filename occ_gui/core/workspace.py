@@ -60,7 +60,6 @@ class Workspace:
 
     @property
     def step(self) -> Step:
-        """The part that can be undone."""
         return Step(self.scene, dict(self.settings.force), self.room, self.preset)
 
     def with_force(self, force: Mapping[str, bool]) -> Self:

@@ -54,8 +54,6 @@ class AdviceRequest:
 
 
 class AdvisorController(QObject):
-    """Connects the stores, the job channel and the pane."""
-
     went = Signal(str)  # the scene was set to a limit; the decoder that reads there
 
     def __init__(

@@ -23,8 +23,6 @@ _HIGHEST = "highest frequency"
 
 @dataclass(frozen=True, slots=True)
 class AdviceLine:
-    """One line of the advice: a sentence or two."""
-
     text: str
     # The change that its button makes: a parameter, its value in SI units, and as text
     destination: tuple[str, float, str] | None = None

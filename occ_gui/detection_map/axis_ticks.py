@@ -10,8 +10,6 @@ _STEPS = (1.0, 2.0, 5.0)
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """One labelled tick of an axis."""
-
     place: float  # position along the slider, from 0 to 1
     text: str  # the number, in the axis's unit
 
@@ -31,7 +29,6 @@ def axis_title(quantity: Quantity, short: bool = False) -> str:
 
 
 def ticks(quantity: Quantity, most: int) -> list[Tick]:
-    """Return ticks at round values over the slider's range."""
     factor = axis_unit(quantity)[1]
     values = _log_values if quantity.scale == "log" else _linear_values
     low, high = (end / factor for end in quantity.slider)

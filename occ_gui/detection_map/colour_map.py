@@ -51,8 +51,6 @@ _GAP = 4
 
 
 class ColourBar(QWidget):
-    """A vertical colour bar with numbers beside it."""
-
     def __init__(self) -> None:
         super().__init__()
         self._colours = QImage()

@@ -132,7 +132,6 @@ class MapPlots(QWidget):
             plot.show_axes(quantity(x), quantity(y))
 
     def show_setting(self, place: Point) -> None:
-        """Mark the current setting, given by its positions along both axes."""
         for plot in self.plots:
             plot.setting = place
             plot.update()

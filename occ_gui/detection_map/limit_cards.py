@@ -108,8 +108,6 @@ class LimitCards(QWidget):
 
 
 class LimitCard(QFrame):
-    """The frequencies that a decoder reads."""
-
     chosen = Signal(float, str)
     """The user goes to the frequency, in hertz, at which the decoder read every bit."""
 

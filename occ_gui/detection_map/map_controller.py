@@ -29,8 +29,6 @@ FIRST_AXES = ("switching_frequency", "distance")
 
 
 class MapPane(Protocol):
-    """A pane that shows a map while it is measured."""
-
     def show_axes(self, x: str, y: str) -> None: ...
 
     def show_map(self, rates: RateMap) -> None: ...
@@ -55,8 +53,6 @@ class MapPane(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class MapRequest:
-    """What a map depends on."""
-
     scene: Scene  # the scene, with everything that the map does not depend on at its default
     x: str
     y: str
@@ -82,8 +78,6 @@ class MapRequest:
 
 
 class DetectionMapController(QObject):
-    """Connects the stores, the job channel and the pane."""
-
     def __init__(self, scenes: SceneStore, channel: JobChannel, pane: MapPane) -> None:
         super().__init__()
         self._scenes = scenes
@@ -119,7 +113,6 @@ class DetectionMapController(QObject):
 
     @property
     def is_full(self) -> bool:
-        """Whether every point is known for the current scene."""
         return self.is_current and self.map is not None and self.map.least_images > 0
 
     @property

@@ -15,8 +15,6 @@ _REDRAWN_AT = (QEvent.Type.PaletteChange, QEvent.Type.DevicePixelRatioChange)
 
 
 class MapLegend(QWidget):
-    """A button for each limit that shows and hides its line."""
-
     toggled = Signal(str, bool)  # the name of a limit, and whether its line is shown
 
     def __init__(self) -> None:

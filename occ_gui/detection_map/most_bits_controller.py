@@ -37,8 +37,6 @@ class MostBitsRequest:
 
 
 class MostBitsController(QObject):
-    """Connects the scene, the job channel and the pane."""
-
     went = Signal(str)  # the scene has become what carries most; the decoder that reads it
 
     def __init__(

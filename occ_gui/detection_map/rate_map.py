@@ -63,8 +63,6 @@ class TheoryFields:
 
 @dataclass(frozen=True, slots=True)
 class PointFacts:
-    """Results at one point."""
-
     x: float  # the parameters' values, in SI units
     y: float
     # For each decoder its name, the bits read correctly, and both ends of the confidence interval
@@ -79,8 +77,6 @@ class PointFacts:
 
 @dataclass(eq=False, slots=True)
 class RateMap:
-    """Success rates on a lattice, as far as they are known."""
-
     x: str
     y: str
     x_values: tuple[float, ...]
@@ -105,7 +101,6 @@ class RateMap:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """Number of points along each axis."""
         return len(self.x_values), len(self.y_values)
 
     def enter(self, points: list[SweepPoint], images: int) -> None:

@@ -186,8 +186,6 @@ class StripLegend(QWidget):
 
 
 class SliderStrips(QObject):
-    """The strips behind the main sliders."""
-
     seen = Signal(bool)  # whether the strips have become visible or hidden
 
     def __init__(self, rows: dict[str, QuantityRow], parent: QObject | None = None) -> None:

@@ -37,8 +37,6 @@ PRELOAD = __name__  # the module that a worker process needs
 
 @dataclass(frozen=True, slots=True)
 class Along:
-    """Points that were measured along one slider."""
-
     name: str
     points: tuple[SweepPoint, ...]
 

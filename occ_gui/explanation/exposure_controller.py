@@ -43,7 +43,6 @@ class ExposureController(QObject):
         self._show()
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Show columns of these results in place of the previous ones."""
         self._snapshot = snapshot
         self._show()
 

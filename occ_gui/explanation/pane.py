@@ -56,5 +56,4 @@ class ExplanationPane(Pane[Snapshot]):
         self.exposure.set_seen(seen)
 
     def show_part(self, part: Snapshot) -> None:
-        """Explain these results in place of the previous ones."""
         self.exposure.show_snapshot(part)

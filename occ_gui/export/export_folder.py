@@ -30,7 +30,6 @@ def folder_aside(folder: Path) -> Iterator[Path]:
 
 
 def remove_left_behind(folder: Path) -> None:
-    """Remove the temporary folders of processes that crashed."""
     names = {path.name.removesuffix(".lock") for path in folder.glob(f"{_PREFIX}*")}
     for name in filter(_NAME.fullmatch, names):
         aside = folder / name

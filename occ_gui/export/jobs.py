@@ -38,8 +38,6 @@ class FigureRequest:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExportJob:
-    """Figures, and where they go."""
-
     requests: Sequence[FigureRequest]
     path: Path | None = None  # the file of the only figure; None for the clipboard
     folder: Path | None = None

@@ -75,7 +75,6 @@ class Preferences(QObject):
         self._visit(_FOLDER, path)
 
     def visit_export(self, path: Path) -> None:
-        """Store the folder of a figure that was written."""
         self._visit(_EXPORTS, path)
 
     def _visit(self, key: str, path: Path) -> None:

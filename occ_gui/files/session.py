@@ -91,7 +91,6 @@ class Session(QObject):
         self._write(Kept(own, self._store.history(own.step)), in_use=True)
 
     def end(self) -> None:
-        """Write the session for the last time, and release its file."""
         self._write(Kept(self._own()), in_use=False)
         if self._file is not None:
             self._file.close()

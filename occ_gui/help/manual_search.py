@@ -12,8 +12,6 @@ _HEADING = re.compile(r"#+ (.+)")
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """One heading of a page and the text below it."""
-
     title: str
     """The page's title in the table of contents, and the heading where it is not the page's own."""
     link: str  # page and heading, such as ``guide.md#set-up-a-scene``

@@ -20,8 +20,6 @@ how a photo is shown with it."""
 
 
 class PicturesPane(Pane[PicturePart]):
-    """The simulated picture, with the one of before and a photo."""
-
     def __init__(self, store: Store) -> None:
         self.view = view = ImageView()
         super().__init__(view)

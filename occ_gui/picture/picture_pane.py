@@ -21,8 +21,6 @@ _LEAST_SPAN = 0.5  # smallest range of the view in pixels
 
 
 class PicturePane(QWidget):
-    """One picture with its caption, and the region that was decoded."""
-
     def __init__(self, caption: str) -> None:
         super().__init__()
         self.caption = ElidedLabel(caption)
@@ -71,7 +69,6 @@ class PicturePane(QWidget):
         return float(self.box.viewRect().height() / max(height, 1.0))
 
     def level_at(self, column: int, row: int) -> int | None:
-        """Return the grey level of a pixel, None outside the picture."""
         image = self._image
         row //= self._rows_step
         if image is None or not (0 <= row < image.shape[0] and 0 <= column < image.shape[1]):

@@ -124,7 +124,6 @@ class CompareView(QWidget):
             self._redraw()
 
     def show_pinned(self, pinned: Pinned) -> None:
-        """Show these two states in place of the previous ones."""
         self._pinned = pinned
         if self._seen:
             self._redraw()

@@ -5,8 +5,6 @@ from occ_gui.shell.feature import Feature, Pane
 
 
 def compare(pins: PinController) -> Feature[None]:
-    """Declare the pane, and the menu entries that pin without it."""
-
     def make() -> Pane[None]:
         from occ_gui.pins.pane import ComparePane
 

@@ -10,8 +10,6 @@ from occ_model.scene.simulation_settings import SimulationSettings
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pin:
-    """A state kept for comparison: its scene, profile and outputs."""
-
     request: SimulationRequest
     profile: FloatArray  # shape (columns,): its profile in grey levels
     # The first column of the panel, and the columns of one period of the signal sent
@@ -30,8 +28,6 @@ class Pin:
 
 @dataclass(frozen=True, slots=True)
 class ComparedRow:
-    """One quantity that differs between the two states."""
-
     what: str
     a: str
     b: str
@@ -40,8 +36,6 @@ class ComparedRow:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pinned:
-    """The two states, and their differences if both are pinned."""
-
     a: Pin | None = None
     b: Pin | None = None
     inputs: tuple[ComparedRow, ...] = ()

@@ -299,7 +299,6 @@ class ProfileView(QWidget):
 
     @property
     def is_enhanced(self) -> bool:
-        """Whether the curves are shown after the receiver's enhancement."""
         return self.enhanced.isChecked()
 
     def columns_in_view(self) -> tuple[int, int]:
@@ -310,7 +309,6 @@ class ProfileView(QWidget):
         return first, min(max(int(high) + 1, first + 2), columns)
 
     def level_at(self, column: int) -> float | None:
-        """Return the simulated level of a column, None outside the picture."""
         levels = self._simulated_levels[0] if self._simulated_levels else None
         if levels is None or not 0 <= column < len(levels):
             return None
@@ -327,7 +325,6 @@ class ProfileView(QWidget):
 
 
 def _levels(reading: Reading, enhanced: bool) -> FloatArray:
-    """Return the column values, before or after the receiver's enhancement."""
     return reading.signal if enhanced else reading.profile
 
 

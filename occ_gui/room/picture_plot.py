@@ -14,8 +14,6 @@ _NAME = 0.025  # share of the picture's height that half a name takes
 
 
 class PicturePlot(QWidget):
-    """The picture, outlines of what was found in it, and names."""
-
     def __init__(self) -> None:
         super().__init__()
         self.plot = new_plot("The camera's picture", "column", "row", self.palette())

@@ -158,7 +158,6 @@ class ControlPanel(QWidget):
         return {name: row for name, row in rows if isinstance(row, QuantityRow)}
 
     def show_scene(self, scene: Scene) -> None:
-        """Show the values of a scene without emitting a signal."""
         self._scene = scene
         self.player.heed(scene)
         self.code.show_scene(scene)

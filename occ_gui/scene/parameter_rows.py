@@ -36,8 +36,6 @@ _DIGITS = 4  # significant digits of a value in a message
 
 
 class ParameterRow(QWidget):
-    """Controls that show one parameter and let the user change it."""
-
     edited = Signal(str, object, int)
     """Name, value in SI units, and the number of the gesture that the change belongs to."""
 
@@ -77,8 +75,6 @@ class ParameterRow(QWidget):
 
 
 class QuantityRow(ParameterRow):
-    """A slider and a number field."""
-
     def __init__(self, quantity: Quantity) -> None:
         super().__init__(quantity)
         self._quantity = quantity
@@ -170,8 +166,6 @@ class QuantityRow(ParameterRow):
 
 
 class CountRow(ParameterRow):
-    """A number field for whole numbers."""
-
     def __init__(self, declared: Count) -> None:
         super().__init__(declared)
         self._declared = declared

@@ -61,7 +61,6 @@ class SceneStore(QObject):
         self.put(self.scene, f"switch: {text}", force=force)
 
     def release_effects(self) -> None:
-        """Leave all effects to the plan, as one step."""
         self.put(self.scene, "return of all effects to the plan", force={})
 
     def put(

@@ -43,7 +43,6 @@ class SettingsStore(QObject):
             self.refused.emit(refusal_of(error))
 
     def set_observable(self, observable: Observable) -> None:
-        """Change the observable whose error the tolerance limits."""
         self._put(replace(self.settings, observable=observable))
 
     def set_noise(self, noise: NoiseSource) -> None:

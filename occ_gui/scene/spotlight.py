@@ -15,8 +15,6 @@ _MARGIN = 4
 
 
 class Spotlight(QObject):
-    """Marks one control of the panel."""
-
     def __init__(self, controls: ControlPanel) -> None:
         super().__init__(controls)
         self._controls = controls

@@ -102,20 +102,16 @@ class Board(QObject):
                 selection.changed.emit(value)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
-        """Put an exact picture in place of the last one."""
         self.put(replace(self.results, snapshot=snapshot))
 
     def show_picture(self, picture: Picture) -> None:
-        """Put a picture that may be a draft in place of the last one."""
         self.put(replace(self.results, picture=picture))
 
     def show_reading(self, reading: Reading) -> None:
         self.put(replace(self.results, reading=reading))
 
     def show_before(self, snapshot: Snapshot) -> None:
-        """Put the exact picture before the latest step in place of the last one."""
         self.put(replace(self.results, before=snapshot))
 
     def show_switched(self, switched: tuple[Decision, ...]) -> None:
-        """Put what the plan has just switched in place of what it switched before."""
         self.put(replace(self.results, switched=switched))

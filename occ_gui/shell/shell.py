@@ -80,7 +80,6 @@ class Shell(QObject):
 
     @property
     def help_pages(self) -> dict[str, str]:
-        """Page and heading of the manual that explain the panes."""
         features = (place.feature for place in self._places.values())
         return {feature.name: feature.help for feature in features if feature.help}
 

@@ -18,8 +18,6 @@ _CLAUSE_END = re.compile(r"[:;,.](?= |$)")
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What a decoder's result is worth."""
-
     # Good where all bits are right, doubtful where some are, bad where none is or no code was read,
     # neutral where none is sent, waiting while a slow decoder reads
     state: State

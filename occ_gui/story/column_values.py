@@ -15,8 +15,6 @@ _MOST_CHIPS = 20_000  # chips in an exposure up to which its light is added up w
 
 @dataclass(frozen=True, slots=True)
 class ColumnValues:
-    """What all rows show at one column."""
-
     column: int
     time: float  # when its exposure begins, in seconds
     light: float  # the light at that time, 0 to 1

@@ -38,8 +38,6 @@ class MeasureCursors(QObject):
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """The difference between two cursors."""
-
     columns: float  # from the first to the second, negative where the second is at the left
     time: float  # the same in seconds
     # How much higher the profile is at the second, in grey levels; None outside of it

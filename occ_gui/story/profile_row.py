@@ -119,7 +119,6 @@ class ProfileRow(StoryRow):
             self.redraw()
 
     def y_of(self, level: float, area: QRectF) -> float:
-        """Return where a level lies, in pixels from the top."""
         inner = area.adjusted(0, 8, 0, -8)
         return inner.bottom() - level / self._top * inner.height()
 
@@ -164,7 +163,6 @@ class ProfileRow(StoryRow):
         painter.drawLines(lines_of(xs, ys, dash))
 
     def _shade_outside(self, painter: QPainter, area: QRectF) -> None:
-        """Shade the columns that the decoder does not read."""
         region = None if self._decoded is None else self._decoded.region
         if region is None:
             return

@@ -25,8 +25,6 @@ def round_step(least: float) -> float:
 
 
 class Scale(QWidget):
-    """Ticks with numbers over the columns in view."""
-
     def __init__(self, name: str, axis: ColumnAxis, is_above: bool) -> None:
         super().__init__()
         self._name, self.axis, self._is_above = name, axis, is_above
@@ -90,8 +88,6 @@ class ColumnScale(Scale):
 
 
 class TimeScale(Scale):
-    """The time at which the exposure of each column begins."""
-
     def __init__(self, axis: ColumnAxis) -> None:
         super().__init__("", axis, is_above=True)
         self._name = "time (µs)"
@@ -105,9 +101,7 @@ class TimeScale(Scale):
             self.update()
 
     def value_of(self, column: float) -> float:
-        """Return the time at a column, in microseconds."""
         return self._start + column * self._step
 
     def column_of(self, value: float) -> float:
-        """Return the column at a time in microseconds."""
         return (value - self._start) / self._step

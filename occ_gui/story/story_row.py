@@ -77,16 +77,13 @@ class StoryRow(QWidget):
         return QRectF(self.axis.gutter, 0.0, width, float(self.height()))
 
     def x_of(self, column: float) -> float:
-        """Return where a column lies, in pixels from the left."""
         return self.axis.pixel(column, self.width())
 
     def xs_of(self, columns: FloatArray) -> FloatArray:
-        """Return where some columns lie, in pixels from the left."""
         scale = self.axis.plot_width(self.width()) / self.axis.span
         return np.asarray(self.axis.gutter + (columns - self.axis.first) * scale)
 
     def column_at(self, x: float) -> float:
-        """Return the column at a pixel."""
         return self.axis.column(x, self.width())
 
     def draw(self, painter: QPainter, area: QRectF) -> None:

@@ -21,8 +21,6 @@ _FIGURE = QSize(700, 553)  # size of the wiring on the screen, in the proportion
 
 
 class TransmitterDialog(QDialog):
-    """Shows what a board makes of the present scene."""
-
     board_chosen = Signal(str)
 
     frequency_asked = Signal()  # the scene is to take the frequency that is sent
@@ -75,7 +73,6 @@ class TransmitterDialog(QDialog):
         self._say_of_wiring("Drawing the wiring…")
 
     def show_refusal(self, sentence: str) -> None:
-        """Say why the board cannot send the scene."""
         self.facts.setText(sentence)
         self.take.setEnabled(False)
         self.save.setEnabled(False)

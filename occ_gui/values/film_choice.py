@@ -25,8 +25,6 @@ class FilmSource:
 
 @dataclass(frozen=True, slots=True)
 class FilmChoice:
-    """What the user has set about films."""
-
     # The film that is open, or about to be; None where there is only the simulated one
     path: Path | None = None
     axis: str = SCAN_AXES[0]  # what of its pictures the shutter scanned, one of SCAN_AXES

@@ -11,8 +11,6 @@ SENT = ("auto", "scene", "square", "read")
 
 @dataclass(frozen=True, slots=True)
 class MatchChoice:
-    """The choices for matching a photo."""
-
     sent: str = "auto"  # what was sent, one of SENT
     square_frequency: float = 1000.0  # cycles per second of the square wave, in Hz, if one was sent
     # ``"readout_time"`` or ``"switching_frequency"``; the other one is known

@@ -20,8 +20,6 @@ _openings = count(1)
 
 @dataclass(frozen=True, slots=True)
 class PhotoReading:
-    """Options of reading a photo."""
-
     scan_axis: str = SCAN_AXES[0]  # the axis of the file that the shutter scanned, one of SCAN_AXES
     channel: str = CHANNELS[0]  # the channel of a coloured photo that is read, one of CHANNELS
 

@@ -34,8 +34,6 @@ class StripeSearch:
 
 @dataclass(frozen=True, slots=True)
 class FoundMatch:
-    """What a match has come to."""
-
     photo: "Photo"  # what was matched; None for all of the photo
     part: "Lamp | Region | None"
     # The match; that of before where there is a refusal, None where there was none

@@ -11,8 +11,6 @@ LEAST_SCALE, LARGEST_SCALE = 0.01, 100.0
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """Shift and scale of a photo on the simulated picture."""
-
     column: float = 0.0  # the pixel of the simulated picture under the photo's first pixel
     row: float = 0.0
     scale: float = 1.0  # pixels of the simulated picture per pixel of the photo

@@ -12,8 +12,6 @@ FIRST_ROOM = "office"
 
 @dataclass(frozen=True, slots=True)
 class RoomChoice:
-    """What the user has set about rooms."""
-
     name: str = FIRST_ROOM  # of the program's room, or of the file, that it was at first
     # With its camera where the user has put it; None for the first one, as it comes
     room: "Room | None" = None

@@ -13,8 +13,6 @@ LEAST_DRAFT_STEP = 4
 
 @dataclass(frozen=True, slots=True)
 class SimulationRequest:
-    """A scene to be simulated."""
-
     scene: Scene
     settings: SimulationSettings
     # Neither changes the results.

@@ -28,8 +28,6 @@ _V4L_MANUAL, _V4L_AUTOMATIC = 1.0, 3.0
 
 @dataclass(frozen=True, slots=True)
 class CameraDevice:
-    """A camera."""
-
     number: int  # its number, as OpenCV counts
     name: str
 

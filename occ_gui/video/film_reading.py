@@ -11,8 +11,6 @@ from occ_model.results.fact import Fact
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmReading:
-    """What has been read of a film so far."""
-
     # Shape (frames,): when the frames that were looked at began, in seconds
     times: FloatArray
     states: ByteArray  # shape (frames,): A :class:`~occ_gui.video.marks.MarkState` each
@@ -23,5 +21,4 @@ class FilmReading:
 
     @classmethod
     def nothing(cls) -> "FilmReading":
-        """Return what has been read before the first frame."""
         return cls(np.zeros(0, dtype=np.float64), np.zeros(0, dtype=np.uint8))

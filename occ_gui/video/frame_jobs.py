@@ -25,8 +25,6 @@ _MOST_DRAFT_PIXELS = 1_000_000  # pixels of a picture up to which it is simulate
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameRequest:
-    """A frame that is to be shown."""
-
     film: Video | None  # the film, None where there is only the simulated one
     live: VideoFrame | None  # the frame of a live film, which keeps none
     index: int

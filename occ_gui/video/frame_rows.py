@@ -14,8 +14,6 @@ from occ_gui.widgets.layouts import filled
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FrameStory:
-    """What the rows show of one frame."""
-
     picture: PictureView
     reading: ColumnView
     # Whether the light that its columns gathered is known, as of a simulated frame

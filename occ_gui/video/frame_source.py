@@ -11,8 +11,6 @@ from occ_model.results.video import VideoFrame
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LivePicture:
-    """A picture as a source gives it."""
-
     time: float  # seconds since the source was opened
     # Shape (lines, pixels) or (lines, pixels, 3): Grey, or blue, green and red
     pixels: ByteArray

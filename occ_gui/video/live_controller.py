@@ -21,8 +21,6 @@ def _find(_request: None, report: Report) -> tuple[CameraDevice, ...]:
 
 
 class LiveController(QObject):
-    """A camera that is read while it films."""
-
     devices_found = Signal(object)
 
     ended = Signal(str)  # why the camera gives no more pictures; empty where it was stopped
@@ -85,7 +83,6 @@ class LiveController(QObject):
             self._readings.start(self.video, self._scene(), is_live=True)
 
     def lock_exposure(self, on: bool) -> None:
-        """Hold the camera's exposure, or let it go."""
         if self.video is not None:
             self.video.lock_exposure(on, lambda done: self._answered.emit(on, done))
 

@@ -66,7 +66,6 @@ class LiveVideo(Video):
             self._changed.notify_all()
 
     def stop(self) -> None:
-        """End filming, and wait until the device is released."""
         self.end()
         self.join()
 

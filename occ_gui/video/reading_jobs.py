@@ -26,8 +26,6 @@ MOST_MARKS = 1_000_000  # packets up to which each has a mark of its own
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadingRequest:
-    """A film that is to be read."""
-
     film: Video
     scene: Scene
     is_live: bool = False  # whether it has no end, so that only its last frames are remembered
@@ -48,8 +46,6 @@ def read_film(request: ReadingRequest, report: Report) -> FilmReading:
 
 
 class _Collected:
-    """What has been read so far, frame by frame."""
-
     def __init__(self, request: ReadingRequest) -> None:
         most = MOST_LIVE if request.is_live else None
         self._request = request

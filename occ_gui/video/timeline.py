@@ -39,8 +39,6 @@ _STEPS = {
 
 @dataclass(frozen=True, slots=True)
 class TimelineScale:
-    """The times at both ends, in seconds."""
-
     first: float = 0.0
     last: float = 0.0
 

@@ -149,7 +149,6 @@ class VideoWiring(Pane[FilmChoice]):
         self.readings.start(film, self._scenes.scene)
 
     def save(self, path: Path) -> None:
-        """Write the simulated film of the present scene to a file."""
         try:
             self.saving.start(_FilmToSave(path, self.films.simulated()))
         except OccError as error:

@@ -12,8 +12,6 @@ _LEAST_SIDE = 208
 
 
 class Door(QPushButton):
-    """Leads to one way of using the program."""
-
     def __init__(
         self, picture: str, title: str, sentence: str, parent: QWidget | None = None
     ) -> None:

@@ -21,8 +21,6 @@ _PADDING = 8
 
 @dataclass(frozen=True, slots=True)
 class Chip:
-    """A short label."""
-
     key: str
     text: str  # a few words, as HTML with ``sub`` only
     meaning: str

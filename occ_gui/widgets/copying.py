@@ -8,7 +8,6 @@ _MAX_SHOWN_CHARACTERS = 80  # characters of a copied text that the message shows
 
 
 def copy_text(text: str) -> str:
-    """Copy a text, and return the sentence for the status line."""
     QGuiApplication.clipboard().setText(text)
     first, _, more = text.strip().partition("\n")
     return f"Copied: {one_line(f'{first} …' if more else first, _MAX_SHOWN_CHARACTERS)}"

@@ -37,7 +37,6 @@ def icon(name: str, palette: QPalette, size: int, ratio: float) -> QIcon:
 
 
 def program_icon() -> QIcon:
-    """Draw the program's icon in the sizes that desktops ask for."""
     found = QIcon()
     for size in PROGRAM_SIZES:
         found.addPixmap(pixmap(PROGRAM, QColor(), size, 1.0))

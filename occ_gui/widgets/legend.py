@@ -17,8 +17,6 @@ Drawing: TypeAlias = Callable[[QPainter, QRectF, QPalette], None]
 
 
 class LineLegend(QWidget):
-    """Samples of lines with their names, in a row."""
-
     def __init__(self) -> None:
         super().__init__()
         self._row = QHBoxLayout(self)

@@ -12,7 +12,6 @@ Widget = TypeVar("Widget", bound=QWidget)
 
 
 def named(widget: Widget, name: str, tip: str = "") -> Widget:
-    """Set the name that a screen reader tells, and the tooltip."""
     widget.setAccessibleName(name)
     if tip:
         widget.setToolTip(tip)

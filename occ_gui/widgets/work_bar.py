@@ -35,7 +35,6 @@ class WorkBar(QWidget):
             self._patience.start()
 
     def show_progress(self, share: float) -> None:
-        """Show the finished share of the work, from 0 to 1."""
         self.progress.setValue(round(_STEPS * share))
 
     def end(self) -> None:

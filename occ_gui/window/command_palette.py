@@ -34,8 +34,6 @@ _MOVES = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_PageUp, Qt.Key.Key_PageDown
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A command that can be found by its text."""
-
     title: str
     hint: str
     run: Callable[[], object]

@@ -9,8 +9,6 @@ PICTURE = "picture"
 
 
 class CurrentPane(QObject):
-    """Follows the keyboard focus and the tabs from pane to pane."""
-
     def __init__(self, window: QMainWindow, docks: Mapping[str, QDockWidget]) -> None:
         super().__init__(window)
         self._window = window

@@ -21,8 +21,6 @@ def beside(place: QRect, screen: QRect) -> QRect:
 
 
 class Dock(QDockWidget):
-    """A pane that can be moved, hidden and floated."""
-
     opened_by_user = Signal()  # its entry in the menu has shown it
 
     def __init__(self, name: str, title: str, content: QWidget, parent: QWidget) -> None:

@@ -18,8 +18,6 @@ _WIDTH, _HEIGHT = 560, 560
 
 
 class ShortcutSheet(QDialog):
-    """A dialog with the keyboard shortcuts and their commands."""
-
     def __init__(self, rows: Iterable[tuple[str, str, str]], parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle("Keyboard shortcuts")

@@ -30,7 +30,6 @@ class TextSize(QObject):
         self.choose(SIZES[max(SIZES.index(self.percent) - 1, 0)])
 
     def normal(self) -> None:
-        """Take the system's size again."""
         self.choose(SIZES[0])
 
     def choose(self, percent: int) -> None:

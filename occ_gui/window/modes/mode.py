@@ -13,8 +13,6 @@ Groups = tuple[tuple[str, ...], ...]
 
 @dataclass(frozen=True, slots=True)
 class Mode:
-    """A layout of the window for one task."""
-
     centre: str  # the page in the middle; empty where the panes around it fill the window
     main: str
     left: Groups = ()

@@ -46,7 +46,6 @@ class ModeBar(QTabBar):
         self._actions[place].trigger()
 
     def draw(self) -> None:
-        """Draw the icons in the present colours, for the present screen."""
         ratio = self.devicePixelRatioF()
         self._icons = [icon(a.data(), self.palette(), ICON_SIZE, ratio) for a in self._actions]
         self._show_icons(True)

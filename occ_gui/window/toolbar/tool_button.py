@@ -31,12 +31,10 @@ class ToolButton(QToolButton):
         self._follow()
 
     def draw(self) -> None:
-        """Draw the icon in the present colours, for the present screen."""
         found = icon(self._drawing, self.palette(), ICON_SIZE, self.devicePixelRatioF())
         self.setIcon(found)
 
     def _follow(self) -> None:
-        """Take over name, keys and state of the action."""
         action = self.shown
         if not isValid(action):  # Qt tells of changes while it deletes the window
             return

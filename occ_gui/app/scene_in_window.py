@@ -37,12 +37,12 @@ class SceneInWindow(QObject):
         controls.preset_chosen.connect(parts.presets.load)
         controls.forced.released.connect(store.release_effects)
         editor.edit_started.connect(messages.end_refusal)
-        editor.input_refused.connect(messages.show_refusal)
+        editor.input_refused.connect(messages.show_note)
         store.changed.connect(self._show_scene)
         store.refused.connect(self._refuse)
         store.refused_for.connect(messages.show_refusal_for)
         store.settings.changed.connect(self._show_settings)
-        store.settings.refused.connect(messages.show_refusal)
+        store.settings.refused.connect(messages.show_note)
         parts.presets.changed.connect(self._list_presets)
         parts.preferences.changed.connect(self._list_recent)
 
@@ -93,7 +93,7 @@ class SceneInWindow(QObject):
     def _refuse(self, sentence: str) -> None:
         # The control still shows the refused value.
         self._parts.controls.show_scene(self._parts.store.scene)
-        self._parts.messages.show_refusal(sentence)
+        self._parts.messages.show_note(sentence)
 
     def _list_presets(self) -> None:
         presets, controls = self._parts.presets, self._parts.controls

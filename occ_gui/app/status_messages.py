@@ -30,15 +30,14 @@ class StatusMessages(QObject):
     def follow(self, *forms: "AccuracyView | PhotoView") -> None:
         """Show what forms refuse from now on, until an allowed value is entered there."""
         for form in forms:
-            form.refused.connect(self.show_refusal)
+            form.refused.connect(self.show_note)
             form.mended.connect(self.end_refusal)
 
-    def show_refusal(self, sentence: str) -> None:
-        """Show why an input is not valid, until the next change of scene or settings."""
-        self._window.say(sentence, until=_CHANGE)
-
     def show_note(self, sentence: str) -> None:
-        """Show what the user should know of the present scene, until it changes."""
+        """Show what the user should know of the present scene, such as why an input is refused.
+
+        It stays until the next change of scene or settings.
+        """
         self._window.say(sentence, until=_CHANGE)
 
     def show_refusal_for(self, sentence: str, parameters: Sequence[str]) -> None:

@@ -147,4 +147,5 @@ class _WholePictureWhileAsked(QObject):
 def _rows_per_pixel(story: StoryView, shell: Shell) -> float:
     """Return how many rows of the picture share a pixel where it is seen."""
     pane = shell.made_pane("picture") if story.shows_whole_picture else None
-    return story.rows_per_pixel() if pane is None else float(pane.view.rows_per_pixel())
+    stripes = story.rows.stripes
+    return stripes.rows_per_pixel() if pane is None else float(pane.view.rows_per_pixel())

@@ -20,6 +20,7 @@ from occ_gui.help.help_browser import HelpBrowser
 from occ_gui.help.manual_search import Section, search, sections
 from occ_gui.help.pages import pages
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import named
 
 _SIZE = QSize(960, 720)
 _LIST_WIDTH = 190
@@ -31,16 +32,15 @@ class HelpWindow(QMainWindow):
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._folder = folder
-        self.page_list = QListWidget()
-        self.page_list.setAccessibleName("Pages")
-        self.page_list.setToolTip("The pages of the manual, or the places found in them.")
+        tip = "The pages of the manual, or the places found in them."
+        self.page_list = named(QListWidget(), "Pages", tip)
         self.page_list.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self._pages = pages(folder)
         self._sections: list[Section] = []
-        self.search_all = QLineEdit()
-        self.browser = HelpBrowser()
-        self.browser.setAccessibleName("Page")
-        self.search = QLineEdit()
+        tip = "Lists the places with all these words; Enter shows the first."
+        self.search_all = _search_field("Search all pages", tip)
+        self.browser = named(HelpBrowser(), "Page")
+        self.search = _search_field("Find in this page", "Enter finds the next place.")
         self._lay_out()
         self._list(self._pages)
         self.page_list.itemActivated.connect(self._show_item)
@@ -56,20 +56,12 @@ class HelpWindow(QMainWindow):
         bar = QToolBar("Navigation", movable=False)
         self._add_history(bar)
         bar.addSeparator()
-        self.search.setPlaceholderText("Find in this page")
-        self.search.setAccessibleName("Find in this page")
-        self.search.setToolTip("Enter finds the next place.")
-        self.search.setClearButtonEnabled(True)
         self.search.setMaximumWidth(_SEARCH_WIDTH)
         bar.addWidget(self.search)
         self.addToolBar(bar)
         self._add_key(QKeySequence.StandardKey.Find, self.search.setFocus)
         self._add_key(QKeySequence("Ctrl+Shift+F"), self.search_all.setFocus)
         self._add_key(QKeySequence.StandardKey.Cancel, self.close)
-        self.search_all.setPlaceholderText("Search all pages")
-        self.search_all.setAccessibleName("Search all pages")
-        self.search_all.setToolTip("Lists the places with all these words; Enter shows the first.")
-        self.search_all.setClearButtonEnabled(True)
         left = QWidget()
         filled(QVBoxLayout(left), self.search_all, self.page_list, margins=0)
         parts = QSplitter()
@@ -163,3 +155,7 @@ class HelpWindow(QMainWindow):
         title = next((title for title, name in self._pages if name == url.fileName()), "")
         if title:
             self.setWindowTitle(f"Manual: {title}")
+
+
+def _search_field(name: str, tip: str) -> QLineEdit:
+    return named(QLineEdit(placeholderText=name, clearButtonEnabled=True), name, tip)

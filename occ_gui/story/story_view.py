@@ -159,10 +159,6 @@ class StoryView(QWidget):
             self._photo_verdict.setVisible(about)
             self.verdict.setHidden(about)
 
-    def rows_per_pixel(self) -> float:
-        """Return how many rows of the picture share a pixel of the screen in the stripes."""
-        return self.rows.stripes.rows_per_pixel()
-
     def show_picture(self, picture: Picture) -> None:
         self.rows.show_picture(picture)
 

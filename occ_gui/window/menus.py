@@ -57,10 +57,16 @@ class Menus(QObject):
         name: str,
         text: str,
         shortcut: QKeySequence.StandardKey | str | None = None,
+        tip: str = "",
+        *,
+        is_checkable: bool = False,
     ) -> QAction:
         action = menu.addAction(text)
         if shortcut is not None:
             action.setShortcut(QKeySequence(shortcut))
+        if tip:
+            action.setToolTip(tip)
+        action.setCheckable(is_checkable)
         self.actions[name] = action
         give_words(name, action)
         return action
@@ -92,8 +98,7 @@ class Menus(QObject):
         self._export = self.drop_downs["export"] = file.addMenu("E&xport")
         self._export.setToolTipsVisible(True)
         self._after_figures = self._export.addSeparator()
-        keys = "Ctrl+Shift+E"
-        self._add(self._export, "export_all", "A&ll figures…", keys)
+        self._add(self._export, "export_all", "A&ll figures…", "Ctrl+Shift+E")
 
     def add_figures(self, titles: Mapping[str, str], ask: Callable[[str], None]) -> None:
         for name, title in titles.items():
@@ -128,9 +133,8 @@ class Menus(QObject):
         menu.addSeparator()
         self._add(menu, "copy_figure", "Copy fi&gure", "Ctrl+Shift+C")
         menu.addSeparator()
-        hold = self._add(menu, "hold_brightness", "&Hold brightness", "Ctrl+B")
-        hold.setCheckable(True)
-        hold.setToolTip("While on, the ISO speed moves against the exposure time.")
+        tip = "While on, the ISO speed moves against the exposure time."
+        self._add(menu, "hold_brightness", "&Hold brightness", "Ctrl+B", tip, is_checkable=True)
         self._add(menu, "reset_scene", "Reset &scene")
 
     def _make_pin_menu(self, edit: QMenu) -> None:
@@ -197,33 +201,24 @@ class Menus(QObject):
         menu = self._view = self._top("view", "&View")
         self._make_mode_menu(menu)
         self._add(menu, "fit", "&Fit pictures", "Ctrl+0")
-        before = self._add(menu, "before", "&Before the change", "Ctrl+Alt+Z")
-        before.setCheckable(True)
-        before.setToolTip("Show the picture before the latest change beside the one now.")
-        measure = self._add(menu, "measure", "Meas&ure", "Ctrl+Shift+D")
-        measure.setCheckable(True)
-        measure.setToolTip("Two cursors, 1 and 2, that you drag over the rows.")
+        tip = "Show the picture before the latest change beside the one now."
+        self._add(menu, "before", "&Before the change", "Ctrl+Alt+Z", tip, is_checkable=True)
+        tip = "Two cursors, 1 and 2, that you drag over the rows."
+        self._add(menu, "measure", "Meas&ure", "Ctrl+Shift+D", tip, is_checkable=True)
         theme = self.drop_downs["theme"] = menu.addMenu("&Theme")
-        words = {
-            "system": "&System",
-            "light": "&Light",
-            "dark": "&Dark",
-        }
         self.themes = QActionGroup(self)
         for key in THEMES:
-            self._add_choice(theme, self.themes, f"theme_{key}", words[key], key)
+            self._add_choice(theme, self.themes, f"theme_{key}", f"&{key.capitalize()}", key)
         keys = QKeySequence.StandardKey
-        larger = self._add(menu, "text_larger", "Lar&ger text", keys.ZoomIn)
-        larger.setToolTip("As for a projector: all text of the window.")
+        tip = "As for a projector: all text of the window."
+        self._add(menu, "text_larger", "Lar&ger text", keys.ZoomIn, tip)
         self._add(menu, "text_smaller", "Smaller te&xt", keys.ZoomOut)
         self._add(menu, "text_normal", "&Normal text size", "Ctrl+Alt+0")
-        full = self._add(menu, "full_screen", "Fu&ll screen", "F11")
-        full.setToolTip("The window as large as the screen, as for a projector.")
-        FullScreen(window, full)
+        tip = "The window as large as the screen, as for a projector."
+        FullScreen(window, self._add(menu, "full_screen", "Fu&ll screen", "F11", tip))
         self._add(menu, "reset_layout", "&Reset layout")
-        strips = self._add(menu, "slider_strips", "&Slider strips")
-        strips.setCheckable(True)
-        strips.setToolTip("The share of bits that the decoder reads along each slider.")
+        tip = "The share of bits that the decoder reads along each slider."
+        self._add(menu, "slider_strips", "&Slider strips", tip=tip, is_checkable=True)
         menu.addSeparator()
         for dock in docks:
             self.add_dock(dock)
@@ -245,8 +240,7 @@ class Menus(QObject):
     def _add_choice(
         self, menu: QMenu, group: QActionGroup, name: str, text: str, key: str
     ) -> QAction:
-        action = self._add(menu, name, text)
-        action.setCheckable(True)
+        action = self._add(menu, name, text, is_checkable=True)
         action.setChecked(not group.actions())
         action.setData(key)
         group.addAction(action)

@@ -6,8 +6,6 @@ from typing import TypeVar
 from PySide6.QtCore import Qt, SignalInstance
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
-from occ_gui.widgets.plain_text import plain
-
 Widget = TypeVar("Widget", bound=QWidget)
 
 
@@ -25,8 +23,8 @@ def push_button(
     *,
     name: str = "",
 ) -> QPushButton:
-    """Make a button, whose name is its text by default."""
-    made = named(QPushButton(text), name or plain(text), tip)
+    """Make a button; without a name of its own Qt gives screen readers its present text."""
+    made = named(QPushButton(text), name, tip)
     if do is not None:
         made.clicked.connect(do)
     return made

@@ -14,6 +14,7 @@ from occ_gui.simulation.snapshot import Reading
 from occ_gui.simulation.verdict import is_right, left_out_in_words, result_of, verdict_on
 from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.state_look import State
+from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.decoding import DecodeResult, Location
 
 _MARKS = {State.GOOD: "✓ ", State.NEUTRAL: "", State.WAITING: "… "}
@@ -38,14 +39,11 @@ class DecodeView(QWidget):
         self.decoders.setAccessibleName("Decoder")
         self.decoders.setToolTip("Whose result and steps are shown.")
         self.decoders.currentChanged.connect(self._choose)
-        self.verdict = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
-        font = self.verdict.font()
-        font.setBold(True)
-        self.verdict.setFont(font)
+        self.verdict = emboldened(paragraph())
         self.origin = paragraph(name="What the code was read from")
         self.payload = PayloadText()
         self.strip = BitStrip()
-        self.reason = QLabel(wordWrap=True, textFormat=Qt.TextFormat.PlainText)
+        self.reason = paragraph()
         self.reason.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
         self.left_out = paragraph(name="What the picture leaves out")
         self._steps = {name: QLabel() for name in _STEPS}

@@ -8,10 +8,11 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QProgressBar, QVBoxLayout, QW
 from occ_gui.explanation.equation_text import EquationText
 from occ_gui.lessons.answer_field import AnswerField
 from occ_gui.lessons.shutter_animation import ShutterAnimation
-from occ_gui.lessons.texts import bold, heading, paragraph, typeset, typeset_paragraph
+from occ_gui.lessons.texts import heading, paragraph, typeset, typeset_paragraph
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import push_button
 from occ_gui.widgets.scroll_pane import ScrollPane
+from occ_gui.widgets.text_scale import emboldened
 from occ_model.results.lessons import CheckedAnswer, Lesson
 from occ_model.results.teaching import Equation
 from occ_model.scene.parameters import PARAMETERS
@@ -43,7 +44,7 @@ class StepPage(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.place, self.goal = paragraph(), heading()
-        self.text, self.question = typeset_paragraph(), bold(typeset_paragraph())
+        self.text, self.question = typeset_paragraph(), emboldened(typeset_paragraph())
         self.progress = QProgressBar(textVisible=False)
         self.progress.setFixedHeight(6)
         self.progress.setAccessibleName("Progress of the lesson")

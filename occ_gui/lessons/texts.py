@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
 from occ_gui.widgets import named
+from occ_gui.widgets.text_scale import emboldened
 
 _INDEX = re.compile(r"\b([A-Za-z]+)_([A-Za-z]+)\b")
 _HEADING = 1.25
@@ -29,15 +30,4 @@ def typeset_paragraph() -> QLabel:
 
 
 def heading(text: str = "") -> QLabel:
-    label = bold(paragraph(text))
-    font = label.font()
-    font.setPointSizeF(font.pointSizeF() * _HEADING)
-    label.setFont(font)
-    return label
-
-
-def bold(label: QLabel) -> QLabel:
-    font = label.font()
-    font.setBold(True)
-    label.setFont(font)
-    return label
+    return emboldened(paragraph(text), _HEADING)

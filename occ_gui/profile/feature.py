@@ -55,7 +55,7 @@ def profile_figure(store: Store, board: Board, about_photo: Callable[[], str]) -
         whole = (0, len(shown.profile))
         columns = slice(*(whole if pane is None else pane.view.columns_in_view()))
         enhanced = workspace.is_enhanced
-        band = shown.enhanced_band if enhanced else shown.band
+        band = shown.band_levels(enhanced=enhanced)
         decoded = shown.result_of(workspace.decoder)
 
         def draw() -> "Drawing":

@@ -226,8 +226,8 @@ class ProfileView(QWidget):
             return
         decoded = reading.decoded
         enhanced = self.enhanced.isChecked()
-        profile = _levels(reading, enhanced)
-        band = reading.enhanced_band if enhanced else reading.band
+        profile = reading.levels(enhanced=enhanced)
+        band = reading.band_levels(enhanced=enhanced)
         _draw(self.simulation, profile)
         _draw(self.band, band)
         self.reason.setText(reading.band_undefined or drift_sentence(reading))
@@ -266,7 +266,7 @@ class ProfileView(QWidget):
 
     def _draw_before(self) -> None:
         if self._before is not None:
-            self._before_levels = _levels(self._before, self.enhanced.isChecked())
+            self._before_levels = self._before.levels(enhanced=self.enhanced.isChecked())
             _draw(self.before, self._before_levels)
 
     def _fit_levels(self) -> None:
@@ -280,11 +280,7 @@ class ProfileView(QWidget):
     def _fit_columns(self, reading: Reading) -> None:
         if not (self._packets.isChecked() or self._panel.isChecked()):
             return
-        last_column = len(reading.profile) - 1
-        panel = np.clip(reading.corners[:, 0], 0, last_column)
-        first, last = float(panel.min()), float(panel.max())
-        if last - first < 1.0:  # the panel is out of the picture
-            first, last = 0.0, float(last_column)
+        first, last = reading.panel_columns
         if self._packets.isChecked():
             first = self._first_of_photo(first, last)
             last = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
@@ -296,10 +292,6 @@ class ProfileView(QWidget):
         if comparison is None or not first < comparison.first_column < last:
             return first
         return float(comparison.first_column)
-
-    @property
-    def is_enhanced(self) -> bool:
-        return self.enhanced.isChecked()
 
     def columns_in_view(self) -> tuple[int, int]:
         """Return the first visible column, and the one after the last."""
@@ -322,10 +314,6 @@ class ProfileView(QWidget):
         self._stop_following()
         clicked.setChecked(True)
         self._redraw()
-
-
-def _levels(reading: Reading, enhanced: bool) -> FloatArray:
-    return reading.signal if enhanced else reading.profile
 
 
 def _draw(

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
+import numpy as np
+
 from occ_gui.values.simulated import SimulationRequest
 from occ_model.arrays import FloatArray
 from occ_model.results.decoding import DecodeResult
@@ -47,6 +49,20 @@ class ColumnView:
 
     def result_of(self, decoder: str) -> DecodeResult | None:
         return next((result for result in self.results if result.decoder == decoder), None)
+
+    def levels(self, *, enhanced: bool) -> FloatArray:
+        return self.signal if enhanced else self.profile
+
+    def band_levels(self, *, enhanced: bool) -> FloatArray | None:
+        return self.enhanced_band if enhanced else self.band
+
+    @property
+    def panel_columns(self) -> tuple[float, float]:
+        """The panel's first and last column in the picture; the picture's where it is outside."""
+        last_column = len(self.profile) - 1
+        panel = np.clip(self.corners[:, 0], 0, last_column)
+        first, last = float(panel.min()), float(panel.max())
+        return (first, last) if last - first >= 1.0 else (0.0, float(last_column))
 
     @property
     def panel_origin(self) -> tuple[float, float]:

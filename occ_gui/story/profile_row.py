@@ -63,18 +63,14 @@ class ProfileRow(StoryRow):
 
     @property
     def levels(self) -> FloatArray | None:
-        reading = self._reading
-        if reading is None:
-            return None
-        return reading.profile if self._whose == "camera" else reading.signal
+        is_enhanced = self._whose != "camera"
+        return None if self._reading is None else self._reading.levels(enhanced=is_enhanced)
 
     @property
     def band(self) -> FloatArray | None:
         """The band model's level of each column, None where it is undefined."""
-        reading = self._reading
-        if reading is None:
-            return None
-        return reading.band if self._whose == "camera" else reading.enhanced_band
+        is_enhanced = self._whose != "camera"
+        return None if self._reading is None else self._reading.band_levels(enhanced=is_enhanced)
 
     @property
     def photo(self) -> tuple[FloatArray, FloatArray] | None:

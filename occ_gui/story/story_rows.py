@@ -1,6 +1,5 @@
 """Rows of the story: light, picture, profile and code over one axis of columns."""
 
-import numpy as np
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
@@ -216,7 +215,7 @@ class StoryRows(QWidget):
         if column is None or reading is None:
             return False
         follows = self.axis.is_following
-        first, last = (self.axis.first, self.axis.last) if follows else _panel_of(reading)
+        first, last = (self.axis.first, self.axis.last) if follows else reading.panel_columns
         return first <= column <= last
 
     def _set_range(self) -> None:
@@ -224,7 +223,7 @@ class StoryRows(QWidget):
         if reading is None:
             return
         last_column = len(reading.profile) - 1
-        first, last = _panel_of(reading)
+        first, last = reading.panel_columns
         if self.range == RANGES[0]:
             wanted = min(last, first + PACKETS_IN_VIEW * reading.packet_columns)
             last = wanted if self._held is None else min(first + self._held, last_column)
@@ -250,10 +249,3 @@ class StoryRows(QWidget):
         if reading is not None:
             found = measure(self.crosshair.cursors, reading.scene, self.profile.levels)
             self.measured_changed.emit("" if found is None else difference_in_words(found))
-
-
-def _panel_of(reading: ColumnView) -> tuple[float, float]:
-    last_column = len(reading.profile) - 1
-    panel = np.clip(reading.corners[:, 0], 0, last_column)
-    first, last = float(panel.min()), float(panel.max())
-    return (first, last) if last - first >= 1.0 else (0.0, float(last_column))

@@ -5,6 +5,7 @@ from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
 
 from occ_gui.widgets.icons import pixmap
+from occ_gui.widgets.text_scale import emboldened
 
 _PICTURE = 96
 _LARGER = 1.2
@@ -17,11 +18,8 @@ class Door(QPushButton):
     ) -> None:
         super().__init__(parent)
         self._name = picture
-        self._picture, self._title, self._sentence = QLabel(), QLabel(title), QLabel(sentence)
-        font = self._title.font()
-        font.setBold(True)
-        font.setPointSizeF(font.pointSizeF() * _LARGER)
-        self._title.setFont(font)
+        self._picture, self._sentence = QLabel(), QLabel(sentence)
+        self._title = emboldened(QLabel(title), _LARGER)
         self.setAccessibleName(title)
         self.setAccessibleDescription(sentence)
         layout = self._layout = QVBoxLayout(self)

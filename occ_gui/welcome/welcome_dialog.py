@@ -5,6 +5,8 @@ from PySide6.QtWidgets import QDialog, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.welcome.door import Door
 from occ_gui.widgets.layouts import filled
+from occ_gui.widgets.named import paragraph
+from occ_gui.widgets.text_scale import emboldened
 
 _LARGER = 1.5
 
@@ -18,16 +20,11 @@ class WelcomeDialog(QDialog):
         super().__init__(parent)
         self.setWindowTitle("Welcome")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        title = QLabel("Light that carries bits")
-        font = title.font()
-        font.setBold(True)
-        font.setPointSizeF(font.pointSizeF() * _LARGER)
-        title.setFont(font)
-        about = QLabel(
+        title = emboldened(QLabel("Light that carries bits"), _LARGER)
+        about = paragraph(
             "An LED panel blinks a code, a phone's camera photographs it as stripes, and the "
             "code is read back from them. See how, and where it ends."
         )
-        about.setWordWrap(True)
         self.doors = {
             "learn": Door(
                 "door-learn",

@@ -11,6 +11,7 @@ from occ_gui.widgets.chip_row import Chip, ChipRow
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.state_look import State, StateIcon, colours_of
+from occ_gui.widgets.text_scale import emboldened
 
 _ICON = 32
 _LARGER = 1.25
@@ -31,11 +32,7 @@ class StateBar(QWidget):
         self._sentences: tuple[str, ...] = ("",)
         self._shown: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
-        self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        font = self.title.font()
-        font.setBold(True)
-        font.setPointSizeF(_LARGER * font.pointSizeF())
-        self.title.setFont(font)
+        self.title = emboldened(ElidedLabel("", Qt.TextElideMode.ElideRight), _LARGER)
         self.sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.wrapped = QLabel(
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop

@@ -1,8 +1,12 @@
 """Text scale: four sizes of text, all relative to the application's font."""
 
 from enum import Enum
+from typing import TypeVar
 
 from PySide6.QtGui import QFont
+from PySide6.QtWidgets import QLabel
+
+Label = TypeVar("Label", bound=QLabel)
 
 
 class TextSize(Enum):
@@ -22,3 +26,12 @@ def scaled(font: QFont, size: TextSize, *, bold: bool = False) -> QFont:
         found.setPixelSize(round(size.value * font.pixelSize()))
     found.setBold(bold)
     return found
+
+
+def emboldened(label: Label, factor: float = 1.0) -> Label:
+    """Set a label in bold, in a size that is so many times its own."""
+    font = label.font()
+    font.setBold(True)
+    font.setPointSizeF(factor * font.pointSizeF())
+    label.setFont(font)
+    return label

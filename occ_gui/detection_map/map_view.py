@@ -90,8 +90,7 @@ class MapView(QWidget):
             ),
             {"rate": "success rate", "bits": "bits a second"},
         )
-        self.frame_rate = QuantityEdit(FRAME_RATE)
-        self.frame_rate.setAccessibleName(FRAME_RATE.label)
+        self.frame_rate = named(QuantityEdit(FRAME_RATE), FRAME_RATE.label)
         self.frame_rate.setToolTip(
             "Pictures a second, or as many as can be read out, each of another payload, if others "
             "are read as well."

@@ -18,7 +18,7 @@ from occ_gui.video.live_video import AXES
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.layouts import filled
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.plain_text import in_menu
 
 
@@ -52,8 +52,7 @@ class FilmBar(QWidget):
         self.lock = QCheckBox("Hold exposure")
         self.lock.setToolTip("Keep the camera's exposure as it is now.")
         self.read = push_button("", do=self.read_asked)
-        self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.title.setAccessibleName("Film")
+        self.title = named(ElidedLabel("", Qt.TextElideMode.ElideRight), "Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         buttons = QHBoxLayout()
         buttons.setContentsMargins(0, 0, 0, 0)

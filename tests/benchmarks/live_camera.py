@@ -6,12 +6,16 @@ machine that does nothing else, nearly all are.
 """
 
 import os
+import sys
 import time
+from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from dataclasses import replace
 
+from film_source import FilmSource
 from PySide6.QtCore import QDeadlineTimer, QEventLoop
 from PySide6.QtWidgets import QApplication
 
@@ -20,7 +24,6 @@ from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
-from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.wiring import VideoWiring
 
 SECONDS, RATE, DIFFERENT = 10.0, 30.0, 12

@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from film_source import FilmSource
 from gui.soak_errands import Errands
 from gui.wheel import turn_wheel, views_of
 from PIL import Image
@@ -25,7 +26,6 @@ from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.gesture import new_gesture
 from occ_gui.story.column_axis import Crosshair
 from occ_gui.values.placement import MODES
-from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
 from occ_model.effects.registry import NAMES

@@ -5,9 +5,10 @@ from threading import Event
 
 import numpy as np
 import pytest
+from film_source import FilmSource
 from gui.video.conftest import ListedSource
 
-from occ_gui.video.frame_source import FilmSource, LivePicture
+from occ_gui.video.frame_source import LivePicture
 from occ_gui.video.live_video import LiveVideo
 from occ_model.errors import VideoError
 from occ_model.results.video import Video

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from film_source import FilmSource
 from gui.user import User
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
@@ -15,7 +16,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.files.session_file import SessionFile
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.video.frame_source import FilmSource
 from occ_gui.video.marks import MarkState
 from occ_gui.video.wiring import VideoWiring
 from occ_model.results.video import Video

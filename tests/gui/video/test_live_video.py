@@ -154,8 +154,8 @@ def test_what_has_passed_is_not_kept() -> None:
 def test_a_film_stands_in_for_a_camera(film: Video, monkeypatch: pytest.MonkeyPatch) -> None:
     slept: list[float] = []
     naps: Callable[[float], None] = slept.append
-    monkeypatch.setattr("occ_gui.video.frame_source.sleep", naps)
-    monkeypatch.setattr("occ_gui.video.frame_source.monotonic", lambda: 7.0)
+    monkeypatch.setattr("film_source.sleep", naps)
+    monkeypatch.setattr("film_source.monotonic", lambda: 7.0)
     source = FilmSource(film, "A film")
     source.open()
     pictures = []

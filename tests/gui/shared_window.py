@@ -166,6 +166,7 @@ class SharedWindow:
 
     def __init__(self) -> None:
         self._kept: Application | None = None
+        self._scene: Scene | None = None
         self._first: list[object] = []
         self._home: Home | None = None
         self._before: list[QWidget] = []
@@ -178,6 +179,8 @@ class SharedWindow:
     @contextmanager
     def lent(self, qtbot: QtBot, scene: Scene) -> Iterator[Application]:
         """Lend the window to a test: the one that is kept, or a new one."""
+        if self._kept is not None and self._scene != scene:  # that of tests in another folder
+            self.close()
         if self._kept is None:
             self._open(qtbot, scene)
         assert self._kept is not None
@@ -191,7 +194,8 @@ class SharedWindow:
 
     def _open(self, qtbot: QtBot, scene: Scene) -> None:
         self._before = QApplication.topLevelWidgets()
-        self._kept = kept = new_window(qtbot, scene)
+        self._kept, self._scene = new_window(qtbot, scene), scene
+        kept = self._kept
         qtbot.wait(_SETTLED_MS)
         self._home = Home.of(kept)
         # Each test finds a window that had another scene, the first one too.

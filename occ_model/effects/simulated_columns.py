@@ -60,14 +60,19 @@ class SimulatedColumns:
         """Return the values of all columns on the panel."""
         key = included & self._of_value
         if key not in self._profile:
-            light, view = self.light(key), self._view
-            is_known = light is view.light
-            found = view.values if is_known else panel_values(view.scene, light, fast_power)
-            for limit in self._limits:
-                if limit.name in key:
-                    found = limit.apply(view.scene, found)
-            self._profile[key] = saturate(found)
+            self._profile[key] = self.dimmed(key)
         return self._profile[key]
+
+    def dimmed(self, included: Names, factor: FloatArray | float = 1.0) -> FloatArray:
+        """Return these times factors, as a lens dims columns before they are full or white."""
+        light, view = self.light(included), self._view
+        is_known = light is view.light
+        values = view.values if is_known else panel_values(view.scene, light, fast_power)
+        values = values * factor
+        for limit in self._limits:
+            if limit.name in included:
+                values = limit.apply(view.scene, values)
+        return saturate(values)
 
     def enhancement(self, included: Names) -> Enhancement:
         """Return the receiver's enhancement of the profile."""

@@ -3,9 +3,9 @@
 import numpy as np
 
 from occ_model.arrays import FloatArray
+from occ_model.camera.photometry import fast_power
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
-from occ_model.effects.simulated_columns import Names
 from occ_model.effects.smoothed_curves import SmoothedCurves
 
 _MISSED_FRACTION = 0.1
@@ -15,24 +15,26 @@ _MISSED_FRACTION = 0.1
 def add_unsampled(
     pixels: SampledPixels, found: Observed, curves: SmoothedCurves | None = None
 ) -> None:
-    """Add to the mean square of each change of the light what columns beside the sample add to it.
+    """Add to the mean square of each change what columns beside the sample add to it.
 
-    Where most columns are white or black, or an enhancement makes them so, a change shows in the
-    few that are not. All columns of a profile cost microseconds, without the enhancement's curves.
+    Where most columns are white or black, or an enhancement makes them so, a change of the light
+    shows in the few that are not. All columns of a profile cost microseconds, without the
+    enhancement's curves.
     """
     if pixels.unsampled is None:
         return
-    whole = pixels.profile(pixels.names)
-    for effect in (*pixels.lights, *pixels.limits):
+    for effect in (*pixels.lights, *pixels.limits, *pixels.lenses):
+        profiles = _profiles(pixels, effect.name)
+        if profiles is None:
+            continue
         sets = [pixels.names, pixels.names - {effect.name}]
-        profiles = np.stack([whole, pixels.profile(sets[1])])
         changed = profiles
         if curves is not None:  # as if there were no noise
-            changed = np.stack(
-                [_enhanced(pixels, *pair) for pair in zip(sets, profiles, strict=True)]
-            )
+            pairs = zip(sets, profiles, strict=True)
+            levels = [pixels.columns.enhancement(one)(own) for one, own in pairs]
+            changed = np.array(levels, dtype=np.float64)
         squares = (changed[1] - changed[0]) ** 2
-        if squares @ pixels.unsampled < _MISSED_FRACTION * squares.mean():
+        if squares @ pixels.unsampled <= _MISSED_FRACTION * squares.mean():
             continue
         if curves is not None:
             changed = curves.enhanced(sets, profiles)
@@ -40,5 +42,20 @@ def add_unsampled(
         found.alone[effect.name] = found.alone.get(effect.name, 0.0) + max(missed, 0.0)
 
 
-def _enhanced(pixels: SampledPixels, included: Names, profile: FloatArray) -> FloatArray:
-    return pixels.columns.enhancement(included)(profile).astype(np.float64)
+def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:
+    """Return the profile with an effect and without it, None where it moves rims alone.
+
+    What dims each pixel otherwise is taken for its mean over the rows.
+    """
+    sample, region = pixels.sample, pixels.view.region
+    gain = sample.emission.get(name, sample.transmission.get(name))
+    whole = pixels.profile(pixels.names)
+    if gain is None:
+        is_rim = name in sample.outline
+        return None if is_rim else np.stack([whole, pixels.profile(pixels.names - {name})])
+    order = np.argsort(sample.columns)
+    dimmed = pixels.mean_of_rows(fast_power(gain, 1.0 / pixels.scene.camera.gamma))
+    places = np.arange(pixels.scene.camera.columns)
+    factor = np.interp(places, sample.columns[order], dimmed[order])
+    seen = pixels.columns.dimmed(pixels.names, factor)[region.first_column : region.last_column]
+    return np.stack([seen, whole])

@@ -20,9 +20,9 @@ from occ_gui.widgets.plain_text import LONGEST
 from occ_model.errors import OccError, one_line
 from occ_model.results.lessons import Lesson, LessonList, Step
 from occ_model.teaching.explanations import explanation
+from occ_model.teaching.exposure_window import rolling_shutter
 from occ_model.teaching.lessons import lessons
 from occ_model.teaching.quantities import QUANTITIES
-from occ_model.teaching.rolling_shutter import rolling_shutter
 
 
 class LessonController(QObject):

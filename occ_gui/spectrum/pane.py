@@ -7,8 +7,7 @@ from occ_gui.shell.results import of_snapshot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.spectrum.spectrum_view import SpectrumView
 from occ_model.errors import ParameterError
-from occ_model.study.level_histogram import level_histogram
-from occ_model.study.spectrum import profile_spectrum
+from occ_model.study.spectrum import level_histogram, profile_spectrum
 
 
 class SpectrumPane(Pane[Snapshot]):

@@ -12,6 +12,7 @@ from occ_model.commands.options import (
     number,
     scene_of,
 )
+from occ_model.files.film_kinds import is_film
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import load_photo
 from occ_model.program import EXIT_FAILURE
@@ -20,7 +21,6 @@ from occ_model.receiver.decoders import DECODERS, PAPER_DECODER
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.video.clock import READOUT_TOLERANCE
-from occ_model.video.file.kind import is_film
 
 
 def add_to(commands: Commands) -> None:

@@ -1,10 +1,11 @@
-"""The regions and lamps of ``occ-model match`` as text."""
+"""The chips, regions and lamps of ``occ-model match`` as text."""
 
 import re
 
 from occ_model.errors import ParameterError, shown
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
+from occ_model.results.match import ChipReading
 from occ_model.scene.units import Unit
 
 _REGION = re.compile(r"(\d{1,9}):(\d{1,9}),(\d{1,9}):(\d{1,9})")
@@ -36,3 +37,15 @@ def lamp_lines(number: int, lamp: Lamp) -> list[str]:
     if lamp.reflections:
         lines.append(f"reflected at {', '.join(map(str, lamp.reflections))}")
     return lines
+
+
+def chip_lines(reading: ChipReading) -> list[str]:
+    """Describe the chips read from a photo in lines."""
+    return [
+        f"{'chips':22}{reading.text}",
+        f"{'chips in view':22}{len(reading.chips)}, between the first edge and the last one",
+        f"{'chip length':22}{reading.columns_per_chip:.3f} columns",
+        f"{'first chip from':22}column {reading.start:.1f}",
+        f"{'all right with':22}a probability of {100.0 * reading.confidence:.0f} %",
+        f"{'region':22}{reading.region}",
+    ]

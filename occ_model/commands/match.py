@@ -4,11 +4,9 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.assumption import assumption_of
-from occ_model.commands.chip_report import chip_lines
-from occ_model.commands.lamp_report import lamp_lines, region_from
+from occ_model.commands.lamp_report import chip_lines, lamp_lines, region_from
 from occ_model.commands.match_many import add_many_options, run_many, written_by
-from occ_model.commands.options import Commands, add_scene_options, scene_of
+from occ_model.commands.options import Commands, add_scene_options, assumption_of, scene_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import MatchError, ParameterError, one_line
 from occ_model.photo.chips.read import read_chips

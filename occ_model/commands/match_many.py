@@ -5,8 +5,8 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
-from occ_model.commands.assumption import assumption_of
 from occ_model.commands.files import SCENE_FILE, TABLE, Written
+from occ_model.commands.options import assumption_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, one_line
 from occ_model.files.writing import check_replaceable, write_whole

@@ -8,6 +8,7 @@ from typing import IO, TYPE_CHECKING, NoReturn, TypeAlias
 from occ_model.effects.registry import NAMES
 from occ_model.errors import ParameterError, one_line, shown
 from occ_model.receiver.decoders import DECODERS, decoders
+from occ_model.results.assumption import assumption
 from occ_model.scene.argument_checks import check_choice, check_seed
 from occ_model.scene.from_text import DEFAULT_PRESET, read_scene_file, with_settings
 from occ_model.scene.presets import load_preset
@@ -153,3 +154,11 @@ def simulation_settings_of(options: argparse.Namespace) -> SimulationSettings:
         noise=options.noise,
         seed=options.seed,
     )
+
+
+def assumption_of(name: str, value: float, chips: int, options: argparse.Namespace) -> str:
+    """Name the value that the estimates of time rest on; empty where the command line states it."""
+    stated = {setting.partition("=")[0].strip() for setting in options.settings}
+    if options.led_frequency is not None:
+        stated.add("switching_frequency")
+    return "" if name in stated else assumption(name, value, chips)

@@ -5,8 +5,7 @@ from pathlib import Path
 
 from occ_model.boards.caution import EYES, flicker_sentence
 from occ_model.boards.chip_table import frequency_lines
-from occ_model.boards.file_names import SCENE, file_names
-from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, board_named
+from occ_model.boards.sketch import BOARDS, DEFAULT_BOARD, SCENE, board_named, file_names
 from occ_model.boards.transmission import Transmission, transmission
 from occ_model.boards.waveform_files import wav_timing
 from occ_model.commands.files import Written

@@ -1,9 +1,10 @@
-"""Drawings, which are figures with the numbers in them: their style, and writing them to files."""
+"""Drawings, figures with the numbers in them: their style and tables, and writing them to files."""
 
+import csv
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
-from io import BytesIO
+from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,6 @@ from matplotlib.figure import Figure
 from occ_model import colours
 from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
-from occ_model.figures.table import write_table
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
 from occ_model.scene.simulation_settings import SimulationSettings
@@ -129,3 +129,23 @@ def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
         f"noise {settings.noise}",
         f"by hand: {forced or 'nothing'}",
     )
+
+
+def write_table(
+    path: Path, header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
+) -> None:
+    """Write a table; None becomes an empty cell."""
+    write_whole(path, table_text(header, rows, provenance).encode("utf-8"))
+
+
+def table_text(
+    header: Sequence[str], rows: Iterable[Sequence[object]], provenance: Provenance
+) -> str:
+    """Write a table as text; the arguments are those of :func:`write_table`."""
+    text = StringIO()
+    for line in provenance.lines():
+        text.write(f"# {line}".rstrip() + "\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(header)
+    writer.writerows(rows)
+    return text.getvalue()

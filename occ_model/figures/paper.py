@@ -13,8 +13,7 @@ from matplotlib.patches import Polygon
 from occ_model.arrays import FloatArray
 from occ_model.camera.projection import row_spans
 from occ_model.errors import BandModelUndefined, one_line
-from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure
-from occ_model.figures.table import write_table
+from occ_model.figures.drawing import BAND, PHOTO, SIMULATION, save_figure, write_table
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import Frame
 from occ_model.results.sweep import SweepTable

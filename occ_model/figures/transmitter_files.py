@@ -2,13 +2,11 @@
 
 from pathlib import Path
 
-from occ_model.boards.file_names import file_names
-from occ_model.boards.sketch import source_text
+from occ_model.boards.sketch import file_names, source_text
 from occ_model.boards.transmission import Transmission
 from occ_model.boards.waveform_files import HEADER, edge_rows, vcd_text, wav_bytes
 from occ_model.errors import OutputError
-from occ_model.figures.drawing import figure_bytes, house_style
-from occ_model.figures.table import table_text
+from occ_model.figures.drawing import figure_bytes, house_style, table_text
 from occ_model.figures.wiring import wiring_figure
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from occ_model.errors import VideoError, one_line
+from occ_model.errors import SceneFileError, VideoError, one_line
+from occ_model.files.reading import read_start
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,3 +56,20 @@ def kind_of_film(start: bytes) -> Container | None:
     if start[:8] == b"\x89PNG\r\n\x1a\n":
         return _PNG
     return None
+
+
+_PICTURES = (b"heic", b"heix", b"heim", b"heis", b"mif1", b"avif", b"crx ")  # HEIC, AVIF, CR3
+_ANIMATED = b"acTL"  # the chunk that an animated PNG has before its first picture
+_START = 4096
+
+
+def is_film(path: Path) -> bool:
+    """Whether a file holds a film, as far as its first bytes tell; not whether it can be read."""
+    try:
+        start = read_start(path, _START)
+    except SceneFileError:
+        return False
+    kind = kind_of_film(start)
+    if kind is _PNG:
+        return _ANIMATED in start.partition(b"IDAT")[0]
+    return kind is not None and not (start[4:8] == b"ftyp" and start[8:12] in _PICTURES)

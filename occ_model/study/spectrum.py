@@ -1,10 +1,11 @@
-"""Spectrum of a profile, beside the response of the exposure that shaped it."""
+"""Measure a picture: the spectrum of its profile, beside the exposure's, and its levels."""
 
+import cv2
 import numpy as np
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import ParameterError
-from occ_model.results.spectrum import Spectrum
+from occ_model.results.spectrum import LEVELS, LevelHistogram, Spectrum
 from occ_model.scene.scene import Scene, check_scene
 
 _MIN_COLUMNS = 8
@@ -38,3 +39,11 @@ def profile_spectrum(profile: FloatArray, scene: Scene) -> Spectrum:
         response=np.abs(np.sinc(frequencies * exposure)),
         zeros=tuple(k / exposure for k in range(1, count + 1)),
     )
+
+
+def level_histogram(image: ByteArray) -> LevelHistogram:
+    """Count the grey levels of a picture."""
+    if not image.size:
+        return LevelHistogram(np.zeros(LEVELS))
+    counts = cv2.calcHist([np.ascontiguousarray(image)], [0], None, [LEVELS], [0, LEVELS])
+    return LevelHistogram(counts.ravel().astype(np.float64) / image.size)

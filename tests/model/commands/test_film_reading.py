@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from occ_model.cli import main
-from occ_model.video.file.kind import is_film
+from occ_model.files.film_kinds import is_film
 
 SCENE = [
     "--preset", "phone-68us", "--set", "columns=720", "--set", "rows=32",

@@ -5,8 +5,7 @@ from pathlib import Path
 import pytest
 
 import occ_model as occ
-from occ_model.boards.file_names import file_names
-from occ_model.boards.sketch import board_named
+from occ_model.boards.sketch import board_named, file_names
 from occ_model.cli import main
 from occ_model.figures import transmitter_files
 from occ_model.scene.provenance import scene_inside

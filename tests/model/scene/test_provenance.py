@@ -13,8 +13,7 @@ from matplotlib.figure import Figure
 
 import occ_model as occ
 from occ_model.cli import main
-from occ_model.figures.drawing import FORMATS, house_style, write_figure
-from occ_model.figures.table import write_table
+from occ_model.figures.drawing import FORMATS, house_style, write_figure, write_table
 from occ_model.scene.from_text import read_scene_file
 from occ_model.scene.provenance import ENDINGS, Provenance, scene_inside, scenes_in
 from occ_model.scene.scene import Scene

@@ -13,8 +13,13 @@ from occ_model.effects.paper_view import paper_view_of
 from occ_model.results.accuracy import ACCURACY_PARTS, AccuracyPoint
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-from occ_model.study.accuracy import SAMPLES, accuracy, point_count
-from occ_model.study.sampling import exact_lit_fraction, sampled_lit_fraction
+from occ_model.study.accuracy import (
+    SAMPLES,
+    accuracy,
+    exact_lit_fraction,
+    point_count,
+    sampled_lit_fraction,
+)
 
 SMALL = ("rows=80", "columns=400", "panel_width=0.1", "panel_height=0.08")
 

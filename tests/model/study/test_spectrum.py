@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_model.study.level_histogram import level_histogram
-from occ_model.study.spectrum import profile_spectrum
+from occ_model.study.spectrum import level_histogram, profile_spectrum
 
 
 @pytest.mark.parametrize(("amplitude", "cycles"), [(10.0, 40), (3.0, 123), (80.0, 400)])

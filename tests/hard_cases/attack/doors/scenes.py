@@ -119,8 +119,7 @@ def exported() -> dict[str, bytes]:
     """A small file of each kind that carries a scene."""
     from matplotlib.figure import Figure
 
-    from occ_model.figures.drawing import figure_bytes
-    from occ_model.figures.table import table_text
+    from occ_model.figures.drawing import figure_bytes, table_text
 
     scenes = {"at hand": occ.Scene(), "é (x) \\": occ.Scene().replace(pattern="10")}
     provenance = Provenance("A title & more", scenes, seed=1, notes=("a (note) \\",))

@@ -12,7 +12,7 @@ from occ_model.boards.timing import ChipTiming, best_timing
 from occ_model.errors import ParameterError
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.line_codes.line_code import VISIBLE_LIMIT
-from occ_model.transmitter.packet import packet
+from occ_model.transmitter.packet import packet, shortest_period
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Transmission:
         """Lowest frequency in Hz that the light contains; None where it never changes."""
         if not self.edges:
             return None
-        return self.timing.frequency / _shortest_period(self.chips)
+        return self.timing.frequency / shortest_period(self.chips)
 
     @property
     def is_visible(self) -> bool:
@@ -84,10 +84,3 @@ def table_size(board: Board, chips: int) -> int:
 def repeats_to_words(chips: int) -> int:
     """Count the periods that fill whole words of 32 chips."""
     return next(times for times in (1, 2, 4, 8, 16, 32) if chips * times % 32 == 0)
-
-
-def _shortest_period(chips: ByteArray) -> int:
-    """Return the fewest chips after which the endless sequence repeats itself."""
-    count = len(chips)
-    divisors = (number for number in range(1, count + 1) if count % number == 0)
-    return next(number for number in divisors if np.array_equal(np.roll(chips, number), chips))

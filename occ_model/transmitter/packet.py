@@ -64,6 +64,13 @@ def sends_paper_code(transmitter: Transmitter) -> bool:
     return not (transmitter.pattern or transmitter.payload) and scheme_of(transmitter).is_papers
 
 
+def shortest_period(chips: ByteArray) -> int:
+    """Return the fewest chips after which chips sent repeatedly repeat themselves."""
+    count = len(chips)
+    divisors = (number for number in range(1, count + 1) if count % number == 0)
+    return next(number for number in divisors if np.array_equal(np.roll(chips, number), chips))
+
+
 def packets(codes: IndexArray, bits: int) -> ByteArray:
     """Return the packets of some codes by the paper's scheme, shape (codes, chips)."""
     places = np.arange(bits)[::-1]

@@ -28,18 +28,10 @@ _MIN_DEVIATION = 0.15  # minimum standard deviation of a place predicted by the 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """The place of a frame's first chip in the period.
+    """The place of a frame's first chip in the period."""
 
-    Parameters
-    ----------
-    chip
-        From 0 to below the period's length.
-    is_confirmed
-        Whether a header or the chips show it; else the clock alone does.
-    """
-
-    chip: int
-    is_confirmed: bool
+    chip: int  # From 0 to below the period's length
+    is_confirmed: bool  # Whether a header or the chips show it; else the clock alone does
 
 
 class Joined:

@@ -18,7 +18,7 @@ from occ_model.transmitter.framings.paper import FRAMING as PAPER
 from occ_model.transmitter.framings.paper import HEADER, find_headers
 from occ_model.transmitter.framings.preamble import FRAMING as PREAMBLE
 from occ_model.transmitter.framings.raw import FRAMING as RAW
-from occ_model.transmitter.packet import sent_chips
+from occ_model.transmitter.packet import sent_chips, shortest_period
 from occ_model.transmitter.scheme import Scheme, scheme_of
 
 _MIN_PREAMBLE_CHIPS = 10  # minimum length of a preamble that a payload rarely contains by chance
@@ -43,10 +43,7 @@ class SentPeriod:
         if not self.transmitter.pattern:
             return None
         chips = sent_chips(self.transmitter)
-        for length in range(1, len(chips) + 1):
-            if len(chips) % length == 0 and (chips.reshape(-1, length) == chips[:length]).all():
-                return chips[:length]
-        return chips
+        return chips[: shortest_period(chips)]
 
     @cached_property
     def length(self) -> int:

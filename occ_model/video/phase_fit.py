@@ -18,6 +18,7 @@ _MAX_JUMPS = 8
 
 _MIN_TO_COMPARE = 16  # minimum frames for a correlation of neighbouring residuals
 _CORRELATED_DEVIATIONS = 2.5  # standard deviations from which that correlation is significant
+_SIGMA_OF_MEDIAN = 1.4826  # standard deviation over median deviation of a normal distribution
 _MIN_DEVIATION = 1e-5  # least standard deviation of a phase in chips that is believed
 
 
@@ -135,7 +136,7 @@ def _alike(residuals: FloatArray) -> float:
 
 
 def _typical(solution: _Solution) -> float:
-    return 1.4826 * float(np.median(np.abs(solution.residuals)))
+    return _SIGMA_OF_MEDIAN * float(np.median(np.abs(solution.residuals)))
 
 
 def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
@@ -144,7 +145,7 @@ def _local_spread(residuals: FloatArray, errors: FloatArray) -> float:
     if len(residuals) < 3:
         return max(least, _MIN_DEVIATION)
     steps = np.abs(np.diff(residuals))
-    return max(1.4826 / math.sqrt(2.0) * float(np.median(steps)), least, _MIN_DEVIATION)
+    return max(_SIGMA_OF_MEDIAN / math.sqrt(2.0) * float(np.median(steps)), least, _MIN_DEVIATION)
 
 
 def _largest_jump(

@@ -24,16 +24,8 @@ class Phases:
     period: float  # Chips after which what is sent repeats
 
     def first(self, count: int) -> "Phases":
-        part = slice(0, count)
-        return replace(
-            self,
-            times=self.times[part],
-            columns=self.columns[part],
-            places=self.places[part],
-            errors=self.errors[part],
-            steps=self.steps[part],
-            step_errors=self.step_errors[part],
-        )
+        names = ("times", "columns", "places", "errors", "steps", "step_errors")
+        return replace(self, **{name: getattr(self, name)[:count] for name in names})
 
 
 @dataclass(frozen=True, slots=True)

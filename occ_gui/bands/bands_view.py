@@ -19,8 +19,8 @@ from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark
 from occ_gui.widgets.text_scale import TextSize, scaled
-from occ_model.results.bands import SpeedDepth
-from occ_model.scene.units import HERTZ, SECOND
+from occ_model.results.bands import SpeedDepth, percent
+from occ_model.scene.units import SECOND
 
 _DIGITS = 4
 
@@ -96,7 +96,7 @@ class BandsView(QWidget):
         self.table.setRowCount(len(self._speeds))
         for row, speed in enumerate(self._speeds):
             cells = (
-                speed.name, _percent(speed.at_nominal), _percent(speed.at_real),
+                speed.name, percent(speed.at_nominal), percent(speed.at_real),
                 *_verdict(speed),
             )  # fmt: skip
             *texts, meaning = cells
@@ -122,34 +122,22 @@ class BandsView(QWidget):
         depth = found.depth.peak_to_peak
         exposure = SECOND.format(found.scene.camera.exposure_time, _DIGITS)
         if depth < found.advice.limit:
-            return f"No bars at {exposure}: {_percent(depth)}"
-        return f"Bars of {_percent(depth)} of the mean light at {exposure}"
+            return f"No bars at {exposure}: {percent(depth)}"
+        return f"Bars of {percent(depth)} of the mean light at {exposure}"
 
     def _sentences(self, found: ShownBands) -> list[str]:
-        depth, advice, eye = found.depth, found.advice, found.eye
+        depth, advice = found.depth, found.advice
         seen = "they are seen" if depth.is_visible else "they are not seen"
         lines = [
-            (
-                f"RMS {_percent(depth.rms)}; in pixel values "
-                f"{_percent(depth.pixel.peak_to_peak)} peak to peak: {seen}."
-            ),
-            (
-                "The lamp's bars vanish at whole multiples of "
-                f"{SECOND.format(advice.valley, _DIGITS)}."
-            ),
+            f"RMS {percent(depth.rms)}; in pixel values "
+            f"{percent(depth.pixel.peak_to_peak)} peak to peak: {seen}.",
+            advice.sentence,
         ]
         if advice.all_exposures is not None:
             lines[-1] += f" From {SECOND.format(advice.all_exposures, 3)} on no exposure shows 1 %."
         if found.scene.transmitter.edge_time:
             lines.append("The map is of sharp edges: the LED's own make weaker bars.")
-        if not eye.percent_flicker:
-            return [*lines, "For the eye: the lamp's light does not flicker."]
-        lines.append(
-            f"For the eye: percent flicker {eye.percent_flicker:.3g} %, flicker index "
-            f"{eye.flicker_index:.2g}, SVM {eye.visibility:.2g}; by IEEE 1789-2015 {eye.risk} "
-            f"as a whole ({HERTZ.format(eye.frequency, 3)}), {eye.parts_risk} by each of its sines."
-        )
-        return lines
+        return [*lines, " ".join(found.eye.sentences)]
 
 
 def _verdict(speed: SpeedDepth) -> tuple[str, str]:
@@ -159,7 +147,3 @@ def _verdict(speed: SpeedDepth) -> tuple[str, str]:
         return "yes", f"{speed.name} shows bars."
     which = "the time that is written" if speed.at_nominal < speed.at_real else "a power of two"
     return "depends", f"{speed.name} shows no bars if the camera keeps {which}."
-
-
-def _percent(share: float) -> str:
-    return f"{100.0 * share:.3g} %" if share > 1e-9 else "0 %"

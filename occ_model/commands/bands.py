@@ -3,7 +3,7 @@
 import argparse
 
 from occ_model.commands.options import Commands, add_scene_options, number, scene_of
-from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, EyeFlicker
+from occ_model.results.bands import NO_BARS_DEPTH, BandAdvice, BandDepth, percent
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
@@ -32,8 +32,7 @@ def _run(options: argparse.Namespace) -> int:
     advice = band_advice(scene, options.limit / 100.0)
     for line in (*_depth(scene, band_depth(scene)), *_advice(scene, advice)):
         print(line)
-    for line in _eye(eye_flicker(scene)):
-        print(line)
+    print("\n  ".join(eye_flicker(scene).sentences))
     return 0
 
 
@@ -41,13 +40,13 @@ def _depth(scene: Scene, found: BandDepth) -> list[str]:
     exposure = SECOND.format(scene.camera.exposure_time)
     columns = f"{found.period:.4g} columns" if found.period < scene.camera.columns else "none"
     return [
-        f"Bars at {exposure}: {_percent(found.peak_to_peak)} of the mean light peak to peak, "
-        f"{_percent(found.rms)} RMS;",
-        f"  in pixel values {_percent(found.pixel.peak_to_peak)} and {_percent(found.pixel.rms)}; "
+        f"Bars at {exposure}: {percent(found.peak_to_peak)} of the mean light peak to peak, "
+        f"{percent(found.rms)} RMS;",
+        f"  in pixel values {percent(found.pixel.peak_to_peak)} and {percent(found.pixel.rms)}; "
         f"from bar to bar: {columns}; "
         f"{'visible' if found.is_visible else 'not visible'} on a display "
-        f"(there {_percent(found.contrast)} of the mean light peak to peak, seen from "
-        f"{_percent(found.threshold)}).",
+        f"(there {percent(found.contrast)} of the mean light peak to peak, seen from "
+        f"{percent(found.threshold)}).",
     ]
 
 
@@ -55,11 +54,10 @@ def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
     limit = f"{100.0 * advice.limit:.3g} %"
     frequency = HERTZ.format(scene.transmitter.switching_frequency, _DIGITS)
     exposure = SECOND.format(scene.camera.exposure_time)
-    valley = SECOND.format(advice.valley, _DIGITS)
     exposures = [_range(SECOND, ends) for ends in advice.exposures]
     frequencies = [_range(HERTZ, ends) for ends in advice.frequencies]
     lines = [
-        f"The lamp's bars vanish at whole multiples of {valley}.",
+        advice.sentence,
         f"At {frequency} exposures with less than {limit}: "
         f"{_listed(exposures, advice.all_exposures, SECOND)}.",
         f"At {exposure} switching frequencies with less than {limit}: "
@@ -81,27 +79,9 @@ def _advice(scene: Scene, advice: BandAdvice) -> list[str]:
                 if each.at_nominal == least
                 else ("no bars if the camera keeps the latter")
             )
-        row = (
-            f"{each.name:13}  {_percent(each.at_nominal):8}  {_percent(each.at_real):8}  {verdict}"
-        )
+        row = f"{each.name:13}  {percent(each.at_nominal):8}  {percent(each.at_real):8}  {verdict}"
         lines.append(row.rstrip())
     return lines
-
-
-def _eye(found: EyeFlicker) -> list[str]:
-    if not found.percent_flicker:
-        return ["For the eye: the lamp's light does not flicker."]
-    repeats = HERTZ.format(found.frequency, _DIGITS)
-    return [
-        f"For the eye: percent flicker {found.percent_flicker:.3g} %, flicker index "
-        f"{found.flicker_index:.3g}, SVM {found.visibility:.3g} (1: half of the observers see it);",
-        f"  by IEEE 1789-2015: {found.risk} as a whole, repeated at {repeats}; "
-        f"{found.parts_risk} by each of its sines.",
-    ]
-
-
-def _percent(fraction: float) -> str:
-    return f"{100.0 * fraction:.3g} %" if fraction > 1e-9 else "0 %"
 
 
 def _range(unit: Unit, ends: tuple[float, float]) -> str:

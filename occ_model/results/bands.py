@@ -4,8 +4,14 @@ from dataclasses import dataclass
 
 from occ_model.arrays import FloatArray
 from occ_model.scene.scene import Scene
+from occ_model.scene.units import HERTZ, SECOND
 
 NO_BARS_DEPTH = 0.01  # peak-to-peak depth relative to the mean below which there are no bars
+
+
+def percent(fraction: float) -> str:
+    """Write a depth in percent, rounding errors as 0."""
+    return f"{100.0 * fraction:.3g} %" if fraction > 1e-9 else "0 %"
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +116,11 @@ class BandAdvice:
     all_frequencies: float | None
     speeds: tuple[SpeedDepth, ...]
 
+    @property
+    def sentence(self) -> str:
+        """At which exposures the code leaves no bars."""
+        return f"The lamp's bars vanish at whole multiples of {SECOND.format(self.valley, 4)}."
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DepthMap:
@@ -162,6 +173,19 @@ class EyeFlicker:
     modulations: FloatArray
     risk: str
     parts_risk: str
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """The measures in words, in one part or two."""
+        if not self.percent_flicker:
+            return ("For the eye: the lamp's light does not flicker.",)
+        return (
+            f"For the eye: percent flicker {self.percent_flicker:.3g} %, flicker index "
+            f"{self.flicker_index:.3g}, SVM {self.visibility:.3g} (1: half of the observers see "
+            "it);",
+            f"by IEEE 1789-2015: {self.risk} as a whole, repeated at "
+            f"{HERTZ.format(self.frequency, 4)}; {self.parts_risk} by each of its sines.",
+        )
 
 
 @dataclass(frozen=True, slots=True)

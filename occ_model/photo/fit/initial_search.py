@@ -31,10 +31,6 @@ _BEST_STEPS = 24
 _AT_ONCE = 2**19  # maximum number of array elements at once, which bounds the memory
 
 
-def _nothing() -> None:
-    """Check nothing."""
-
-
 @dataclass(frozen=True, slots=True)
 class Candidate:
     """A timing to start a fit from, and its correlation."""
@@ -69,7 +65,7 @@ class Search:
         return slowest + np.arange(max(1, count)) / (self._columns * _STEPS_PER_CHIP)
 
     def candidates(
-        self, steps: FloatArray, gamma: float, check: Callable[[], object] = _nothing
+        self, steps: FloatArray, gamma: float, check: Callable[[], object] = lambda: None
     ) -> list[Candidate]:
         """Find the best timing of each exposure among some steps, best first.
 

@@ -24,7 +24,7 @@ _MADE_BY = {  # what gives a value of a class, for its sentence
     "DecodeResult": "decode",
 }
 
-_OURS = ("occ_model", "concurrent.futures")  # where refused classes are from
+_OURS = ("occ_model", "concurrent.futures")  # packages whose classes are refused before work
 _NUMBERS: dict[type, Any] = {float: Real, int: Integral, bool: bool | np.bool_}
 _ROWS = (Iterable, Iterator, Sequence)
 

@@ -12,7 +12,7 @@ from occ_model.transmitter.line_codes.registry import LINE_CODES
 from occ_model.transmitter.packet import sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
-_MAX_EXCEPTIONS = 0.05  # of columns on the other side of a level than by the decoder
+_MAX_EXCEPTIONS = 0.05  # fraction of columns that a level may put on the other side
 
 
 @dataclass(frozen=True, slots=True)

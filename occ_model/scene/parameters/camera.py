@@ -9,7 +9,7 @@ from occ_model.scene.parameters.group import (
 )
 from occ_model.scene.units import ELECTRON, METRE, NONE, PIXEL, SECOND
 
-DIAGONAL_35MM = 0.04327  # in metres: 24 mm x 36 mm, to which equivalent focal lengths refer
+DIAGONAL_35MM = 0.04327  # metres of a 24 mm x 36 mm frame: of equivalent focal lengths
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

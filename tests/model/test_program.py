@@ -8,12 +8,10 @@ import sys
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from typing import NoReturn
 
 import pytest
 
 from occ_model.cli import main
-from occ_model.commands import render
 
 ENCODINGS = (
     "ascii",
@@ -86,9 +84,9 @@ def printed(line: str) -> str:
 @pytest.mark.parametrize(
     ("line", "encoding"),
     [
-        ("plan", "ascii"),
         ("plan", "cp932"),
-        pytest.param("render --help", "cp1252", marks=pytest.mark.whole),
+        ("render --help", "cp1252"),
+        pytest.param("plan", "ascii", marks=pytest.mark.whole),
         pytest.param("parameters", "ascii", marks=pytest.mark.whole),
         pytest.param("presets phone-68us", "cp932", marks=pytest.mark.whole),
     ],
@@ -123,44 +121,6 @@ def test_a_reader_that_has_stopped_ends_the_command_in_silence() -> None:
     )
     os.close(writer)
     assert (done.returncode, done.stderr) == (1, b"")
-
-
-FAILURES = {
-    "memory": (MemoryError(), "There is too little memory for this."),
-    "file": (OSError(5, "Input/output error", b"a\xff\n"), r"a\udcff\n: Input/output error."),
-    "disk": (OSError(28, "No space left on device"), FULL_DISK[11:-1]),
-    "mistake": (KeyError("a\nb"), r"A mistake in this program, line "),
-}
-
-
-@pytest.mark.parametrize("kind", FAILURES)
-def test_what_nobody_has_foreseen_is_one_line(
-    kind: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    error, sentence = FAILURES[kind]
-
-    def fail(*_arguments: object) -> NoReturn:
-        raise error
-
-    monkeypatch.setattr(render, "scene_of", fail)
-    assert main(["render", "-o", "x.png"]) == 1
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    assert printed.err.startswith(f"occ-model: {sentence}")
-    assert printed.err.count("\n") == 1
-    if kind == "mistake":
-        assert "of test_program.py: KeyError: 'a\\nb'.\n" in printed.err
-
-
-def test_an_interruption_has_the_code_that_shells_give_it(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def interrupt(*_arguments: object) -> NoReturn:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(render, "scene_of", interrupt)
-    assert main(["render", "-o", "x.png"]) == 130
-    assert capsys.readouterr().err == "occ-model: interrupted.\n"
 
 
 def test_interruptions_are_answered_before_slow_imports() -> None:

@@ -4,17 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
-from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
-    ColumnLight,
     luminance_levels,
-    luminance_of,
-    panel_values,
-    surroundings_values,
 )
-from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks
 from occ_model.effects.defocus import Defocus, blur_of
 from occ_model.scene.scene import Scene
 
@@ -40,21 +35,10 @@ def unsharp(blur: float, **changes: float | str) -> Scene:
     return Scene().replace(**(chosen | changes))
 
 
-def pictured_luminance(scene: Scene) -> np.ndarray:
-    """The luminance that each pixel shows, shape (rows, columns)."""
-    optics = Defocus().apply(scene, Optics(occ.panel_corners(scene)))
-    light = ColumnLight.of(scene)
-    panel = panel_values(scene, light)
-    around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
-    rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
-    parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
-    return luminance_of(np.concatenate(parts), scene.camera)
-
-
 def panel_share(scene: Scene) -> np.ndarray:
     """The share of the lit panel's own light in each pixel."""
     dark, bright = luminance_levels(scene)
-    return (pictured_luminance(scene) - dark) / (bright - dark)
+    return (pictured_luminance(scene, Defocus()) - dark) / (bright - dark)
 
 
 def soft_step(size: int, width: int, blur: float) -> np.ndarray:

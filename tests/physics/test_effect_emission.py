@@ -4,17 +4,13 @@ import math
 
 import numpy as np
 import pytest
+from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
 from occ_model.camera.optics import Optics
 from occ_model.camera.photometry import (
-    ColumnLight,
     luminance_levels,
-    luminance_of,
-    panel_values,
-    surroundings_values,
 )
-from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks
 from occ_model.camera.projection import image_points
 from occ_model.effects.emission import Emission
 from occ_model.scene.scene import Scene
@@ -42,17 +38,6 @@ def steady(**changes: float | str) -> Scene:
     return Scene().replace(**(chosen | changes))
 
 
-def pictured_luminance(scene: Scene) -> np.ndarray:
-    """The luminance that each pixel shows, shape (rows, columns)."""
-    optics = Emission().apply(scene, Optics(occ.panel_corners(scene)))
-    light = ColumnLight.of(scene)
-    panel = panel_values(scene, light)
-    around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
-    rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
-    parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
-    return luminance_of(np.concatenate(parts), scene.camera)
-
-
 @pytest.mark.parametrize("order", [1.5, 2.0, 3.0, 10.0])
 @pytest.mark.parametrize("turn", ["yaw", "pitch"])
 @pytest.mark.parametrize("degrees", [0.0, 20.0, -45.0, 60.0])
@@ -62,7 +47,7 @@ def test_a_turned_panel_is_darker_by_the_cosine_of_its_turn(
     angle = math.radians(degrees)
     scene = steady(lambertian_order=order, panel_width=0.2, panel_height=0.2, **{turn: angle})
     dark, bright = luminance_levels(scene)
-    own = pictured_luminance(scene)[AXIS] - dark
+    own = pictured_luminance(scene, Emission())[AXIS] - dark
     assert own == pytest.approx((bright - dark) * math.cos(angle) ** (order - 1), rel=1e-5)
 
 
@@ -71,7 +56,7 @@ def test_angles_of_yaw_and_ray_add_up(degrees: float) -> None:
     yaw = math.radians(degrees)
     scene = steady(yaw=yaw, distance=5.0, panel_width=10.0, panel_height=10.0)
     dark, bright = luminance_levels(scene)
-    own = pictured_luminance(scene) - dark
+    own = pictured_luminance(scene, Emission()) - dark
     for column in (60, 150, 240):
         ray = math.atan((column - 150) / scene.camera.focal_length_pixels)
         # The side that comes nearer, the right one for a positive yaw, faces the camera.
@@ -105,7 +90,7 @@ def test_each_corners_angle_is_between_its_normal_and_its_ray() -> None:
 def test_reflected_light_and_surroundings_stay_as_they_are() -> None:
     scene = steady(pattern="0", yaw=1.0, panel_width=0.2)
     np.testing.assert_allclose(
-        pictured_luminance(scene), luminance_levels(scene)[0], rtol=1e-5, atol=0
+        pictured_luminance(scene, Emission()), luminance_levels(scene)[0], rtol=1e-5, atol=0
     )
 
 

@@ -1,0 +1,26 @@
+"""The light that each pixel shows, of a panel that one effect of the optics changes."""
+
+import numpy as np
+
+import occ_model as occ
+from occ_model.camera.optics import Optics
+from occ_model.camera.photometry import (
+    ColumnLight,
+    luminance_of,
+    panel_values,
+    surroundings_values,
+)
+from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks
+from occ_model.effects.effect import OpticsEffect
+from occ_model.scene.scene import Scene
+
+
+def pictured_luminance(scene: Scene, effect: OpticsEffect) -> np.ndarray:
+    """The luminance that each pixel shows, shape (rows, columns)."""
+    optics = effect.apply(scene, Optics(occ.panel_corners(scene)))
+    light = ColumnLight.of(scene)
+    panel = panel_values(scene, light)
+    around = np.broadcast_to(surroundings_values(scene, light), panel.shape)
+    rows = PictureRows(scene.camera, [LitPanel(optics, panel)], around)
+    parts = [rows.of(place).values for place in in_blocks(range(scene.camera.rows))]
+    return luminance_of(np.concatenate(parts), scene.camera)

@@ -211,7 +211,6 @@ def test_the_shell_lists_the_lamps(tmp_path: object, capsys: pytest.CaptureFixtu
 def test_a_frequency_that_may_be_off_by_a_percent_is_doubtful(error: float, doubtful: bool) -> None:
     (lamp,) = occ.find_lamps(photo_of(picture(((20, 100, 50, 350), 220.0, 30.0, 5.0))))
     product = lamp.switching_frequency_times_readout
-    assert product is not None
     unsure = replace(lamp, product_uncertainty=error * product)
     assert unsure.is_doubtful == doubtful
     assert any("0.34 % only" in why for why in unsure.doubts) == doubtful

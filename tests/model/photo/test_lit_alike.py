@@ -1,4 +1,4 @@
-"""Pixels that are lit equally are fitted together, and explanations that are alike are averaged."""
+"""Pixels that are lit alike are fitted together, and may contradict the exposure."""
 
 import math
 
@@ -7,8 +7,6 @@ import pytest
 from photo_world.photograph import random_world
 from photo_world.trials import trial
 
-from occ_model.photo.fit.averaged_fits import averaged
-from occ_model.photo.fit.joint_fit import JointFit
 from occ_model.photo.stripes.evenly_lit import Cells
 
 ROWS_A_BAND = 4.0
@@ -29,40 +27,6 @@ def test_many_rows_are_fitted_before_few_whose_noise_is_not_averaged_out() -> No
     assert sum(profile.rows >= 25 * ROWS_A_BAND for profile in profiles) == 2
     # The rim's rows see all columns; what they tell is still less.
     assert max(profile.kept.sum() for profile in profiles) == len(STRIPES)
-
-
-def fit_of(exposure: float, misfit: float, deviation: float = 0.01) -> JointFit:
-    """Return a fit of an exposure in chips."""
-    values, covariance = np.zeros(9), np.zeros((9, 9))
-    values[1], covariance[1, 1] = exposure, deviation**2
-    return JointFit(values, covariance, misfit)
-
-
-@pytest.mark.parametrize("misfit", [200.0, 400.0])
-def test_explanations_that_fit_nearly_alike_are_all_within_the_stated_error(misfit: float) -> None:
-    """Misfits that differ by a twentieth do not tell which blur it is."""
-    both = averaged([fit_of(0.5, misfit), fit_of(0.6, 1.05 * misfit)])
-    assert both.exposure == 0.5
-    assert 0.03 < both.deviation < 0.1
-
-
-def test_an_explanation_that_fits_far_worse_says_nothing() -> None:
-    best = averaged([fit_of(0.5, 300.0), fit_of(0.9, 1500.0)])
-    assert best.deviation == pytest.approx(0.01, rel=0.01)
-
-
-def test_explanations_of_pure_noise_are_weighted_by_their_likelihood() -> None:
-    """Where the misfit is small, a difference of four is two standard deviations."""
-    both = averaged([fit_of(0.5, 3.0, 0.0), fit_of(0.6, 7.0, 0.0)])
-    share = np.exp(-2.0) / (1.0 + np.exp(-2.0))
-    assert both.deviation == pytest.approx(0.1 * np.sqrt(share), rel=1e-6)
-
-
-def test_a_fit_that_ended_at_a_bound_of_gamma_does_not_widen_the_others() -> None:
-    """It has no slope there, and its covariance means nothing."""
-    at_bound = fit_of(0.5, 320.0)
-    at_bound.covariance[3, 3] = 1e8
-    assert averaged([fit_of(0.5, 300.0), at_bound]).covariance[3, 3] == 0.0
 
 
 @pytest.mark.whole

@@ -88,7 +88,6 @@ def test_a_panel_cut_within_a_chip_has_no_chip_of_its_own_there(
     kept = without_rims(edges, chips)
     found = chips_between(kept, chips)
     assert kept.count == edges.count - 1
-    assert found is not None
     assert "".join(map(str, found[0])) in "01" * 20
 
 
@@ -112,7 +111,6 @@ def test_edges_of_either_kind_may_be_shifted(shift: float, frequency: float, sta
     assert found.coherence == pytest.approx(1.0, abs=1e-6)
     assert found.falling - found.rising == pytest.approx(shift, abs=1e-6)
     coarse = coarsest(profile_edges)
-    assert coarse is not None
     assert coarse.frequency == pytest.approx(frequency, rel=0.01)
 
 

@@ -41,7 +41,6 @@ def test_mains_ripple_taken_for_the_lamp_is_doubted() -> None:
     assert match.readout_time < 0.1 * READOUT, "the ripple was not taken for the lamp"
     assert match.verdict == "doubtful"
     named = re.search(r"repeats after ([\d.]+) columns", " ".join(match.reasons))
-    assert named is not None
     assert float(named[1]) == pytest.approx(1.0 / (LAMP * READOUT), rel=0.01)
 
 
@@ -55,7 +54,6 @@ def test_a_line_in_noise_has_its_period_and_amplitude(amplitude: float) -> None:
     random, place = np.random.default_rng(3), np.arange(1500)
     wave = 100.0 * amplitude * np.sin(2.0 * np.pi * place / 12.5)
     line = strongest_line(wave + random.standard_normal(1500), np.full(1500, 100.0), 97.0, 10)
-    assert line is not None
     assert line.period == pytest.approx(12.5, rel=0.01)
     assert line.amplitude == pytest.approx(amplitude, rel=0.1)
     assert line.above_noise > 50.0
@@ -68,7 +66,6 @@ def test_noise_has_no_line_and_a_patterns_own_are_left_out() -> None:
     only_noise = strongest_line(noise, swing, 97.0, 10)
     own = strongest_line(noise + 9.0 * np.sin(2.0 * np.pi * place / 9.7), swing, 97.0, 10)
     for line in (only_noise, own):
-        assert line is not None
         assert line.above_noise < 50.0
 
 
@@ -83,5 +80,4 @@ def test_sharp_edges_between_columns_leave_no_single_line(chip: float) -> None:
     noise = np.random.default_rng(6).standard_normal(columns)
     residual = 100.0 * (seen[1] - seen[0]) + noise
     line = strongest_line(residual, np.full(columns, 100.0), 10 * chip, 10)
-    assert line is not None
     assert line.share < 0.15

@@ -40,7 +40,6 @@ def test_the_period_is_that_of_the_packet_within_its_uncertainty() -> None:
         packet = 24.0 / (scene.camera.readout_time * scene.transmitter.switching_frequency)
         if stripes.period is not None:
             assert stripes.period == pytest.approx(packet, rel=0.02)
-            assert stripes.period_uncertainty is not None
             off.append(abs(stripes.period - packet) / stripes.period_uncertainty)
         else:
             assert len(stripes.profile) < 2.0 * packet
@@ -81,7 +80,6 @@ def test_a_noisy_waves_period_is_found(period: float, phase: float, seed: int) -
     columns = np.arange(900)
     noise = 0.05 * np.random.default_rng(seed).standard_normal(900)
     found = repeat_period(0.5 + 0.5 * np.sin(2 * np.pi * (columns / period + phase)) + noise)
-    assert found is not None
     assert found[0] == pytest.approx(period, rel=2e-3)
     assert abs(found[0] - period) < 6.0 * found[1]
 
@@ -179,7 +177,6 @@ def test_no_period_nearby_explains_more_than_the_one_found(seed: int) -> None:
     wave = levels[(np.arange(count) / width).astype(int) % chips]
     wave = wave + random.normal(0.0, random.uniform(0.01, 0.6), count)
     found = repeat_period(wave)
-    assert found is not None
     period, uncertainty = found
     share = unrepeated_share(wave, period)
     for off in (-1.0, -0.3, -0.2, 0.2, 0.3, 1.0):

@@ -30,10 +30,8 @@ def test_a_pause_that_is_no_whole_number_of_chips_is_the_nearest_one(pause: floa
     moved = in_phase(edges)
     assert moved is not None
     lattice = coarsest(moved)
-    assert lattice is not None
     assert 1.0 / lattice.frequency == pytest.approx(CHIP, rel=0.01)
     found = chips_between(moved, lattice)
-    assert found is not None
     lit = BURST.rstrip("0")
     between = len(BURST) - len(lit) + round(pause)
     assert "".join(map(str, found[0])) == lit + "0" * between + lit

@@ -64,11 +64,9 @@ def edges_at(off: np.ndarray | float = 0.0, longer: float = 0.0) -> Edges:
 def test_chips_come_back_from_their_edges_though_bright_runs_are_longer(longer: float) -> None:
     edges = edges_at(longer=longer)
     lattice = coarsest(edges)
-    assert lattice is not None
     assert 1.0 / lattice.frequency == pytest.approx(COLUMNS, rel=1e-3)
     assert lattice.coherence == pytest.approx(1.0, abs=1e-3)
     found = chips_between(edges, lattice)
-    assert found is not None
     assert found[0].tolist() == CHIPS[1:-1].tolist()
     apart = (lattice.falling - lattice.rising + 0.5) % 1.0 - 0.5
     assert apart == pytest.approx(longer / COLUMNS, abs=0.01)

@@ -120,5 +120,4 @@ def test_other_chips_are_as_many_a_second_as_those_they_replace(
     made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
     found: Any = SimpleNamespace(bits=1.0, rate=12.5, fit=SimpleNamespace(timing=None))
     other = made.nearest_other(found)
-    assert other is not None
     assert other.rate == 12.5

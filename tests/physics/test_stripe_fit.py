@@ -135,7 +135,9 @@ def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> No
     assert np.all(match.stripes.high > match.stripes.low)
 
 
-@pytest.mark.parametrize("enhancement", ["equalization", "stretch", "none"])
+@pytest.mark.parametrize(
+    "enhancement", ["equalization", pytest.param("stretch", marks=pytest.mark.whole), "none"]
+)
 def test_the_windows_own_picture_is_explained(enhancement: str) -> None:
     """Equalized histograms too, which keep the order of the column values and nothing else."""
     scene = occ.load_preset("phone-136us").replace(enhancement=enhancement, columns=1728)

@@ -4,12 +4,7 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.camera.optics import Optics
-from occ_model.camera.photometry import (
-    ColumnLight,
-    luminance_of,
-    panel_values,
-    surroundings_values,
-)
+from occ_model.camera.photometry import ColumnLight, luminance_of, panel_values, surroundings_values
 from occ_model.camera.picture_rows import LitPanel, PictureRows, in_blocks
 from occ_model.effects.effect import OpticsEffect
 from occ_model.scene.scene import Scene

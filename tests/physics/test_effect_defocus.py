@@ -7,9 +7,7 @@ import pytest
 from physics.pictured_luminance import pictured_luminance
 
 import occ_model as occ
-from occ_model.camera.photometry import (
-    luminance_levels,
-)
+from occ_model.camera.photometry import luminance_levels
 from occ_model.effects.defocus import Defocus, blur_of
 from occ_model.scene.scene import Scene
 

@@ -125,31 +125,23 @@ def constant(node: ast.expr) -> str | None:
     return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else None
 
 
-def test_numerical_health_has_every_law_that_is_tried() -> None:
-    """``OCC_HARD_CASES=100000 pytest tests/hard_cases`` prints the table anew."""
+@pytest.mark.parametrize(
+    ("folder", "name", "least"),
+    [
+        ("hard_cases", "record", 40),
+        ("hard_cases/attack/doors", "Door", 10),
+        ("benchmarks", "Row", 10),
+    ],
+)
+def test_the_measurements_have_every_law_door_and_cost(folder: str, name: str, least: int) -> None:
+    """The laws are those of ``OCC_HARD_CASES=100000 pytest tests/hard_cases``, which prints them.
+
+    The costs are those of ``python tests/benchmarks/report.py --markdown``.
+    """
     page = page_named("measurements")
-    laws = {law for call in calls("hard_cases", "record") if (law := constant(call.args[0]))}
-    assert len(laws) > 40
-    assert [law for law in sorted(laws) if f"\n| {law} |" not in page] == []
-
-
-def test_numerical_health_has_every_door_that_is_attacked() -> None:
-    page = page_named("measurements")
-    doors = {
-        name
-        for call in calls("hard_cases/attack/doors", "Door")
-        if (name := constant(call.args[0]))
-    }
-    assert len(doors) > 10
-    assert [door for door in sorted(doors) if f"\n| {door} |" not in page] == []
-
-
-def test_costs_have_every_line_of_the_report() -> None:
-    """``python tests/benchmarks/report.py --markdown`` prints the table anew."""
-    page = page_named("measurements")
-    rows = {what for call in calls("benchmarks", "Row") if (what := constant(call.args[0]))}
-    assert len(rows) > 10
-    assert [what for what in sorted(rows) if f"\n| {what} |" not in page] == []
+    rows = {row for call in calls(folder, name) if (row := constant(call.args[0]))}
+    assert len(rows) > least
+    assert [row for row in sorted(rows) if f"\n| {row} |" not in page] == []
 
 
 def test_the_preset_of_the_manual_can_be_loaded() -> None:

@@ -7,7 +7,6 @@ from pytestqt.qtbot import QtBot
 
 
 def choose(qtbot: QtBot, control: Any, key: str) -> None:
-    """Choose a word with the keys."""
     control.setFocus()
     qtbot.keyClick(control, Qt.Key.Key_Home)
     for _ in range(control.findData(key)):

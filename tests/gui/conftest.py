@@ -2,17 +2,18 @@
 
 import gc
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor, Future
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import Grey, GreyPicture, SnapshotOf
 from gui.shared_window import SharedWindow, end, new_window
 from gui.starts import Starts
 from gui.user import PatientQtBot, User
-from numpy.typing import NDArray
 from PIL import Image
 from PySide6.QtCore import QCoreApplication, QEvent
 from PySide6.QtGui import QImage
@@ -23,15 +24,14 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.app.garbage_collection import give_memory_back
 from occ_gui.detection_map import wiring
+from occ_gui.simulation import controller
 from occ_gui.simulation.controller import simulate
-from occ_gui.simulation.snapshot import Snapshot
 from occ_model.parallel.job import Job, JobResult, do_job
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
-
-Grey = NDArray[np.uint8]
+from occ_model.simulation.render import render_with
 
 
 class InlineWorkers:
@@ -114,7 +114,6 @@ def lazy_workers(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def inline_workers() -> InlineWorkers:
-    """Give workers that need no processes."""
     return InlineWorkers()
 
 
@@ -125,13 +124,13 @@ def small_scene() -> Scene:
 
 
 @pytest.fixture
-def snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
+def snapshot_of(small_scene: Scene) -> SnapshotOf:
     """Simulate the small scene with some parameters changed."""
     return lambda **changes: simulate(small_scene.replace(**changes))
 
 
 @pytest.fixture
-def bare_snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
+def bare_snapshot_of(small_scene: Scene) -> SnapshotOf:
     """Simulate the small scene as above, without any effect."""
     bare = SimulationSettings(tolerance=math.inf)
     return lambda **changes: simulate(small_scene.replace(**changes), bare)
@@ -139,7 +138,6 @@ def bare_snapshot_of(small_scene: Scene) -> Callable[..., Snapshot]:
 
 @pytest.fixture(scope="session")
 def starts() -> Iterator[Starts]:
-    """Give what starts the program in processes of its own."""
     starts = Starts()
     yield starts
     starts.close()
@@ -171,7 +169,6 @@ def application(
 
 @pytest.fixture
 def user(qtbot: QtBot, application: Application) -> User:
-    """Let somebody sit down at the application."""
     return User(qtbot, application)
 
 
@@ -199,7 +196,7 @@ def remembered_matches(
 
 
 @pytest.fixture
-def grey_picture() -> Callable[[QWidget], Grey]:
+def grey_picture() -> GreyPicture:
     """Take the picture of a widget in grey levels, shape (height, width)."""
 
     def take(widget: QWidget) -> Grey:
@@ -219,7 +216,6 @@ def stripes() -> Grey:
 
 @pytest.fixture
 def photo_file(tmp_path: Path, stripes: Grey) -> Path:
-    """Write the stripes to a file."""
     path = tmp_path / "stripes.png"
     Image.fromarray(stripes).save(path)
     return path
@@ -227,5 +223,18 @@ def photo_file(tmp_path: Path, stripes: Grey) -> Path:
 
 @pytest.fixture
 def photo(photo_file: Path) -> Photo:
-    """Read the stripes as a photo."""
     return occ.load_photo(photo_file)
+
+
+@pytest.fixture
+def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
+    """Let no picture be simulated before this event is set."""
+    may_end = Event()
+
+    def wait_and_render(*arguments: Any, **named: Any) -> Any:
+        may_end.wait()
+        return render_with(*arguments, **named)
+
+    monkeypatch.setattr(controller, "render_with", wait_and_render)
+    yield may_end
+    may_end.set()

@@ -86,7 +86,7 @@ class PaneBench:
         self.shell, self.said = Shell(self.store, self.board), list[str]()
         self.shell.said.connect(self.said.append)
         self.settings.refused.connect(self.said.append)
-        qtbot.addWidget(self.window)
+        qtbot.addWidget(self.window, before_close_func=lambda _window: self.stop())
         self._qtbot = qtbot
 
     def add(self, feature: Feature[Any], *, seen: bool = True) -> Any:
@@ -97,7 +97,6 @@ class PaneBench:
         return self.shell.pane(feature.name)
 
     def see(self, name: str, seen: bool = True) -> None:
-        """Show or hide a pane."""
         self.window.show()
         self.window.docks[name].setVisible(seen)
         self.window.docks[name].visibilityChanged.emit(seen)
@@ -134,13 +133,15 @@ class PaneBench:
         return exporter
 
     def export(self, name: str, path: Path) -> str:
-        """Export a figure of the panes, and return what is said of it."""
         self.exporter.export(name, path)
         self.wait_until_idle()
         return self.said[-1]
 
     def wait_until_idle(self) -> None:
         self._qtbot.waitUntil(lambda: self.shell.is_idle)
+
+    def stop(self) -> None:
+        self.shell.stop()
 
 
 class ControlsBench(PaneBench):
@@ -157,12 +158,14 @@ class ControlsBench(PaneBench):
         self.window.show()
 
     def row(self, name: str) -> QuantityRow:
-        """Find the controls of a quantity of the first page."""
         return self.controls.main_rows()[name]
 
     def enter(self, name: str, text: str) -> None:
-        """Type a number, and press Enter."""
         field = self.row(name).field
         field.selectAll()
         self._qtbot.keyClicks(field, text)
         self._qtbot.keyClick(field, Qt.Key.Key_Return)
+
+    def stop(self) -> None:
+        super().stop()
+        self.controls.player.stop()

@@ -153,7 +153,6 @@ class Home:
 
     @classmethod
     def of(cls, application: Application) -> "Home":
-        """Note what a window has."""
         docks = [dock.isHidden() for dock in application.window.docks.values()]
         column = application.story.rows.crosshair.column or 0
         return cls(
@@ -173,7 +172,6 @@ class SharedWindow:
 
     @property
     def is_kept(self) -> bool:
-        """Whether there is a window that the next test gets."""
         return self._kept is not None
 
     @contextmanager
@@ -212,7 +210,6 @@ class SharedWindow:
         return [*state_of(kept), *look_of(kept.window)] == self._first
 
     def close(self) -> None:
-        """Close the window, if one is kept."""
         kept, self._kept = self._kept, None
         if kept is None:
             return

@@ -3,7 +3,7 @@
 import random
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import pytest
@@ -24,7 +24,6 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.files.file_controller import sample_photos
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.scene.gesture import new_gesture
-from occ_gui.story.column_axis import Crosshair
 from occ_gui.values.placement import MODES
 from occ_gui.video.wiring import VideoWiring
 from occ_gui.window.theme import THEMES
@@ -68,7 +67,6 @@ def smaller_lessons() -> LessonList:
 
 @cache
 def short_film() -> list[VideoFrame]:
-    """Give a film of a few frames."""
     return list(occ.render_video(smaller(occ.load_preset("phone-68us")), 4))
 
 
@@ -83,26 +81,11 @@ class FileDialogs:
         monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(self.path))
 
     def lay_ready(self, path: Path) -> None:
-        """Answer the next dialogs with this path."""
         self.path = path
 
 
 class Monkey:
-    """Does random things to a window.
-
-    Parameters
-    ----------
-    application
-        The window's.
-    qtbot
-        Waits.
-    dialogs
-        Answers in place of a user.
-    folder
-        Where files are written to.
-    seed
-        Of what is done.
-    """
+    """Does random things to a window, and answers its dialogs in place of a user."""
 
     def __init__(
         self, application: Application, qtbot: QtBot, dialogs: FileDialogs, folder: Path, seed: int
@@ -135,14 +118,14 @@ class Monkey:
             self.resize: 20,
             self.zoom_every_plot: 4,
             self.hold_the_brightness: 20,
-            self.toggle_the_slider_strips: 10,
+            partial(self._trigger, "slider_strips"): 10,
             self.run_a_slider: 10,
             self.measure_between_columns: 10,
             self.use_a_context_menu: 20,
             self.go_to_a_limit: 6,
             self.pin: 20,
             self.go_to_what_is_pinned: 10,
-            self.clear_the_pins: 6,
+            partial(self._trigger, "clear_pins"): 6,
             self.choose_a_lesson: 10,
             self.step_on_or_back: 20,
             self.leave_the_lesson: 6,
@@ -154,7 +137,7 @@ class Monkey:
             self.export_all: 1,
             self.open_an_exported_figure: 10,
             self.close_the_photo: 20,
-            self.reset_the_layout: 8,
+            partial(self._trigger, "reset_layout"): 8,
             self.open_a_film: 6,
             self.read_or_stop: 10,
             self.play_or_pause: 20,
@@ -189,14 +172,14 @@ class Monkey:
         self._application.store.put(scene, "home")
         self._show_a_photo_everywhere()
         self.close_the_photo()
-        self._films().live.stop_filming()
-        self._films().films.player.pause()
-        self._films().films.close()
+        self._films.live.stop_filming()
+        self._films.films.player.pause()
+        self._films.films.close()
         self._errands.come_home()
-        self.clear_the_pins()
+        self._trigger("clear_pins")
         self.leave_the_lesson()
         self._application.options.theme.choose(THEMES[0])
-        self.reset_the_layout()
+        self._trigger("reset_layout")
         self._application.window.resize(*_FIRST_SIZE)
         QGuiApplication.clipboard().clear()
         self.wait()
@@ -276,8 +259,8 @@ class Monkey:
         docks = list(self._application.window.docks.values())
         self._random.choice(docks).toggleViewAction().trigger()
 
+    @property
     def _films(self) -> VideoWiring:
-        """Give the pane of the films, without waiting until it is shown."""
         return self._application.video.wiring
 
     def open_a_film(self) -> None:
@@ -290,32 +273,28 @@ class Monkey:
 
     def close_the_film(self) -> None:
         self._trigger("close_film")
-        self._films().close()
+        self._films.close()
 
     def read_or_stop(self) -> None:
         # A sample's scene has large pictures: many of them would take longer than is waited.
-        self._films().view.form.count.setValue(self._random.randrange(2, 5))
-        self._films().view.bar.read.click()
+        self._films.view.form.count.setValue(self._random.randrange(2, 5))
+        self._films.view.bar.read.click()
 
     def play_or_pause(self) -> None:
-        self._films().view.transport.play.click()
+        self._films.view.transport.play.click()
 
     def seek_a_frame(self) -> None:
         keys = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Home, Qt.Key.Key_End)
-        self._qtbot.keyClick(self._films().view.timeline, self._random.choice(keys))
+        self._qtbot.keyClick(self._films.view.timeline, self._random.choice(keys))
 
     def record_otherwise(self) -> None:
-        form = self._films().view.form
+        form = self._films.view.form
         form.count.setValue(self._random.randrange(2, 12))
         form.fields["frame_rate"].edited.emit(self._random.choice([1.0, 24.0, 1000.0]))
 
     def film_live(self) -> None:
-        films = self._films()
-        films.live.start(FilmSource(short_film() * 20, "Stand-in", in_real_time=False))
+        self._films.live.start(FilmSource(short_film() * 20, "Stand-in", in_real_time=False))
         self._qtbot.wait(50)
-
-    def reset_the_layout(self) -> None:
-        self._trigger("reset_layout")
 
     def ask_for_what_cannot_be(self) -> None:
         self._application.store.change(exposure_time=-1.0)
@@ -337,9 +316,6 @@ class Monkey:
         slider = self._application.controls.main_rows()["exposure_time"].slider
         slider.setValue(self._random.randint(slider.minimum(), slider.maximum()))
 
-    def toggle_the_slider_strips(self) -> None:
-        self._trigger("slider_strips")
-
     def choose_a_theme(self) -> None:
         self._trigger(f"theme_{self._random.choice(THEMES)}")
 
@@ -353,14 +329,11 @@ class Monkey:
 
     def measure_between_columns(self) -> None:
         self._trigger("measure")
-        cursors, crosshair = self._crosshair().cursors, self._crosshair()
+        crosshair = self._application.story.rows.crosshair
         for place in (0, 1):
             column = self._random.uniform(-50.0, crosshair.columns + 50.0)
-            cursors.move(place, column, crosshair.columns)
+            crosshair.cursors.move(place, column, crosshair.columns)
         crosshair.choose(self._random.uniform(-50.0, crosshair.columns + 50.0))
-
-    def _crosshair(self) -> Crosshair:
-        return self._application.story.rows.crosshair
 
     def use_a_context_menu(self) -> None:
         player = self._application.controls.player
@@ -381,9 +354,6 @@ class Monkey:
 
     def go_to_what_is_pinned(self) -> None:
         self._trigger(f"go_to_{self._random.choice('ab')}")
-
-    def clear_the_pins(self) -> None:
-        self._trigger("clear_pins")
 
     def _guide(self) -> LessonView:
         guide = self._application.shell.pane("lessons").view

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from gui.kinds import not_none
 from gui.wheel import turn_wheel, views_of
 from model.plugins.installed_package import install
 from PIL import Image
@@ -53,33 +54,12 @@ def install_plugins(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[N
 
 
 class Errands:
-    """Runs errands at a window, each by the way that a user has for it.
-
-    Parameters
-    ----------
-    application
-        The window's.
-    qtbot
-        Waits.
-    choose_path
-        Lays a path ready for the next dialog.
-    folder
-        Where files are written to.
-    scene
-        Of the photos.
-    chance
-        Of what is chosen.
-    """
+    """Runs errands at a window, each by the way that a user has for it."""
 
     def __init__(
-        self,
-        application: Application,
-        qtbot: QtBot,
-        choose_path: Callable[[Path], None],
-        folder: Path,
-        scene: Scene,
-        chance: random.Random,
-    ) -> None:
+        self, application: Application, qtbot: QtBot, choose_path: Callable[[Path], None],
+        folder: Path, scene: Scene, chance: random.Random,
+    ) -> None:  # fmt: skip
         self._application, self._qtbot = application, qtbot
         self._choose_path, self._folder = choose_path, folder
         self._scene, self._random = scene, chance
@@ -196,10 +176,8 @@ class Errands:
 
     def write_for_a_board(self) -> None:
         self._trigger("transmitter")
-        transmitter = self._application.shell.made_pane("transmitter")
-        assert transmitter is not None
-        dialog = transmitter.dialog
-        assert dialog is not None
+        transmitter = not_none(self._application.shell.made_pane("transmitter"))
+        dialog = not_none(transmitter.dialog)
         dialog.board.setCurrentIndex(self._random.randrange(dialog.board.count()))
         dialog.board.chosen.emit(dialog.board.key())
         boards = self._folder / "boards" / str(self._random.random())

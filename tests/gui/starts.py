@@ -59,17 +59,7 @@ class Starts:
     def run(
         self, *words: str | Path, program: str = WINDOW, **environment: str
     ) -> subprocess.CompletedProcess[str]:
-        """Run a program to its end.
-
-        Parameters
-        ----------
-        words
-            Its command line.
-        program
-            The program; by default the window's.
-        environment
-            Variables that are set for it beside those of this process.
-        """
+        """Run a program, by default the window's, to its end, with some variables set beside."""
         here = {**os.environ, "QT_QPA_PLATFORM": "offscreen", **environment}
         argv = ["occ-gui", *map(str, words)]
         for stream in self._streams:
@@ -83,6 +73,5 @@ class Starts:
         return subprocess.CompletedProcess(argv, code, out, error)
 
     def close(self) -> None:
-        """End the process that has imported all."""
         self._importer.communicate()
         self._folder.cleanup()

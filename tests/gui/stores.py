@@ -11,11 +11,9 @@ from occ_model.scene.scene import Scene
 
 
 def store_of(scene: Scene | None = None) -> SceneStore:
-    """Make a store of a scene, with the first settings."""
     workspace = Workspace(Scene() if scene is None else scene)
     return SceneStore(Store(workspace), {effect.name: effect.label for effect in EFFECTS})
 
 
 def show(store: Store, **changes: Any) -> None:
-    """Choose what panes show."""
     store.put(replace(store.workspace, **changes))

@@ -50,14 +50,12 @@ class Stage:
     folder: Path
 
     def choose_in(self, box: QComboBox, place: int) -> None:
-        """Choose an entry of a list, and wait."""
         box.setCurrentIndex(place)
         box.activated.emit(place)
         box.textActivated.emit(box.currentText())
         self.user.wait_until_idle()
 
     def drop(self, name: str, content: str | np.ndarray) -> None:
-        """Drop a file on the window, a text or a picture, and wait."""
         path = self.folder / name
         if isinstance(content, str):
             path.write_text(content, encoding="utf-8")
@@ -67,13 +65,11 @@ class Stage:
         self.user.wait_until_idle()
 
     def choose_file(self, entry: str, path: Path) -> None:
-        """Choose an entry of a menu that asks for a file, name one, and wait."""
         self.dialogs.lay_ready(path)
         self.application.window.actions_by_name[entry].trigger()
         self.user.wait_until_idle()
 
     def row(self, name: str) -> ParameterRow:
-        """Find the controls of a parameter of any kind."""
         panels = self.application.controls.panels.values()
         (found,) = [panel.rows[name] for panel in panels if name in panel.rows]
         return found
@@ -251,6 +247,7 @@ def picture_stays(application: Application, last: Snapshot) -> bool:
     )
 
 
+@pytest.mark.own_window  # whose list of presets has the one that is made for it
 def test_every_class_becomes_a_sentence_and_the_picture_stays(
     stage: Stage, made: list[OccError], small_scene: Scene, caplog: pytest.LogCaptureFixture
 ) -> None:
@@ -291,6 +288,7 @@ def lines_and_notices(application: Application) -> dict[str, tuple[QLineEdit, QL
     return found
 
 
+@pytest.mark.own_window
 def test_every_wrong_value_is_refused_at_its_field_with_unit_and_range(
     stage: Stage, small_scene: Scene
 ) -> None:

@@ -39,24 +39,20 @@ class User:
         self._application = application
 
     def wait_until_idle(self) -> None:
-        """Wait until all that was asked of the application is shown."""
         self._qtbot.waitUntil(lambda: self._application.is_idle)
 
     def row(self, name: str) -> QuantityRow | CountRow:
-        """Find the controls of a number."""
         panels = self._application.controls.panels.values()
         (row,) = [panel.rows[name] for panel in panels if name in panel.rows]
         assert isinstance(row, QuantityRow | CountRow)
         return row
 
     def slider(self, name: str) -> QSlider:
-        """Find the slider of a quantity."""
         row = self.row(name)
         assert isinstance(row, QuantityRow)
         return row.slider
 
     def enter(self, name: str, text: str) -> None:
-        """Type a number, press Enter, and wait."""
         field = self.row(name).field
         field.selectAll()
         self._qtbot.keyClicks(field, text)
@@ -69,18 +65,15 @@ class User:
         self.wait_until_idle()
 
     def entry(self, text: str) -> QAction:
-        """Find the menu entry whose text starts like this."""
         actions = self._application.window.findChildren(QAction)
         (found,) = [action for action in actions if action.text().startswith(text)]
         return found
 
     def choose_next_preset(self) -> str:
-        """Move on in the list of presets, wait, and return the name of the one shown."""
         self._qtbot.keyClick(self._application.controls.preset, Qt.Key.Key_Down)
         self.wait_until_idle()
         return str(self._application.controls.preset.currentData())
 
     @property
     def message(self) -> str:
-        """What the status line says."""
         return self._application.window.statusBar().currentMessage()

@@ -18,12 +18,16 @@ def views_of(window: QWidget) -> Sequence[pg.GraphicsView]:
 def turn_wheel(view: pg.GraphicsView, notches: int) -> None:
     """Turn the wheel over the middle of a plot, upwards to see less of it."""
     viewport = view.viewport()
-    middle = QPointF(viewport.rect().center())
-    turn = QPoint(0, _NOTCH if notches > 0 else -_NOTCH)
     for _ in range(abs(notches)):
-        event = QWheelEvent(
-            middle, QPointF(viewport.mapToGlobal(middle.toPoint())), QPoint(), turn,
-            Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
-            Qt.ScrollPhase.NoScrollPhase, False,
-        )  # fmt: skip
-        QApplication.sendEvent(viewport, event)
+        turn_wheel_at(viewport, viewport.rect().center(), notches > 0)
+
+
+def turn_wheel_at(widget: QWidget, place: QPoint, is_upwards: bool = True) -> None:
+    """Turn the wheel by a notch over a place of a widget."""
+    turn = QPoint(0, _NOTCH if is_upwards else -_NOTCH)
+    event = QWheelEvent(
+        QPointF(place), QPointF(widget.mapToGlobal(place)), QPoint(), turn,
+        Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
+        Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(widget, event)

@@ -3,7 +3,7 @@
 import importlib.util
 import shutil
 import subprocess
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import ModuleType
 
@@ -53,27 +53,17 @@ def visible(start: ModuleType, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return lines
 
 
-@pytest.fixture
-def put_program() -> Callable[[Path, str], None]:
+def put_program(path: Path, body: str) -> None:
     """Write an executable shell script."""
-
-    def write(path: Path, body: str) -> None:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(f"#!/bin/sh\n{body}\n")
-        path.chmod(0o755)
-
-    return write
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"#!/bin/sh\n{body}\n")
+    path.chmod(0o755)
 
 
-@pytest.fixture
-def run_captured() -> Callable[..., subprocess.CompletedProcess[str]]:
+def run_captured(
+    command: Sequence[str], environment: Mapping[str, str] | None = None
+) -> subprocess.CompletedProcess[str]:
     """Run a command in a process of its own, away from the project's folder."""
-
-    def run(
-        command: Sequence[str], environment: Mapping[str, str] | None = None
-    ) -> subprocess.CompletedProcess[str]:
-        return subprocess.run(
-            command, capture_output=True, text=True, check=False, cwd="/", env=environment
-        )
-
-    return run
+    return subprocess.run(
+        command, capture_output=True, text=True, check=False, cwd="/", env=environment
+    )

@@ -5,11 +5,11 @@ import re
 import subprocess
 import sys
 import tomllib
-from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from start.conftest import run_captured
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
 
@@ -52,9 +52,7 @@ def test_a_python_newer_than_was_tried_is_named_once_and_used(
     assert said.count("the newest that was tried; going on.") == sentences == said.count("\n")
 
 
-def test_an_unsupported_python_stops_with_one_sentence(
-    script: Path, run_captured: Callable[..., subprocess.CompletedProcess[str]]
-) -> None:
+def test_an_unsupported_python_stops_with_one_sentence(script: Path) -> None:
     pretend = f"import runpy, sys; sys.version_info = (3, 8, 18); runpy.run_path({str(script)!r})"
     run = run_captured([sys.executable, "-c", pretend])
     assert run.returncode == 1

@@ -7,18 +7,19 @@ import shlex
 import stat
 import subprocess
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import NoReturn
 
 import pytest
+from start.conftest import put_program, run_captured
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
 
 
 @pytest.fixture
-def echoing_venv(start: ModuleType, put_program: Callable[[Path, str], None]) -> None:
+def echoing_venv(start: ModuleType) -> None:
     """Make a finished .venv whose Python echoes what it is asked to run."""
     put_program(start.PYTHON, 'if [ "$1" = -I ]; then echo 3 12; else echo "$@"; fi')
     start.STAMP.write_text(json.dumps(start.wanted_stamp("3.12", ["gui", "test"])))
@@ -31,7 +32,7 @@ def script_of(start: ModuleType) -> Path:
 
 @pytest.mark.usefixtures("echoing_venv")
 def test_a_second_start_installs_and_prints_nothing_of_its_own(
-    start: ModuleType, run_captured: Callable[..., subprocess.CompletedProcess[str]], tmp_path: Path
+    start: ModuleType, tmp_path: Path
 ) -> None:
     command = [sys.executable, str(script_of(start)), "--version", "two words"]
     # No program is in reach, so that the start cannot install anything.
@@ -94,7 +95,7 @@ def test_every_check_runs_and_any_failure_counts(
 
 
 def test_other_checks_keep_their_output_until_the_tests_end(
-    start: ModuleType, put_program: Callable[[Path, str], None], capfd: pytest.CaptureFixture[str]
+    start: ModuleType, capfd: pytest.CaptureFixture[str]
 ) -> None:
     for check in CHECKS:
         program = check.split()[0]
@@ -112,10 +113,7 @@ def test_other_checks_keep_their_output_until_the_tests_end(
 
 
 def test_the_checks_keep_what_python_compiles(
-    start: ModuleType,
-    monkeypatch: pytest.MonkeyPatch,
-    put_program: Callable[[Path, str], None],
-    capfd: pytest.CaptureFixture[str],
+    start: ModuleType, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
     monkeypatch.setenv("KEPT", "as it is")
@@ -198,10 +196,7 @@ def test_a_start_waits_while_another_sets_up_and_then_goes_on(
 
 
 def test_ci_runs_the_checks_and_passes_their_exit_code_on(
-    project_folder: Path,
-    put_program: Callable[[Path, str], None],
-    run_captured: Callable[..., subprocess.CompletedProcess[str]],
-    tmp_path: Path,
+    project_folder: Path, tmp_path: Path
 ) -> None:
     script = project_folder / ".ci" / "run"
     assert script.stat().st_mode & stat.S_IXUSR

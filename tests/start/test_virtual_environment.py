@@ -8,6 +8,7 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 
 import pytest
+from start.conftest import put_program
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-up of Linux")
 
@@ -23,7 +24,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="checks the set-
     ],
 )
 def test_a_venv_serves_when_its_python_is_supported(
-    start: ModuleType, put_program: Callable[[Path, str], None], body: str, version: str
+    start: ModuleType, body: str, version: str
 ) -> None:
     put_program(start.PYTHON, body)
     assert start.venv_version() == version
@@ -54,10 +55,7 @@ def damage_place(start: ModuleType) -> None:
     [(damage_nothing, True), (damage_python, False), (damage_making, False), (damage_place, False)],
 )
 def test_a_half_made_or_moved_venv_does_not_serve(
-    start: ModuleType,
-    put_program: Callable[[Path, str], None],
-    damage: Callable[[ModuleType], None],
-    usable: bool,
+    start: ModuleType, damage: Callable[[ModuleType], None], usable: bool
 ) -> None:
     put_program(start.PYTHON, "echo 3 12")
     damage(start)

@@ -3,6 +3,7 @@
 import math
 
 import pytest
+from gui.kinds import show_widget
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -48,11 +49,7 @@ def crowd() -> list[AccuracyPoint]:
 
 @pytest.fixture
 def plot(qtbot: QtBot) -> AccuracyPlot:
-    plot = AccuracyPlot()
-    qtbot.addWidget(plot)
-    plot.resize(500, 240)
-    plot.show()
-    return plot
+    return show_widget(qtbot, AccuracyPlot(), 500, 240)
 
 
 def measure(plot: AccuracyPlot, points: tuple[AccuracyPoint, ...] = POINTS) -> None:
@@ -65,7 +62,9 @@ def names(plot: AccuracyPlot) -> list[str]:
     return [way.point.name for scatter in plot.scatters.values() for way in scatter.data["data"]]
 
 
-def test_each_point_is_at_its_time_and_error_with_its_marker(plot: AccuracyPlot) -> None:
+def test_each_point_is_at_its_time_and_error_with_its_marker_and_the_present_one_ringed(
+    plot: AccuracyPlot,
+) -> None:
     measure(plot)
     for part, scatter in plot.scatters.items():
         of_part = sorted(1e3 * point.seconds for point in SHOWN if point.part == part)
@@ -74,13 +73,13 @@ def test_each_point_is_at_its_time_and_error_with_its_marker(plot: AccuracyPlot)
         errors = sorted(max(p.error, LEAST_ERROR) for p in SHOWN if p.part == part)
         assert sorted(10**y for y in ys) == pytest.approx(errors)
     assert len(set(SYMBOLS.values())) == len({c.name() for c in COLOURS.values()}) == 5
-
-
-def test_the_present_setting_is_ringed_exactly_once(plot: AccuracyPlot) -> None:
-    measure(plot)
     xs, ys = plot.rings.getData()
     assert [10**x for x in xs] == pytest.approx([10.0])
     assert [10**y for y in ys] == pytest.approx([0.5])
+    scatter = plot.scatters["path"]
+    assert scatter.opts["tip"](x=0.0, y=0.0, data=scatter.data["data"][0]) == (
+        "profile only: 0.1 ms, 0.4 levels\n(columns alone, whole pictures)"
+    )
 
 
 def test_the_present_setting_is_one_point_also_where_it_is_an_end_of_the_ladder() -> None:
@@ -104,7 +103,9 @@ def test_all_points_are_in_view_and_progress_is_shown(plot: AccuracyPlot) -> Non
         assert bottom < math.log10(max(point.error, LEAST_ERROR)) < top
 
 
-def test_the_last_complete_points_stay_faint_until_new_ones_come(plot: AccuracyPlot) -> None:
+def test_the_last_complete_points_stay_faint_until_new_ones_come_and_are_called_so(
+    plot: AccuracyPlot,
+) -> None:
     measure(plot)
     plot.show_study_finished()
     measure(plot, POINTS[:2])
@@ -117,27 +118,12 @@ def test_the_last_complete_points_stay_faint_until_new_ones_come(plot: AccuracyP
     plot.show_point(POINTS[0], 1, 7)
     assert names(plot) == ["1 sample"]
     assert all(scatter.opacity() == 1.0 for scatter in plot.scatters.values())
-
-
-def test_points_measured_before_the_scene_moved_are_called_so(plot: AccuracyPlot) -> None:
     measure(plot)
     plot.show_study_finished()
     plot.show_study_outdated()
     assert plot.title.toolTip().endswith(": of the previous scene")
-
-
-def test_why_nothing_was_measured_is_shown(plot: AccuracyPlot) -> None:
-    plot.show_study_begun()
     plot.show_study_failed("The panel is behind the camera.")
     assert plot.title.toolTip().endswith("The panel is behind the camera.")
-
-
-def test_a_point_tells_its_name_time_error_and_part(plot: AccuracyPlot) -> None:
-    measure(plot)
-    scatter = plot.scatters["path"]
-    assert scatter.opts["tip"](x=0.0, y=0.0, data=scatter.data["data"][0]) == (
-        "profile only: 0.1 ms, 0.4 levels\n(columns alone, whole pictures)"
-    )
 
 
 def test_a_view_that_the_user_moved_stays_until_asked_to_fit(plot: AccuracyPlot) -> None:

@@ -1,9 +1,11 @@
 """Within one move of a slider the user sees which effect came in, and what it costs."""
 
 import math
-from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+from gui.kinds import SnapshotOf, add_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
@@ -15,8 +17,7 @@ from occ_gui.accuracy.cost_measurement import SceneCosts
 from occ_gui.accuracy.effect_rows import EffectRow
 from occ_gui.accuracy.feature import accuracy
 from occ_gui.accuracy.pane import AccuracyPane
-from occ_gui.accuracy.plan_changes import PlanNews
-from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.accuracy.plan_changes import PlanChanges, PlanNews
 from occ_model.effects.plan import plan_with
 from occ_model.results.effect_costs import Forecast
 from occ_model.scene.scene import Scene
@@ -44,15 +45,15 @@ class Bench(PaneBench):
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
+def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> Bench:
     """Bring the pane to the front, and let no study begin."""
     monkeypatch.setattr(controller, "IDLE_MS", 3_600_000)
-    bench = Bench(qtbot, small_scene)
-    yield bench
-    bench.shell.stop()
+    return Bench(qtbot, small_scene)
 
 
-def test_an_effect_included_by_a_change_is_marked_with_its_cost(bench: Bench) -> None:
+def test_what_a_change_switches_is_marked_with_its_cost_for_a_while(
+    bench: Bench, qtbot: QtBot
+) -> None:
     assert not bench.row("led-edges").included
     bench.simulate(edge_time=2e-6)
     shown = bench.row("led-edges")
@@ -60,9 +61,6 @@ def test_an_effect_included_by_a_change_is_marked_with_its_cost(bench: Bench) ->
     assert "Switched in: LED rise and fall." in bench.told
     bench.simulate(edge_time=2.1e-6)  # the mark stays while the slider goes on
     assert bench.row("led-edges").new
-
-
-def test_the_mark_goes_to_what_is_switched_next(bench: Bench) -> None:
     bench.simulate(edge_time=5e-6)
     bench.simulate(vignetting_exponent=4.0)
     assert not bench.row("led-edges").new
@@ -71,9 +69,6 @@ def test_the_mark_goes_to_what_is_switched_next(bench: Bench) -> None:
     edges = bench.row("led-edges")
     assert (edges.included, edges.new) == (False, True)
     assert "Switched out: LED rise and fall." in bench.told
-
-
-def test_what_was_switched_is_news_for_a_while_only(bench: Bench, qtbot: QtBot) -> None:
     bench.simulate(edge_time=5e-6)
     assert bench.row("led-edges").new
     bench.news._forgetting.setInterval(0)
@@ -144,18 +139,30 @@ def test_a_move_of_the_slider_is_answered_before_the_picture_is(qtbot: QtBot, be
     assert bench.row("sensor-noise").pending is None
 
 
-def test_a_selected_effect_is_shown_with_the_plans_reason(bench: Bench) -> None:
+def test_a_selected_effect_has_the_plans_reason_and_the_time_is_the_sum_of_the_rows(
+    bench: Bench,
+) -> None:
     bench.view.table.choose("sensor-noise")
     detail = bench.view.detail
     assert detail.title.text() == "Shot and read noise"
     assert "tolerance 0.5" in detail.reason.text()
+    assert bench.told.startswith("This picture: ")
+    rows = bench.view.table.effects.rows
+    total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
+    time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"
+    assert f"{time} ms" in bench.told
 
 
-def test_observable_and_noise_are_chosen(qtbot: QtBot, bench: Bench) -> None:
+def test_observable_and_noise_are_chosen_and_every_control_has_a_name_and_a_tooltip(
+    qtbot: QtBot, bench: Bench
+) -> None:
     for control in (bench.view.observable, bench.view.noise):
         qtbot.keyClick(control, Qt.Key.Key_Down)
     settings = bench.settings.settings
     assert (settings.observable, settings.noise) == ("profile", "exact")
+    pane = bench.view
+    controls = [pane.tolerance.slider, pane.tolerance.field, pane.observable, pane.noise]
+    assert all(control.accessibleName() and control.toolTip() for control in controls)
 
 
 @pytest.mark.parametrize("text", ["-1", "little"])
@@ -172,20 +179,6 @@ def test_a_wrong_tolerance_is_refused_and_the_field_restored(
     assert "allowed: from 0 levels" in sentence
     assert field.value() == bench.settings.settings.tolerance == 0.5
     assert field.lineEdit().text() == "0.5 levels"
-
-
-def test_the_stated_time_is_the_sum_of_the_rows(bench: Bench) -> None:
-    assert bench.told.startswith("This picture: ")
-    rows = bench.view.table.effects.rows
-    total = sum(row.seconds for row in rows if row.seconds is not None and row.included)
-    time = f"{1e3 * total:.0f}" if total >= 0.1 else f"{1e3 * total:.1f}"
-    assert f"{time} ms" in bench.told
-
-
-def test_every_control_of_the_pane_has_a_name_and_a_tooltip(bench: Bench) -> None:
-    pane = bench.view
-    controls = [pane.tolerance.slider, pane.tolerance.field, pane.observable, pane.noise]
-    assert all(control.accessibleName() and control.toolTip() for control in controls)
 
 
 def test_the_study_runs_in_front_and_ends_when_the_scene_changes_or_it_is_hidden(
@@ -207,11 +200,8 @@ def test_the_study_runs_in_front_and_ends_when_the_scene_changes_or_it_is_hidden
     assert title.toolTip().endswith("of the previous scene")
 
 
-def test_nothing_is_drawn_of_a_pane_that_is_not_seen(
-    qtbot: QtBot, snapshot_of: Callable[..., Snapshot]
-) -> None:
-    view = AccuracyView()
-    qtbot.addWidget(view)
+def test_nothing_is_drawn_of_a_pane_that_is_not_seen(qtbot: QtBot, snapshot_of: SnapshotOf) -> None:
+    view = add_widget(qtbot, AccuracyView())
     snapshot = snapshot_of()
     view.show_snapshot(snapshot)
     view.show_costs(SceneCosts(snapshot.request))
@@ -246,3 +236,27 @@ def test_a_change_that_is_not_known_has_no_number(bench: Bench) -> None:
     row = bench.row("sensor-noise")
     assert (row.error, row.levels) == ("?", None)
     assert "not known" in row.error_meaning
+
+
+def frame_of(*included: str) -> Any:
+    """A picture whose plan includes these of three effects."""
+    decisions = [SimpleNamespace(effect=name) for name in ("a", "b", "c")]
+    return SimpleNamespace(plan=SimpleNamespace(included=included, decisions=decisions))
+
+
+def switched_by(changes: PlanChanges) -> list[str]:
+    decisions: tuple[Any, ...] = changes.switched
+    return [decision.effect for decision in decisions]
+
+
+def test_what_is_switched_in_or_out_is_told_until_it_is_forgotten() -> None:
+    changes = PlanChanges()
+    assert not changes.update(frame_of("a", "b"))  # the first picture changes nothing
+    assert not changes.update(frame_of("a", "b"))
+    assert changes.switched == ()
+    assert changes.update(frame_of("b", "c"))
+    assert switched_by(changes) == ["a", "c"]
+    assert not changes.update(frame_of("b", "c"))
+    assert switched_by(changes) == ["a", "c"]
+    changes.forget()
+    assert changes.switched == ()

@@ -107,7 +107,7 @@ def bench(qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch) -> 
     bench.stop()
 
 
-def test_at_rest_and_seen_the_points_come_one_by_one(bench: Bench) -> None:
+def test_at_rest_and_seen_the_points_come_one_by_one_and_not_again(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.allow(1)
     bench.wait_for("point 0 1/3")
@@ -116,6 +116,11 @@ def test_at_rest_and_seen_the_points_come_one_by_one(bench: Bench) -> None:
     bench.wait_until_idle()
     assert bench.pane.received == ["begun", "point 0 1/3", "point 1 2/3", "point 2 3/3", "finished"]
     assert bench.measured == [SimulationRequest(bench.scenes.scene, FIRST_SETTINGS)]
+    bench.controller.set_seen(False)
+    bench.controller.set_seen(True)
+    assert bench.controller.runner.is_idle
+    bench.wait_until_idle()
+    assert bench.pane.received[-1] == "finished"
 
 
 def test_nothing_is_measured_while_nobody_looks(bench: Bench, qtbot: QtBot) -> None:
@@ -154,17 +159,6 @@ def test_hiding_cancels_the_study_and_showing_begins_it_anew(bench: Bench, qtbot
     assert bench.pane.received[-1] == "outdated"
     bench.controller.set_seen(True)
     bench.allow(1 + TOTAL)
-    bench.wait_until_idle()
-    assert bench.pane.received[-1] == "finished"
-
-
-def test_measured_points_are_not_measured_again_when_shown_again(bench: Bench) -> None:
-    bench.controller.set_seen(True)
-    bench.allow(TOTAL)
-    bench.wait_for("finished")
-    bench.controller.set_seen(False)
-    bench.controller.set_seen(True)
-    assert bench.controller.runner.is_idle
     bench.wait_until_idle()
     assert bench.pane.received[-1] == "finished"
 
@@ -209,14 +203,13 @@ def tiny() -> SimulationRequest:
     return SimulationRequest(scene, FIRST_SETTINGS)
 
 
-def test_the_models_own_study_has_as_many_points_as_it_says(tiny: SimulationRequest) -> None:
+def test_the_models_own_study_has_as_many_points_as_it_says_after_the_costs_of_effects(
+    tiny: SimulationRequest,
+) -> None:
     points = [m for m in measured_of(tiny, CostMeasurement()) if isinstance(m, Measured)]
     assert {point.total for point in points} == {len(points)}
     parts = [point.point.part for point in points]
     assert sum(one != other for one, other in pairwise(parts)) == len(ACCURACY_PARTS) - 1
-
-
-def test_the_costs_of_effects_come_before_the_points(tiny: SimulationRequest) -> None:
     reports = measured_of(tiny, CostMeasurement())
     kinds = [type(report) for report in reports]
     assert kinds[0] is SceneCosts
@@ -264,6 +257,16 @@ def test_costs_of_another_scene_or_observable_are_not_used(tiny: SimulationReque
     profile = replace(tiny, settings=replace(FIRST_SETTINGS, observable="profile"))
     assert not costs.of(profile, times).differences
     assert costs.of(profile, times).others
+    made = tuple(
+        TimeShares(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
+        for names in ([], ["jpeg"], ["jpeg", "vignetting"])
+    )
+    costs = SceneCosts(tiny, made)
+    for one in made:
+        shown = replace(one, stages={"paint": 9.0})
+        assert costs.of(tiny, shown).picture is one
+    unlike = TimeShares({"vignetting": 0.1}, {}, {}, True)
+    assert costs.of(tiny, unlike).picture is unlike
 
 
 def test_all_times_that_are_stated_of_a_scene_are_of_one_measurement(
@@ -304,16 +307,3 @@ def test_a_study_that_was_stopped_before_it_began_does_not_begin(
     assert not bench.controller._idle_timer.isActive()
     qtbot.wait(60)
     assert not bench.measured
-
-
-def test_only_a_picture_with_the_same_effects_takes_anothers_times(tiny: SimulationRequest) -> None:
-    made = tuple(
-        TimeShares(dict.fromkeys(names, 0.1), {"paint": 0.2}, {}, True)
-        for names in ([], ["jpeg"], ["jpeg", "vignetting"])
-    )
-    costs = SceneCosts(tiny, made)
-    for one in made:
-        shown = replace(one, stages={"paint": 9.0})
-        assert costs.of(tiny, shown).picture is one
-    other = TimeShares({"vignetting": 0.1}, {}, {}, True)
-    assert costs.of(tiny, other).picture is other

@@ -1,11 +1,11 @@
 """The table says what each effect changes and takes, and what the plan does with it."""
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, add_widget, collect
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QColor, QImage
 from PySide6.QtWidgets import QComboBox
@@ -16,7 +16,6 @@ from occ_gui.accuracy.effect_detail import EffectDetail
 from occ_gui.accuracy.effect_rows import ELSE, rows_of
 from occ_gui.accuracy.effect_table import HIGHEST_ROW, LOWEST_ROW, EffectTable
 from occ_gui.accuracy.row_order import EFFECT, ERROR, STAGE, SWITCH, TIME, slowest_of
-from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.effect_costs import (
     EffectCrop,
     EffectDifference,
@@ -30,7 +29,7 @@ ROLE = Qt.ItemDataRole
 
 
 @pytest.fixture
-def frame(snapshot_of: Callable[..., Snapshot]) -> Frame:
+def frame(snapshot_of: SnapshotOf) -> Frame:
     """Simulate a scene with noise and LED edges and without anything else."""
     frame = snapshot_of(edge_time=5e-6).frame
     timings = {"exposure": 1e-3, "led-edges": 0.25e-3, "sensor-noise": 0.0302, "image": 2e-3}
@@ -50,8 +49,7 @@ def difference(effect: str, error: float) -> EffectDifference:
 
 @pytest.fixture
 def table(qtbot: QtBot, frame: Frame) -> EffectTable:
-    table = EffectTable()
-    qtbot.addWidget(table)
+    table = add_widget(qtbot, EffectTable())
     table.resize(640, 260)
     table.show_rows(rows_of(frame, costs_of(frame), new=()))
     table.show()
@@ -63,7 +61,7 @@ def cell(table: EffectTable, effect: str, column: int, role: int = ROLE.DisplayR
     return table.effects.index(names.index(effect), column).data(role)
 
 
-def test_every_effect_has_a_row_in_the_order_that_light_travels(
+def test_every_effect_has_a_row_in_the_order_that_light_travels_and_times_add_up(
     table: EffectTable, frame: Frame
 ) -> None:
     rows = table.effects.rows
@@ -73,16 +71,15 @@ def test_every_effect_has_a_row_in_the_order_that_light_travels(
     stages = [stage for stage in shown if stage]
     assert stages == ["Light", "Optics", "Sensor", "File"]
     assert cell(table, "led-edges", STAGE) == "Light"
-
-
-def test_the_times_of_the_rows_add_up_to_the_pictures_time(frame: Frame) -> None:
     rows = rows_of(frame, costs_of(frame), new=())
     total = sum(row.seconds for row in rows if row.seconds is not None)
     assert total == pytest.approx(sum(frame.timings.values()), rel=1e-12)
     assert rows[-1].seconds == pytest.approx(3e-3)
 
 
-def test_a_row_says_error_time_and_reason(table: EffectTable, frame: Frame) -> None:
+def test_a_row_says_error_time_and_reason_and_an_absent_effect_is_grey_and_costs_nothing(
+    table: EffectTable, frame: Frame
+) -> None:
     (decision,) = [d for d in frame.plan.decisions if d.effect == "led-edges"]
     assert cell(table, "led-edges", ERROR) == f"≈ {decision.estimate:.2g}"
     assert cell(table, "led-edges", TIME) == "0.25"
@@ -90,6 +87,11 @@ def test_a_row_says_error_time_and_reason(table: EffectTable, frame: Frame) -> N
     assert decision.reason in str(cell(table, "led-edges", EFFECT, ROLE.ToolTipRole))
     assert cell(table, "sensor-noise", TIME) == "30.2"
     assert cell(table, "fixed-pattern", TIME) == "with noise"
+    cells = [cell(table, "jpeg", column) for column in (EFFECT, ERROR, TIME)]
+    assert cells == ["○ JPEG", "none", ""]
+    grey = cell(table, "jpeg", EFFECT, ROLE.ForegroundRole)
+    assert isinstance(grey, QColor)
+    assert cell(table, "led-edges", EFFECT, ROLE.ForegroundRole) is None
 
 
 def test_a_measured_error_takes_the_place_of_the_estimate(table: EffectTable, frame: Frame) -> None:
@@ -108,8 +110,7 @@ def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
     table.resize(900, 400)
     table.show()
     area = table.visualRect(table.effects.index(2, ERROR))
-    found: list[float] = []
-    table.tolerance_dragged.connect(found.append)
+    found = collect(table.tolerance_dragged)
     for levels in (0.1, 5.0, 80.0):
         at = QPoint(round(place_of(levels, area)), area.center().y())
         qtbot.mousePress(table.viewport(), Qt.MouseButton.LeftButton, pos=at)
@@ -117,14 +118,6 @@ def test_the_line_of_the_tolerance_is_dragged_along_the_axis_of_errors(
         assert found[-1] == pytest.approx(levels, rel=0.1)
     for place, levels in ((area.left() - 5, 0.0), (area.right() + 50, math.inf)):
         assert levels_at(place, area) == levels
-
-
-def test_an_absent_effect_is_grey_excluded_and_costs_nothing(table: EffectTable) -> None:
-    cells = [cell(table, "jpeg", column) for column in (EFFECT, ERROR, TIME)]
-    assert cells == ["○ JPEG", "none", ""]
-    grey = cell(table, "jpeg", EFFECT, ROLE.ForegroundRole)
-    assert isinstance(grey, QColor)
-    assert cell(table, "led-edges", EFFECT, ROLE.ForegroundRole) is None
 
 
 def test_what_has_just_been_switched_is_tinted(table: EffectTable, frame: Frame) -> None:
@@ -136,7 +129,7 @@ def test_what_has_just_been_switched_is_tinted(table: EffectTable, frame: Frame)
 
 
 def test_what_would_be_switched_is_shown_before_it_is(
-    table: EffectTable, frame: Frame, snapshot_of: Callable[..., Snapshot]
+    table: EffectTable, frame: Frame, snapshot_of: SnapshotOf
 ) -> None:
     without = replace(
         frame.plan,
@@ -152,18 +145,6 @@ def test_what_would_be_switched_is_shown_before_it_is(
     assert cell(table, "sensor-noise", EFFECT) == "● Shot and read noise"
 
 
-def test_only_rows_that_differ_are_drawn_again(table: EffectTable, frame: Frame) -> None:
-    drawn: list[int] = []
-    table.effects.dataChanged.connect(lambda first, _: drawn.append(first.row()))
-    switches = dict(table.switches)
-    table.show_rows(rows_of(frame, costs_of(frame), new=()))
-    assert drawn == []
-    changed = replace(frame, timings={**frame.timings, "led-edges": 1e-3})
-    table.show_rows(rows_of(changed, costs_of(changed), new=()))
-    assert drawn == [0]
-    assert table.switches == switches
-
-
 def test_each_effect_has_a_switch_that_is_named_and_explained(table: EffectTable) -> None:
     effects = [row for row in table.effects.rows if row.effect != ELSE]
     assert set(table.switches) == {row.effect for row in effects}
@@ -175,17 +156,15 @@ def test_each_effect_has_a_switch_that_is_named_and_explained(table: EffectTable
         assert "plan" in switch.toolTip()
 
 
-def test_a_switch_tells_what_is_wanted_of_its_effect(table: EffectTable, qtbot: QtBot) -> None:
+def test_a_switch_tells_what_is_wanted_of_its_effect_and_shows_what_is_forced(
+    table: EffectTable, qtbot: QtBot
+) -> None:
     received: list[tuple[str, object]] = []
     table.switched.connect(lambda *what: received.append(what))
     for key in (Qt.Key.Key_Down, Qt.Key.Key_Down, Qt.Key.Key_Home):
         qtbot.keyClick(table.switches["jpeg"], key)
     assert received == [("jpeg", True), ("jpeg", False), ("jpeg", None)]
-
-
-def test_switches_show_what_is_forced_and_tell_nothing(table: EffectTable) -> None:
-    received: list[object] = []
-    table.switched.connect(lambda *what: received.append(what))
+    received.clear()
     table.show_force({"jpeg": True, "flicker": False})
     shown = {effect: switch.currentText() for effect, switch in table.switches.items()}
     assert {e: t for e, t in shown.items() if t != "plan"} == {"jpeg": "on", "flicker": "off"}
@@ -195,8 +174,7 @@ def test_switches_show_what_is_forced_and_tell_nothing(table: EffectTable) -> No
 
 
 def test_a_selected_row_is_told_once(table: EffectTable) -> None:
-    received: list[str] = []
-    table.chosen.connect(received.append)
+    received = collect(table.chosen)
     table.choose("jpeg")
     table.choose("jpeg")
     assert received == ["jpeg"]
@@ -211,7 +189,13 @@ def test_a_row_out_of_sight_is_brought_into_view(table: EffectTable) -> None:
     assert table.viewport().rect().intersects(shown)
 
 
-def test_rows_are_low_where_all_fit_so_and_scroll_in_a_lower_pane(table: EffectTable) -> None:
+def test_rows_are_low_where_all_fit_so_scroll_in_a_lower_pane_and_grow_to_a_limit(
+    table: EffectTable,
+) -> None:
+    # Each row is one line: half of a second one would be seen otherwise.
+    assert not table.wordWrap()
+    heights = {table.rowHeight(place) for place in range(table.model().rowCount())}
+    assert max(heights) < 2 * table.fontMetrics().height()
     last = table.effects.index(table.effects.rowCount() - 1, EFFECT)
     table.resize(table.width(), (2 + table.effects.rowCount()) * LOWEST_ROW)
     assert table.viewport().rect().contains(table.visualRect(last))
@@ -219,17 +203,18 @@ def test_rows_are_low_where_all_fit_so_and_scroll_in_a_lower_pane(table: EffectT
     assert table.verticalScrollBar().maximum() > 0
     table.scrollTo(last)
     assert table.viewport().rect().contains(table.visualRect(last))
+    table.resize(640, table.sizeHint().height())
+    assert table.verticalHeader().defaultSectionSize() == HIGHEST_ROW
 
 
-def test_the_effect_shown_first_is_the_slowest_in_the_picture(frame: Frame) -> None:
+def test_the_effect_shown_first_is_the_slowest_in_the_picture_but_for_what_times_scatter(
+    frame: Frame,
+) -> None:
     rows = rows_of(frame, costs_of(frame), new=())
     assert slowest_of(rows) == "sensor-noise"
     slower = replace(frame, timings={**frame.timings, "led-edges": 0.05})
     assert slowest_of(rows_of(slower, costs_of(slower), new=())) == "led-edges"
     assert slowest_of([row for row in rows if row.effect == ELSE]) == ""
-
-
-def test_the_effect_shown_first_is_not_changed_by_what_times_scatter(frame: Frame) -> None:
     longer = replace(frame, timings={**frame.timings, "led-edges": 0.032})
     rows = rows_of(longer, costs_of(longer), new=())
     assert slowest_of(rows) == "led-edges"
@@ -297,16 +282,10 @@ def test_of_some_runs_each_effect_takes_its_fastest() -> None:
     assert TimeShares.of_runs(runs[:1]).scatter == {"jpeg": 0.0, "defocus": 0.0}
 
 
-def test_at_the_height_it_asks_for_the_rows_are_as_high_as_they_can_be(table: EffectTable) -> None:
-    table.resize(640, table.sizeHint().height())
-    assert table.verticalHeader().defaultSectionSize() == HIGHEST_ROW
-
-
 def test_the_name_of_the_effect_chosen_is_bold_and_the_tables_text_small(
     qtbot: QtBot, table: EffectTable
 ) -> None:
-    detail = EffectDetail()
-    qtbot.addWidget(detail)
+    detail = add_widget(qtbot, EffectDetail())
     assert detail.title.font().bold()
     assert not detail.reason.font().bold()
     assert table.font().pointSizeF() < detail.font().pointSizeF()
@@ -333,8 +312,7 @@ def test_a_picture_is_fitted_whole_in_the_middle_and_never_enlarged(
 def test_the_titles_of_the_columns_are_shown_whole_in_any_font(
     qtbot: QtBot, frame: Frame, points: int
 ) -> None:
-    table = EffectTable()
-    qtbot.addWidget(table)
+    table = add_widget(qtbot, EffectTable())
     header = table.horizontalHeader()
     for widget in (table, header):
         font = widget.font()
@@ -350,8 +328,7 @@ def test_the_titles_of_the_columns_are_shown_whole_in_any_font(
 
 
 def test_pictures_are_as_high_as_they_need_in_any_width(qtbot: QtBot) -> None:
-    detail = EffectDetail()
-    qtbot.addWidget(detail)
+    detail = add_widget(qtbot, EffectDetail())
     grey = np.full((40, 80), 90, dtype=np.uint8)
     detail.show_row(None, EffectCrop(grey, grey, grey, 4, False))
     detail.resize(400, 600)
@@ -364,10 +341,3 @@ def test_pictures_are_as_high_as_they_need_in_any_width(qtbot: QtBot) -> None:
         low, high = (detail.pictures.height_in(room + off) for off in (-8, 8))
         assert low <= heights[-1] <= high
     assert heights[0] < heights[1]
-
-
-def test_each_row_is_one_line(table: EffectTable) -> None:
-    """A long name ends in dots: half of a second line would be seen otherwise."""
-    assert not table.wordWrap()
-    heights = {table.rowHeight(place) for place in range(table.model().rowCount())}
-    assert max(heights) < 2 * table.fontMetrics().height()

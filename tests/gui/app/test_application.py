@@ -3,28 +3,24 @@
 import gc
 import math
 import re
-from collections.abc import Callable
 
 import numpy as np
 import pytest
+from gui.kinds import GreyPicture
 from gui.user import User
-from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtWidgets import QApplication, QLabel, QMessageBox, QWidget
+from PySide6.QtWidgets import QApplication, QLabel, QMessageBox
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
-from occ_gui.scene import gesture
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.scene import Scene
 
-Picture = Callable[[QWidget], NDArray[np.uint8]]
-
 
 def test_a_key_on_a_slider_changes_scene_field_and_picture(
-    qtbot: QtBot, application: Application, user: User, grey_picture: Picture
+    qtbot: QtBot, application: Application, user: User, grey_picture: GreyPicture
 ) -> None:
     row = user.row("distance")
     assert isinstance(row, QuantityRow)
@@ -36,8 +32,8 @@ def test_a_key_on_a_slider_changes_scene_field_and_picture(
     assert not np.array_equal(grey_picture(application.view("picture")), before)
 
 
-def test_a_typed_number_reaches_the_profile_and_the_band_model(
-    application: Application, user: User
+def test_a_typed_number_reaches_the_profile_and_bits_the_decode_result(
+    application: Application, user: User, qtbot: QtBot
 ) -> None:
     application.settings.set_tolerance(math.inf)
     user.enter("exposure_time", "136 us")
@@ -46,11 +42,6 @@ def test_a_typed_number_reaches_the_profile_and_the_band_model(
     _, profile = application.view("profile").simulation.getOriginalDataset()
     assert np.array_equal(profile, occ.column_profile(scene))
     assert "136 µs" in application.view("profile").reason.text()
-
-
-def test_bits_typed_arrive_in_the_decode_result(
-    qtbot: QtBot, application: Application, user: User
-) -> None:
     bits = application.controls.code.bits
     bits.clear()
     qtbot.keyClicks(bits, "0000000101")
@@ -60,35 +51,8 @@ def test_bits_typed_arrive_in_the_decode_result(
     assert application.view("decode").strip.accessibleDescription().startswith("sent 0000000101")
 
 
-def test_a_drag_of_a_slider_is_undone_as_one_step(
-    application: Application, user: User, small_scene: Scene
-) -> None:
-    slider = user.slider("iso")
-    slider.setSliderDown(True)
-    for position in range(200, 700, 100):
-        slider.setValue(position)
-    slider.setSliderDown(False)
-    user.wait_until_idle()
-    assert application.store.scene != small_scene
-    user.choose("&Undo")
-    assert application.store.scene == small_scene
-
-
-def test_a_loaded_preset_is_shown_until_the_scene_is_edited(
-    application: Application, user: User
-) -> None:
-    preset = application.controls.preset
-    assert preset.currentIndex() == -1
-    name = user.choose_next_preset()
-    assert application.store.scene == occ.load_preset(name)
-    user.enter("iso", "123")
-    assert preset.currentIndex() == -1
-    user.choose("&Undo")
-    assert preset.currentData() == name
-
-
 def test_undo_and_redo_bring_the_controls_and_the_picture_back(
-    application: Application, user: User, grey_picture: Picture
+    application: Application, user: User, grey_picture: GreyPicture
 ) -> None:
     application.story.show_whole_picture(True)
     pictures = [grey_picture(application.view("picture"))]
@@ -102,8 +66,8 @@ def test_undo_and_redo_bring_the_controls_and_the_picture_back(
         assert np.array_equal(grey_picture(application.view("picture")), picture)
 
 
-def test_the_window_tells_how_long_simulating_and_reading_took(
-    qtbot: QtBot, application: Application
+def test_the_window_tells_how_long_simulating_and_reading_took_and_its_version(
+    qtbot: QtBot, application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     labels = application.window.statusBar().findChildren(QLabel)
     pattern = r"simulated in [\d.]+ ms, read in [\d.]+ ms"
@@ -111,24 +75,6 @@ def test_the_window_tells_how_long_simulating_and_reading_took(
     application.window.show_timing(0.0123, 0.0091)
     # The label takes its new width when the event loop runs.
     qtbot.waitUntil(lambda: "simulated in 12.3 ms, read in 9.1 ms" in {x.text() for x in labels})
-
-
-def test_quick_steps_of_a_field_are_undone_at_once(
-    qtbot: QtBot, application: Application, user: User, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(gesture, "_PAUSE_MS", 60_000)  # however slow the machine
-    before = application.store.scene
-    for _ in range(3):
-        qtbot.keyClick(user.row("distance").field, Qt.Key.Key_Up)
-        user.wait_until_idle()
-    assert application.store.scene.pose.distance > 1.2
-    user.choose("&Undo")
-    assert application.store.scene == before
-
-
-def test_about_tells_the_version(
-    user: User, application: Application, monkeypatch: pytest.MonkeyPatch
-) -> None:
     told: list[str] = []
     monkeypatch.setattr(QMessageBox, "about", lambda *texts: told.append(texts[2]))
     user.choose("&About")

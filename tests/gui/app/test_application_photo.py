@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import not_none
 from gui.user import User
 from PIL import Image
 from PySide6.QtWidgets import QApplication, QLabel
@@ -32,10 +33,16 @@ def camera_scene(small_scene: Scene) -> Scene:
 
 @pytest.fixture
 def taken(tmp_path: Path, camera_scene: Scene) -> Path:
-    """Take a photo of a known camera."""
     path = tmp_path / "taken.png"
     Image.fromarray(occ.render(camera_scene).image).save(path)
     return path
+
+
+def choose_square_wave(application: Application) -> None:
+    """Say what the lamp of the photo sends."""
+    form = application.view("photo").form
+    form.sent.show_key("square")
+    form.square.set_value(SENT["switching_frequency"] / 2)
 
 
 @pytest.fixture
@@ -44,8 +51,7 @@ def matched(
 ) -> Application:
     application.open_photo(taken)
     user.wait_until_idle()
-    application.view("photo").form.sent.show_key("square")
-    application.view("photo").form.square.set_value(SENT["switching_frequency"] / 2)
+    choose_square_wave(application)
     user.choose("&Match photo")
     return application
 
@@ -90,12 +96,11 @@ def test_reading_a_photo_shows_progress_and_a_cancel_button(
     assert application.shell.pane("photo").matching.match is None
 
 
-def test_a_match_finds_the_readout_time_and_one_step_applies_it(
+def test_a_match_finds_the_readout_time_one_step_applies_it_and_it_lies_on_the_photo(
     matched: Application, user: User, small_scene: Scene
 ) -> None:
     assert matched.store.scene == small_scene
-    found = matched.shell.pane("photo").matching.match
-    assert found is not None
+    found = not_none(matched.shell.pane("photo").matching.match)
     assert found.readout_time == pytest.approx(SENT["readout_time"], rel=5e-3)
     steps = matched.store.undo_stack.count()
     user.choose("&Apply to the scene")
@@ -103,37 +108,17 @@ def test_a_match_finds_the_readout_time_and_one_step_applies_it(
     assert matched.store.scene == found.scene
     user.choose("&Undo")
     assert matched.store.scene == small_scene
-
-
-def test_an_applied_match_lies_on_the_photo_pixel_by_pixel(
-    matched: Application, user: User
-) -> None:
     corner = matched.shell.pane("photo").placement
     assert corner != Placement()
     matched.view("photo").result.apply.click()
     user.wait_until_idle()
     assert matched.shell.pane("photo").placement == Placement()
-    found = matched.shell.pane("photo").matching.match
-    assert found is not None
     columns, levels = matched.view("profile").photo.getOriginalDataset()
     assert columns[0] == found.region.first_column + RIM
     simulated = matched.view("profile").simulation.getOriginalDataset()[1][columns.astype(int)]
     assert np.corrcoef(levels, simulated)[0, 1] > 0.98
     user.choose("&Undo")
     assert matched.shell.pane("photo").placement == corner
-
-
-def test_the_numbers_follow_the_sliders(matched: Application, user: User) -> None:
-    matched.view("photo").result.apply.click()
-    user.wait_until_idle()
-    told = matched.view("profile").residual.numbers.toolTip()
-    user.enter("exposure_time", "40 us")
-    assert matched.view("profile").residual.numbers.toolTip() != told
-
-
-def test_moving_the_photo_moves_it_in_every_pane_until_reset(
-    matched: Application, user: User
-) -> None:
     before = matched.shell.pane("photo").placement
     matched.view("photo").placement.by_mouse.click()
     assert matched.view("picture").mode.key() == "blend"
@@ -142,8 +127,6 @@ def test_moving_the_photo_moves_it_in_every_pane_until_reset(
     assert matched.shell.pane("photo").placement == Placement(200.0, 50.0)
     assert matched.view("photo").placement.column.value() == 200.0
     columns, _ = matched.view("profile").photo.getOriginalDataset()
-    found = matched.shell.pane("photo").matching.match
-    assert found is not None
     assert columns[0] == 200 + found.region.first_column + RIM
     matched.view("photo").placement.reset.click()
     assert matched.shell.pane("photo").placement == before
@@ -180,23 +163,11 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
     user.wait_until_idle()
     assert all(actions[name].isEnabled() for name in with_photo)
     assert not any(actions[name].isEnabled() for name in with_match)
-    application.view("photo").form.sent.show_key("square")
-    application.view("photo").form.square.set_value(SENT["switching_frequency"] / 2)
+    choose_square_wave(application)
     user.choose("&Match photo")
     assert all(actions[name].isEnabled() for name in with_match)
     application.photos.close()
     assert not any(actions[name].isEnabled() for name in (*with_photo, *with_match))
-
-
-def test_a_photo_can_be_matched_and_applied_as_it_is_opened(
-    application: Application, user: User, taken: Path
-) -> None:
-    application.store.change(pattern="10", switching_frequency=SENT["switching_frequency"])
-    application.open_photo(taken, match=True)
-    user.wait_until_idle()
-    user.wait_until_idle()
-    readout = application.store.scene.camera.readout_time
-    assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
 
 def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
@@ -205,21 +176,27 @@ def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
     def refuse(*_asked: object, **_how: object) -> None:
         raise MatchError("No scene explains these stripes.")
 
-    monkeypatch.setattr(occ, "match_photo", refuse)
+    matching = application.shell.pane("photo").matching
+    application.store.change(pattern="10", switching_frequency=SENT["switching_frequency"])
+    scene = application.store.scene
+    with monkeypatch.context() as patched:
+        patched.setattr(occ, "match_photo", refuse)
+        application.open_photo(taken, match=True)
+        user.wait_until_idle()
+        user.wait_until_idle()
+    assert "No scene explains" in user.message
+    application.photos.open(taken)
+    user.wait_until_idle()
+    assert matching.match is None
+    user.choose("&Match photo")
+    assert matching.match is not None
+    assert application.store.scene == scene
+    application.photos.close()
     application.open_photo(taken, match=True)
     user.wait_until_idle()
     user.wait_until_idle()
-    assert "No scene explains" in user.message
-    monkeypatch.undo()
-    scene = application.store.scene
-    application.photos.open(taken)
-    user.wait_until_idle()
-    assert application.shell.pane("photo").matching.match is None
-    application.view("photo").form.sent.show_key("square")
-    application.view("photo").form.square.set_value(SENT["switching_frequency"] / 2)
-    user.choose("&Match photo")
-    assert application.shell.pane("photo").matching.match is not None
-    assert application.store.scene == scene
+    readout = application.store.scene.camera.readout_time
+    assert readout == pytest.approx(SENT["readout_time"], rel=5e-3)
 
 
 @pytest.mark.whole
@@ -232,8 +209,7 @@ def test_the_readout_time_of_the_real_1_khz_photo_is_measured(
     assert application.photos.choice.reading.scan_axis == "auto"
     application.view("photo").form.sent.show_key("square")
     user.choose("&Match photo")
-    found = application.shell.pane("photo").matching.match
-    assert found is not None
+    found = not_none(application.shell.pane("photo").matching.match)
     assert found.readout_time == pytest.approx(14.565e-6, rel=3e-3)
     user.choose("&Apply to the scene")
     assert application.shell.pane("photo").placement == Placement()
@@ -248,8 +224,7 @@ def test_the_mode_of_the_photo_says_first_what_holds_for_the_photo(
     assert matched.window.modes.mode == "photo"
     assert verdict.isVisible()
     assert not story.verdict.isVisible()
-    match = matched.shell.pane("photo").matching.match
-    assert match is not None
+    match = not_none(matched.shell.pane("photo").matching.match)
     assert verdict.heading.startswith(f"Photo: {match.verdict}")
     chips = {chip.key: chip for chip in verdict.chips.chips}
     assert (chips["simulation"].text, chips["simulation"].state) == (

@@ -10,7 +10,7 @@ import pytest
 from gui.starts import PROJECT, Starts
 from PIL import Image
 
-from occ_gui.app.command_line import main
+from occ_gui.app.command_line import _parser, main
 from occ_gui.app.system_libraries import missing_libraries
 
 ENVIRONMENT = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
@@ -26,18 +26,6 @@ SMALL = "--set=rows=200"
 NOISE = (0xCC, 0x79, 0xA7)
 """The colour of the points that an accuracy study gives last."""
 
-COLD_START = """
-import sys
-from occ_gui.app.command_line import main
-code = main(["--screenshot", sys.argv[1], "--set=rows=200"])
-heavy = {"contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
-         "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",
-         "occ_gui.spectrum.pane", "occ_model.photo.chips",
-         "occ_model.photo.evidence", "occ_model.photo.fit", "occ_model.photo.lamps"}
-heavy &= set(sys.modules)
-sys.exit(f"imported at start: {heavy}" if heavy else code)
-"""
-
 
 def run(
     *arguments: str | Path, environment: Mapping[str, str] = ENVIRONMENT
@@ -46,16 +34,6 @@ def run(
         [sys.executable, *map(str, arguments)],
         cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=120, check=False,
     )  # fmt: skip
-
-
-def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as left:
-        main(["--no-such=\x1b[31m" + "9" * 5000])
-    assert left.value.code == 2
-    *_usage, last = capsys.readouterr().err.removesuffix("\n").split("\n")
-    assert last.startswith("occ-gui: error: unrecognized arguments: --no-such=\\x1b[31m999")
-    assert last.isprintable()
-    assert len(last) < 1100
 
 
 def is_one_sentence(text: str) -> bool:
@@ -125,25 +103,13 @@ def test_a_screenshot_is_not_written_over_the_photo(
     assert photo.read_bytes() == before
 
 
-def test_a_match_without_a_photo_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["--match"]) == 2
-    assert is_one_sentence(capsys.readouterr().err)
-
-
-def test_the_first_picture_is_shown_without_slow_imports(tmp_path: Path) -> None:
-    picture = tmp_path / "window.png"
-    ended = run("-c", COLD_START, picture)
-    assert (ended.returncode, ended.stderr) == (0, "")
-    with Image.open(picture) as image:
-        assert image.size == (1280, 800)
-
-
 @pytest.mark.parametrize(
     ("picture", "more", "named"),
     [
         ("w.png", ["--photo", "missing.jpg"], "missing.jpg"),
         ("w.png", ["--preset", "fone-68us"], "phone-68us"),
         ("", [], "{folder}"),  # a folder is no file to write to
+        ("w.png", ["--set", "distance=0.1m", "--set", "yaw=70deg"], "behind the camera"),
     ],
 )
 def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_file(
@@ -155,6 +121,20 @@ def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_fil
     assert named.format(folder=tmp_path) in ended.stderr
     assert list(tmp_path.iterdir()) == []
     assert list(tmp_path.parent.glob(f".{tmp_path.name}*")) == []
+
+
+def refusal(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    """Return the line that answers a mistake."""
+    try:
+        code: object = main(arguments)
+    except SystemExit as left:
+        code = left.code
+    answer = capsys.readouterr()
+    assert (code, answer.out) == (2, "")
+    last = answer.err.removesuffix("\n").split("\n")[-1]
+    assert last.startswith("occ-gui: ")
+    assert last.isprintable()
+    return last
 
 
 @pytest.mark.parametrize(
@@ -169,34 +149,26 @@ def test_a_screenshot_that_cannot_be_is_answered_in_a_sentence_and_leaves_no_fil
         (["--on", "sparkle"], "'sparkle'"),
         (["--on", "jpeg", "--off", "jpeg"], "'jpeg'"),
         (["--seed", "-1"], "seed"),
+        (["--match"], "--photo"),
+        (["--preset", "phone-68us", "--scene", "mine.toml"], "not allowed with"),
+        (["--screenshot", "/none/window.jpg"], ".png"),
+        # An unknown preset ends the program, should the size be let through.
+        *(
+            ([f"--size={size}", "--preset", "none at all"], repr(size))
+            for size in ("big", "1280", "0x0", "1280x800x3", "99999x99999", "-5x100")
+        ),
     ],
 )
-def test_a_mistake_in_the_scene_is_answered_before_any_window(
+def test_a_mistake_is_answered_before_any_window(
     capsys: pytest.CaptureFixture[str], arguments: list[str], named: str
 ) -> None:
-    assert main(arguments) == 2
-    told = capsys.readouterr()
-    assert told.err.startswith("occ-gui: ")
-    assert named in told.err
-    assert told.out == ""
+    assert named in refusal(arguments, capsys)
 
 
-@pytest.mark.parametrize("size", ["big", "1280", "0x0", "1280x800x3", "99999x99999", "-5x100"])
-def test_a_size_that_is_none_is_answered_by_how_to_write_one(
-    capsys: pytest.CaptureFixture[str], size: str
-) -> None:
-    # An unknown preset ends the program, should the size be let through.
-    with pytest.raises(SystemExit) as ended:
-        main([f"--size={size}", "--preset", "none at all"])
-    assert ended.value.code == 2
-    assert repr(size) in capsys.readouterr().err
-
-
-def test_preset_and_scene_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as ended:
-        main(["--preset", "phone-68us", "--scene", "mine.toml"])
-    assert ended.value.code == 2
-    assert "not allowed with" in capsys.readouterr().err
+def test_a_wrong_option_is_refused_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    last = refusal(["--no-such=\x1b[31m" + "9" * 5000], capsys)
+    assert last.startswith("occ-gui: error: unrecognized arguments: --no-such=\\x1b[31m999")
+    assert len(last) < 1100
 
 
 def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
@@ -209,26 +181,13 @@ def test_help_names_every_option(capsys: pytest.CaptureFixture[str]) -> None:
         assert option in told
 
 
-def test_a_scene_without_a_picture_gives_a_sentence_and_no_file(
-    tmp_path: Path, starts: Starts
-) -> None:
-    picture = tmp_path / "window.png"
-    behind = ["--set", "distance=0.1m", "--set", "yaw=70deg"]
-    ended = starts.run("--screenshot", picture, *behind)
-    assert ended.returncode == 2
-    assert "behind the camera" in ended.stderr
-    assert "Traceback" not in ended.stderr
-    assert not picture.exists()
-
-
 def test_without_a_display_a_screenshot_is_offered(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for name in DISPLAYS:
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(sys, "platform", "linux")
-    assert main([]) == 2
-    assert "no display" in capsys.readouterr().err
+    assert "no display" in refusal([], capsys)
 
 
 @pytest.mark.parametrize(
@@ -244,9 +203,7 @@ def test_a_display_that_does_not_answer_gives_a_sentence(named: dict[str, str]) 
     assert all(library in sentence for library in missing or ["no display"])
 
 
-def test_a_screenshot_of_another_kind_than_png_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["--screenshot", str(tmp_path / "window.jpg")]) == 2
-    assert ".png" in capsys.readouterr().err
-    assert list(tmp_path.iterdir()) == []
+def test_files_need_no_option() -> None:
+    options = _parser().parse_args(["scene.occ.toml", "photo.jpg"])
+    assert options.files == [Path("scene.occ.toml"), Path("photo.jpg")]
+    assert _parser().parse_args([]).files == []

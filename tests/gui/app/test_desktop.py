@@ -1,18 +1,17 @@
 """A desktop program: titles, themes, keys, the palette, the pointer, and held brightness."""
 
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import GreyPicture, add_widget, collect, not_none
 from gui.stores import store_of
 from gui.user import User
-from numpy.typing import NDArray
 from PySide6.QtCore import QPoint, QPointF, QSettings, Qt
-from PySide6.QtGui import QColor, QPalette
-from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QWidget
+from PySide6.QtGui import QPalette
+from PySide6.QtWidgets import QApplication, QDialog, QFileDialog
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
@@ -55,13 +54,21 @@ def test_save_asks_for_a_file_once_and_the_title_marks_changes(
     assert "iso = 300.0" in (tmp_path / "mine.toml").read_text(encoding="utf-8")
 
 
-def test_reset_is_one_step(application: Application, user: User) -> None:
+def test_reset_is_one_step_and_an_animation_is_asked_for_in_the_menu(
+    application: Application, user: User, monkeypatch: pytest.MonkeyPatch
+) -> None:
     user.enter("iso", "200")
     before = application.store.scene
     user.choose("Reset &scene")
     assert application.presets.name_of(application.store.scene) == "phone-68us"
     application.store.undo_stack.undo()
     assert application.store.scene == before
+    asked: list[str] = []
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *words: (asked.append(words[2]), ("", ""))[1]
+    )
+    user.choose("Distance…")
+    assert [Path(path).name for path in asked] == ["distance.gif"]
 
 
 def lightness_of_the_plots(application: Application) -> set[bool]:
@@ -71,7 +78,7 @@ def lightness_of_the_plots(application: Application) -> set[bool]:
 
 
 def test_the_theme_changes_everything_that_is_drawn(
-    application: Application, user: User, grey_picture: Callable[[QWidget], NDArray[np.uint8]]
+    application: Application, user: User, grey_picture: GreyPicture
 ) -> None:
     themes = application.options.theme
     for pane in ("spectrum", "equations"):
@@ -96,41 +103,25 @@ def test_the_theme_changes_everything_that_is_drawn(
     assert QApplication.palette().color(QPalette.ColorRole.Window) == before
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_text_can_be_read_on_what_it_stands_on(
-    application: Application, user: User, theme: str
+def test_the_sheet_lists_every_entry_with_keys_and_every_pane_has_a_page_and_its_heading(
+    application: Application, qtbot: QtBot
 ) -> None:
-    application.options.theme.choose(theme)
-    palette, role = QApplication.palette(), QPalette.ColorRole
-    pairs = (
-        (role.WindowText, role.Window), (role.Text, role.Base), (role.Text, role.AlternateBase),
-        (role.ButtonText, role.Button), (role.ToolTipText, role.ToolTipBase),
-    )  # fmt: skip
-    for front, back in pairs:
-        assert contrast(palette.color(front), palette.color(back)) > 7
-    assert contrast(palette.color(role.HighlightedText), palette.color(role.Highlight)) > 3
-    application.options.theme.choose("system")
-
-
-def contrast(one: QColor, other: QColor) -> float:
-    """Give the contrast of two colours, as WCAG 2 defines it."""
-    low, high = sorted(luminance(colour) for colour in (one, other))
-    return (high + 0.05) / (low + 0.05)
-
-
-def luminance(colour: QColor) -> float:
-    parts = (colour.redF(), colour.greenF(), colour.blueF())
-    linear = [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
-    return sum(w * p for w, p in zip((0.2126, 0.7152, 0.0722), linear, strict=True))
-
-
-def test_the_sheet_lists_every_entry_with_keys(application: Application, qtbot: QtBot) -> None:
     rows = list(shortcuts_of(application.window.menuBar()))
     assert ("File", "Save scene", "Ctrl+S") in rows
     assert ("Edit", "Hold brightness", "Ctrl+B") in rows
     assert len(rows) > 15
     sheet = ShortcutSheet(rows, application.window)
     assert sheet.table.rowCount() == len(rows)
+    manual = add_widget(qtbot, HelpWindow(docs_folder()))
+    pages = application.shell.pane("help").pages
+    assert set(pages) == {*PANES, PICTURE}
+    for page in pages.values():
+        name, _, heading = page.partition("#")
+        text = (docs_folder() / name).read_text(encoding="utf-8")
+        titles = [heading_id(line.lstrip("#")) for line in text.splitlines() if line[:1] == "#"]
+        assert not heading or heading in titles, page
+        manual.show_page(page)
+        assert manual.browser.source().fileName() == name
 
 
 def test_the_palette_does_what_a_few_letters_find_by_keys_only(
@@ -155,9 +146,13 @@ def test_the_palette_does_what_a_few_letters_find_by_keys_only(
     assert palette.chosen is None
 
 
-@pytest.mark.parametrize(
-    ("words", "title"),
-    [
+def test_the_palette_finds_an_entry_by_what_it_is_for_and_jumps_to_every_parameter(
+    application: Application,
+) -> None:
+    window = application.window
+    found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
+    palette = CommandPalette(found, window)
+    for words, title in (
         ("gif", "Animation of a slider: Exposure time"),
         ("animation", "Animation of a slider: Exposure time"),
         ("film", "Open film"),
@@ -166,43 +161,19 @@ def test_the_palette_does_what_a_few_letters_find_by_keys_only(
         ("pdf", "Column profile"),
         ("full screen", "Full screen"),
         ("projector", "Full screen"),
-    ],
-)
-def test_the_palette_finds_an_entry_by_what_it_is_for(
-    application: Application, words: str, title: str
-) -> None:
-    window = application.window
-    found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
-    palette = CommandPalette(found, window)
-    palette.line.setText(words)
-    listed = [palette.list.item(place).text() for place in range(palette.list.count())]
-    assert any(title in text for text in listed), listed
-    named = [words in text.casefold() for text in listed]
-    assert named == sorted(named, reverse=True)  # those of the name first
-
-
-def test_an_animation_is_asked_for_in_the_menu(
-    application: Application, user: User, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[str] = []
-    monkeypatch.setattr(
-        QFileDialog, "getSaveFileName", lambda *words: (asked.append(words[2]), ("", ""))[1]
-    )
-    user.choose("Distance…")
-    assert [Path(path).name for path in asked] == ["distance.gif"]
-
-
-def test_the_palette_jumps_to_every_parameter(application: Application, qtbot: QtBot) -> None:
-    window = application.window
-    found = commands_of(window.menuBar(), application.controls, window.bring_to_front)
+    ):
+        palette.line.setText(words)
+        listed = [palette.list.item(place).text() for place in range(palette.list.count())]
+        assert any(title in text for text in listed), listed
+        named = [words in text.casefold() for text in listed]
+        assert named == sorted(named, reverse=True)  # those of the name first
     (jump,) = [command for command in found if command.matches(["f-number", "main"])]
     (other,) = [command for command in found if command.matches(["panel and camera", "gamma"])][:1]
     window.activateWindow()
     for command in (other, jump):
         command.run()
         QApplication.processEvents()
-        focused = window.focusWidget()
-        assert focused is not None
+        focused = not_none(window.focusWidget())
         assert focused.isVisible()
     assert focused is application.controls.main_rows()["f_number"].field
 
@@ -212,8 +183,7 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
 ) -> None:
     application.story.show_whole_picture(True)
     pane = application.view("picture").simulation
-    frame = application.view("picture")._frame
-    assert frame is not None
+    frame = not_none(application.view("picture")._frame)
     told = application.window.pointed
     view = pane.graphics
     place = view.mapFromScene(pane.box.mapViewToScene(QPointF(40, 30)))
@@ -235,8 +205,7 @@ def test_the_status_line_shows_column_row_and_level_at_the_mouse(
 def held(qtbot: QtBot) -> tuple[SceneStore, SceneEditor, list[str]]:
     store = store_of(Scene().replace(exposure_time=100e-6, iso=200.0))
     editor = SceneEditor(store)
-    messages: list[str] = []
-    editor.brightness.status_message.connect(messages.append)
+    messages = collect(editor.brightness.status_message)
     editor.brightness.switch(True)
     return store, editor, messages
 
@@ -245,7 +214,9 @@ def product(store: SceneStore) -> float:
     return store.scene.camera.iso * store.scene.camera.exposure_time
 
 
-def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> None:
+def test_iso_moves_against_the_exposure_a_gesture_is_a_step_and_stops_at_its_limit_with_a_sentence(
+    held: Any,
+) -> None:
     store, editor, messages = held
     before, light = store.scene, product(store)
     gesture = new_gesture()
@@ -256,10 +227,6 @@ def test_iso_moves_against_the_exposure_and_a_gesture_is_a_step(held: Any) -> No
     store.undo_stack.undo()
     assert store.scene == before
     assert messages == []
-
-
-def test_iso_stops_at_its_limit_with_a_sentence_and_comes_back(held: Any) -> None:
-    store, editor, messages = held
     light = product(store)
     editor.edit("exposure_time", 1e-9, new_gesture())
     assert "cannot be held" in messages[-1]
@@ -306,20 +273,6 @@ def test_the_view_menu_hides_the_strips_and_it_is_remembered(
     kept.sync()
     assert not Preferences(settings()).slider_strips
     assert Preferences(None).slider_strips
-
-
-def test_every_pane_has_a_page_and_its_heading(application: Application, qtbot: QtBot) -> None:
-    manual = HelpWindow(docs_folder())
-    qtbot.addWidget(manual)
-    pages = application.shell.pane("help").pages
-    assert set(pages) == {*PANES, PICTURE}
-    for page in pages.values():
-        name, _, heading = page.partition("#")
-        text = (docs_folder() / name).read_text(encoding="utf-8")
-        titles = [heading_id(line.lstrip("#")) for line in text.splitlines() if line[:1] == "#"]
-        assert not heading or heading in titles, page
-        manual.show_page(page)
-        assert manual.browser.source().fileName() == name
 
 
 def test_each_door_of_the_welcome_page_leads_to_its_mode(

@@ -5,6 +5,7 @@ import shlex
 import shutil
 
 import pytest
+from gui.kinds import add_widget
 from PySide6.QtCore import QRect
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
@@ -44,13 +45,12 @@ def test_all_missing_libraries_are_named_with_the_line_that_installs_them(
     assert "libxcb" not in reason_for_no_window()
 
 
-def test_a_library_that_no_table_lists_is_named_too(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_library_that_no_table_lists_is_named_too_and_without_one_the_display(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     refuse(monkeypatch, "libnew.so.0: cannot open shared object file: No such file")
     assert unlisted_library(("xcb",)) == "libnew.so.0"
     assert "libnew.so.0" in reason_for_no_window()
-
-
-def test_where_no_library_is_missing_there_is_no_display(monkeypatch: pytest.MonkeyPatch) -> None:
     refuse(monkeypatch, "/x/libqxcb.so: invalid ELF header")
     assert reason_for_no_window() == display.NO_DISPLAY
 
@@ -80,16 +80,14 @@ def test_the_first_window_is_whole_and_in_the_middle(screen: tuple[int, int, int
 def test_on_a_small_screen_the_first_window_is_maximized(
     qtbot: QtBot, screen: tuple[int, int, int, int]
 ) -> None:
-    window = QWidget()
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, QWidget())
     open_first(window, QRect(*screen))
     assert window.isMaximized()
     assert window.geometry() == QRect(*screen)
 
 
 def test_on_a_large_screen_it_leaves_sight_of_what_is_behind(qtbot: QtBot) -> None:
-    window = QWidget()
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, QWidget())
     open_first(window, QRect(0, 0, 1920, 1080))
     assert not window.isMaximized()
     assert window.width() < 1920

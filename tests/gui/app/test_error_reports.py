@@ -1,5 +1,6 @@
 """Unhandled errors and full disks: the window works on, reports them, and keeps the work."""
 
+import logging
 import sys
 import threading
 from collections.abc import Iterator
@@ -7,12 +8,14 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
+from gui.kinds import add_widget
 from gui.pane_bench import PaneBench
+from PySide6.QtCore import qCritical, qDebug, qInstallMessageHandler, qWarning
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
-from occ_gui.app.error_reports import ErrorReports
+from occ_gui.app.error_reports import HARMLESS, ErrorReports, log_qt_messages
 from occ_gui.decoding.bit_strip import BitStrip
 from occ_gui.decoding.feature import decoding
 from occ_gui.picture.averaged_image import AveragedImage
@@ -25,7 +28,6 @@ STILL_THERE = "Your work is still there."
 
 @pytest.fixture
 def said() -> list[str]:
-    """List what is reported."""
     return []
 
 
@@ -40,23 +42,20 @@ def reports(qapp: QApplication, said: list[str]) -> Iterator[ErrorReports]:
         reports.remove()
 
 
-def test_a_sentence_names_the_mistake_and_not_what_it_passed_through(
+def test_a_sentence_of_one_line_names_the_mistake_and_not_what_it_passed_through(
     reports: ErrorReports, said: list[str]
 ) -> None:
     passed = "Error calling Python override of QObject::eventFilter(): " * 2
     reports.report(ZeroDivisionError, ZeroDivisionError(f"{passed}a mistake"), None)
     assert "Something went wrong: ZeroDivisionError: a mistake." in said[-1]
+    reports.report(ValueError, ValueError("two\nlines\x1b" + "x" * 5000), None)
+    message = said[-1]
+    assert message.isprintable()
+    assert len(message) < 400
 
 
 def broken(*_arguments: object, **_named: object) -> None:
     raise ZeroDivisionError("a mistake")
-
-
-def test_the_report_of_an_exception_is_one_line(reports: ErrorReports, said: list[str]) -> None:
-    reports.report(ValueError, ValueError("two\nlines\x1b" + "x" * 5000), None)
-    (message,) = said
-    assert message.isprintable()
-    assert len(message) < 400
 
 
 def test_a_repeated_exception_is_reported_once(reports: ErrorReports, said: list[str]) -> None:
@@ -139,8 +138,39 @@ def test_a_widget_that_fails_once_is_drawn_the_next_time(
             if len(drawn) == 1:
                 broken()
 
-    widget = Fragile()
-    qtbot.addWidget(widget)
+    widget = add_widget(qtbot, Fragile())
     widget.grab()
     widget.grab()
     assert len(drawn) == 2
+
+
+@pytest.fixture
+def logged(caplog: pytest.LogCaptureFixture) -> Iterator[pytest.LogCaptureFixture]:
+    """Log Qt's messages during one test; the handler of the test run is put back after it."""
+    before = qInstallMessageHandler(None)
+    log_qt_messages()
+    with caplog.at_level(logging.DEBUG, logger="qt"):
+        yield caplog
+    qInstallMessageHandler(before)
+
+
+def test_a_message_keeps_its_level_and_its_words(logged: pytest.LogCaptureFixture) -> None:
+    qDebug("a detail")
+    qWarning("an odd thing")
+    qCritical("a bad thing")
+    assert logged.record_tuples == [
+        ("qt", logging.DEBUG, "a detail"),
+        ("qt", logging.WARNING, "an odd thing"),
+        ("qt", logging.ERROR, "a bad thing"),
+    ]
+
+
+def test_a_platforms_note_on_every_window_is_no_warning(logged: pytest.LogCaptureFixture) -> None:
+    qWarning(HARMLESS)
+    assert [level for _, level, _ in logged.record_tuples] == [logging.DEBUG]
+
+
+def test_the_tests_overlook_that_message_and_no_other(pytestconfig: pytest.Config) -> None:
+    (overlooked,) = pytestconfig.getini("qt_log_ignore")
+    assert len(overlooked) > 20
+    assert HARMLESS.startswith(overlooked)

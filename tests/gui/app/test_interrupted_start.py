@@ -64,3 +64,40 @@ def test_the_help_is_shown_in_any_encoding(encoding: str) -> None:
     )
     assert (done.returncode, done.stderr) == (0, b"")
     assert done.stdout.startswith(b"usage: occ-gui")
+
+
+START = """
+import sys
+import occ_model as occ
+from occ_gui.app.command_line import start
+from occ_gui.core.workspace import Workspace
+
+qt, application = start(Workspace(occ.load_preset("phone-68us").replace(rows=200)), ["occ-gui"])
+pictures = []
+application.simulation.picture_ready.connect(pictures.append)
+application.window.show()
+while not pictures:
+    qt.processEvents()
+qt.processEvents()
+late = ("pyqtgraph", "matplotlib", "scipy", "occ_gui.photo.photo_view", "occ_gui.lessons.pane")
+print([name for name in late if name in sys.modules])
+print([name for name in application.shell.help_pages if application.shell.made_pane(name)])
+while not application.is_idle:
+    qt.processEvents()
+slow = ("contourpy", "matplotlib", "scipy", "skimage", "occ_gui.video.wiring",
+        "occ_gui.bench.pane", "occ_gui.explanation.pane", "occ_gui.lessons.pane",
+        "occ_gui.spectrum.pane", "occ_model.photo.chips", "occ_model.photo.evidence",
+        "occ_model.photo.fit", "occ_model.photo.lamps")
+print([name for name in slow if name in sys.modules])
+application.window.close()
+"""
+
+
+def test_the_first_picture_is_there_before_any_pane_is_made_and_what_is_slow_to_import_later() -> (
+    None
+):
+    environment = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
+    done = subprocess.run(
+        [sys.executable, "-c", START], env=environment, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.split() == ["[]", "[]", "[]"]

@@ -10,18 +10,15 @@ from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app.application import Application
-from occ_gui.files.file_controller import sample_photos
 from occ_gui.files.session_file import SessionFile
 from occ_gui.lessons.lesson_view import LessonView
 from occ_gui.window.main_window import MainWindow
-from occ_model.results.decoding import Region
 from occ_model.scene.scene import Scene
 from occ_model.teaching.lessons import lessons
 
 
 @pytest.fixture
 def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
-    """Open the lessons by the menu."""
     user.choose("&Lessons")
     guide = application.shell.pane("lessons").view
     qtbot.waitUntil(lambda: guide.isVisible() and bool(guide.list.choices))
@@ -29,7 +26,6 @@ def guide(application: Application, user: User, qtbot: QtBot) -> LessonView:
 
 
 def choose_sent(application: Application, sent: str) -> None:
-    """Choose what was sent, as with the mouse."""
     chosen = application.view("photo").form.sent
     chosen.show_key(sent)
     chosen.chosen.emit(sent)
@@ -39,7 +35,7 @@ def in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
 
 
-def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
+def test_a_step_sets_its_scene_and_shows_its_question_and_the_pane_that_the_story_does_not_have(
     application: Application, guide: LessonView, user: User, qtbot: QtBot, small_scene: Scene
 ) -> None:
     lesson = lessons().lessons[0]
@@ -57,11 +53,7 @@ def test_a_step_sets_its_scene_and_shows_its_pane_and_question(
     assert application.window.docks["profile"].isHidden()
     user.choose("&Undo")
     assert application.store.scene == small_scene
-
-
-def test_a_step_shows_the_pane_that_the_story_does_not_have(
-    application: Application, guide: LessonView, user: User, qtbot: QtBot
-) -> None:
+    guide.step.all.click()
     lesson = next(each for each in lessons().lessons if each.steps[0].pane == "accuracy")
     guide.list.choices[lessons().lessons.index(lesson)].click()
     user.wait_until_idle()
@@ -116,47 +108,6 @@ def test_the_lessons_stand_at_the_right_of_what_they_explain(
     qtbot.waitUntil(lambda: not dock.visibleRegion().isEmpty())
     assert dock.height() > window.height() // 2
     assert dock.geometry().left() > picture.mapTo(window, picture.rect().center()).x()
-
-
-@pytest.mark.whole
-def test_a_photo_opened_before_the_lessons_were_ever_shown_returns_with_all_that_was_found(
-    application: Application, user: User, qtbot: QtBot
-) -> None:
-    photo, sample = application.view("photo"), sample_photos()[0]
-    application.open_photo(sample)
-    user.wait_until_idle()
-    choose_sent(application, "square")
-    application.shell.pane("photo").parts.draw(Region(100, 800, 0, 900))
-    user.choose("&Match photo")
-
-    def state() -> tuple[object, ...]:
-        # A pattern is cut where its label is narrow, and whole in the tooltip.
-        shown = {
-            name: label.toolTip() if name == "pattern" else label.text()
-            for name, label in photo.result.values.items()
-        }
-        title = photo.verdict.heading
-        return (
-            application.shell.pane("photo").matching.match, photo.form.choice(),
-            application.photos.choice.certain, photo.form.certain.isChecked(),
-            application.shell.pane("photo").parts.part, shown, title, photo.result.isHidden(),
-            photo.result.stale.isHidden(), application.photos.path,
-        )  # fmt: skip
-
-    before = state()
-    assert before[0] is not None
-    assert before[3]
-    user.choose("&Lessons")
-    guide = application.shell.pane("lessons").view
-    qtbot.waitUntil(lambda: bool(guide.list.choices))
-    guide.list.choices[5].click()
-    guide.step.next.click()
-    user.wait_until_idle()
-    assert application.photos.path != sample
-    choose_sent(application, "read")
-    guide.step.all.click()
-    user.wait_until_idle()
-    assert state() == before
 
 
 def begin_with_photo(

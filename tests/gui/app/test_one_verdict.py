@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from gui.kinds import not_none
 from gui.pane_bench import handle_middle
 from gui.user import User
 from pytestqt.qtbot import QtBot
@@ -156,8 +157,7 @@ def test_six_doors_give_the_same_number(
     settings, images = SimulationSettings(), OWN_IMAGES
     frequency = scene.transmitter.switching_frequency
     (banner,) = (stage.jobs for stage in own_rate_stages(Request(scene, settings, decoder)))
-    rate = own_rate(do_job(next(iter(banner)), lambda: None).value)
-    assert rate is not None
+    rate = not_none(own_rate(do_job(next(iter(banner)), lambda: None).value))
     wanted = occ.success_rate(scene, images, decoder)
     own_place: dict[str, ParameterValue] = {"switching_frequency": frequency}
     at = ((0, own_place),)

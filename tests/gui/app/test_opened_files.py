@@ -1,12 +1,14 @@
-"""Files that are opened again: recent files, dropped files and the sample photos."""
+"""Files in the window: opened by menus, dropped or again, shown in the panes, and saved."""
 
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 from gui.user import User
 from PIL import Image
 from PySide6.QtCore import QSettings
+from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 from pytestqt.qtbot import QtBot
 
@@ -14,6 +16,7 @@ import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
 from occ_gui.files import file_controller
+from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
 
 
@@ -26,7 +29,6 @@ def camera_scene(small_scene: Scene) -> Scene:
 
 @pytest.fixture
 def taken(photo_file: Path) -> Path:
-    """Give another photo."""
     return Path(shutil.copy(photo_file, photo_file.with_name("taken.png")))
 
 
@@ -83,28 +85,12 @@ def test_a_missing_recent_file_is_reported_and_removed(
     application.window.menus.recent.actions()[0].trigger()
     assert user.message == f"{photo_file} is no longer there."
     assert application.preferences.files == ()
-
-
-def test_a_photo_that_could_not_be_read_is_not_remembered(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    application.open_photo(tmp_path / "missing.png")
+    application.open_photo(photo_file)
     user.wait_until_idle()
-    assert application.preferences.files == ()
+    assert application.preferences.files == (), "what could not be read is not remembered"
 
 
-def test_a_dropped_photo_and_scene_are_opened(
-    application: Application, user: User, photo_file: Path, tmp_path: Path
-) -> None:
-    scene = tmp_path / "mine.toml"
-    scene.write_text(Scene().to_toml(), encoding="utf-8")
-    application.window.dropped.emit([photo_file, scene])
-    user.wait_until_idle()
-    assert application.store.scene == Scene()
-    assert application.window.windowTitle().startswith("stripes.png")
-
-
-def test_dropped_files_that_are_not_shown_are_reported(
+def test_a_dropped_photo_and_scene_are_opened_and_what_is_not_shown_is_reported(
     application: Application, user: User, photo_file: Path, tmp_path: Path
 ) -> None:
     scenes = [tmp_path / "one.toml", tmp_path / "other.toml"]
@@ -113,6 +99,8 @@ def test_dropped_files_that_are_not_shown_are_reported(
     application.window.dropped.emit([photo_file, *scenes])
     assert "only one.toml and stripes.png" in user.message
     user.wait_until_idle()
+    assert application.store.scene == Scene()
+    assert application.window.windowTitle().startswith("stripes.png")
 
 
 def test_photos_dropped_together_become_a_table_and_the_first_opens(
@@ -149,17 +137,6 @@ def test_what_is_nothing_usable_is_answered_by_a_sentence(
     assert ("computer" in user.message) == (what == "nothing")
 
 
-def test_a_dropped_file_that_is_no_photo_gives_a_sentence(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    path = tmp_path / "letter.txt"
-    path.write_text("no photo")
-    application.window.dropped.emit([path])
-    user.wait_until_idle()
-    assert "letter.txt" in user.message
-    assert user.message.endswith(".")
-
-
 @pytest.fixture
 def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene) -> Path:
     """Put a sample photo with its scene in place of those of the program."""
@@ -190,3 +167,82 @@ def test_without_samples_none_are_offered(
     monkeypatch.setattr(file_controller, "resource_path", tmp_path.joinpath)
     application.window.menus.show_samples(file_controller.sample_photos(), application.open_photo)
     assert not application.window.menus.samples.isEnabled()
+
+
+TITLE = "Optical Camera Communication"
+
+
+def test_an_open_photo_stands_in_the_title_and_is_turned_and_laid_over_by_the_menu(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    close = user.entry("&Close photo")
+    assert application.window.windowTitle() == TITLE
+    assert not close.isEnabled()
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    assert application.window.windowTitle() == f"stripes.png – {TITLE}"  # noqa: RUF001
+    assert application.view("picture").photo.isVisible()
+    close.trigger()
+    assert application.window.windowTitle() == TITLE
+    assert not application.view("picture").photo.isVisible()
+    assert not close.isEnabled()
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    user.choose("&Line by line")
+    assert "its lines shown as columns" in application.view("picture").photo.caption.toolTip()
+    assert application.view("photo").facts.scan_axis.key() == "lines"
+    user.choose("&Blended over")
+    assert application.view("picture").opacity.isVisible()
+    assert not application.view("picture").photo.isVisible()
+
+
+def test_the_photos_profile_is_drawn_beside_the_simulations(
+    application: Application, user: User, photo_file: Path
+) -> None:
+    assert not application.view("profile").residual.isVisible()
+    application.open_photo(photo_file)
+    user.wait_until_idle()
+    columns, levels = application.view("profile").photo.getOriginalDataset()
+    _, residual = application.view("profile").residual.curve.getOriginalDataset()
+    profile = application.view("profile").simulation.getOriginalDataset()[1]
+    assert np.allclose(levels - profile[columns.astype(int)], residual)
+    assert "correlation" in application.view("profile").residual.numbers.toolTip()
+
+
+def test_a_full_disk_while_saving_keeps_the_old_file_and_says_so(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = tmp_path / "scene.toml"
+    application.files.save_scene(path)
+    old = path.read_bytes()
+    user.enter("distance", "2 m")
+    assert application.window.isWindowModified()
+    write = Path.write_bytes
+
+    def full(place: Path, content: bytes) -> int:
+        write(place, content[:9])
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "write_bytes", full)
+        application.window.actions_by_name["save_scene"].trigger()
+        assert "No space left on device" in user.message
+    assert path.read_bytes() == old
+    assert list(tmp_path.iterdir()) == [path]
+    assert application.window.isWindowModified()
+    application.window.actions_by_name["save_scene"].trigger()
+    assert not application.window.isWindowModified()
+    assert path.read_bytes() != old
+
+
+@pytest.mark.parametrize("where", ["file", "clipboard"])
+def test_an_exported_figure_is_of_the_scene_just_chosen(
+    application: Application, user: User, tmp_path: Path, where: str
+) -> None:
+    export, path = application.shell.pane("export"), tmp_path / "profile.png"
+    application.store.change(distance=1.3)
+    export.export("profile", path) if where == "file" else export.copy("profile")
+    user.wait_until_idle()
+    if where == "clipboard":
+        QGuiApplication.clipboard().image().save(str(path))
+    assert scene_inside(path) == application.store.scene

@@ -1,12 +1,11 @@
 """What a pane shows of an earlier scene is marked; its verdict is never the present one's."""
 
-from collections.abc import Callable, Iterator
 from dataclasses import replace
 from threading import Event
-from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, not_none
 from gui.user import User
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QWidget
@@ -23,23 +22,8 @@ from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 from occ_model.receiver.decoders import DECODERS, QUICK_DECODERS
 from occ_model.scene.scene import Scene
-from occ_model.simulation.render import render_with
 
 RIGHT = "✓ Code 718 read, all bits right"
-
-
-@pytest.fixture
-def held(monkeypatch: pytest.MonkeyPatch) -> Iterator[Event]:
-    """Let no simulation end before this event is set."""
-    may_end = Event()
-
-    def wait_and_render(*arguments: Any, **named: Any) -> Any:
-        may_end.wait()
-        return render_with(*arguments, **named)
-
-    monkeypatch.setattr("occ_gui.simulation.controller.render_with", wait_and_render)
-    yield may_end
-    may_end.set()
 
 
 def marks(application: Application) -> list[QWidget]:
@@ -61,8 +45,7 @@ def test_a_verdict_does_not_wait_for_the_picture(
     qtbot.waitUntil(lambda: decode.verdict.text() == "✗ No code read")
     assert tabs(application) == ["✗", "✗"]
     assert decode.origin.text() == "By the column profile; the picture follows."
-    shown = application.view("profile")._reading
-    assert shown is not None
+    shown = not_none(application.view("profile")._reading)
     assert shown.scene == application.store.scene
     held.set()
     user.wait_until_idle()
@@ -174,7 +157,7 @@ class Verdict:
 class Drag:
     """A slider that is moved every 16 ms while pictures take some time each."""
 
-    def __init__(self, qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> None:
+    def __init__(self, qtbot: QtBot, snapshot_of: SnapshotOf) -> None:
         self.pane = pane = QWidget()
         qtbot.addWidget(pane)
         first = snapshot_of()
@@ -218,12 +201,13 @@ class Drag:
 
 
 @pytest.fixture
-def drag(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> Drag:
+def drag(qtbot: QtBot, snapshot_of: SnapshotOf) -> Drag:
     return Drag(qtbot, snapshot_of)
 
 
 def test_a_drag_with_fast_pictures_is_never_marked(drag: Drag) -> None:
     assert not any(drag.move(takes=14))
+    assert set(drag.verdict.outdated) == {False}
 
 
 def test_a_drag_with_slow_pictures_is_marked_and_stays_so(drag: Drag) -> None:
@@ -232,20 +216,12 @@ def test_a_drag_with_slow_pictures_is_marked_and_stays_so(drag: Drag) -> None:
     assert all(marked[first:])
 
 
-def test_a_verdict_that_follows_the_drag_is_the_present_ones(drag: Drag) -> None:
-    drag.move(takes=14)
-    assert set(drag.verdict.outdated) == {False}
-
-
-def test_a_slow_verdict_does_not_flicker_during_a_drag(drag: Drag) -> None:
+def test_a_slow_verdict_is_the_present_ones_after_the_drag_and_does_not_flicker_before(
+    drag: Drag, qtbot: QtBot
+) -> None:
     drag.move(takes=round(3e3 * VERDICT_DELAY))
     first = drag.verdict.outdated.index(True)
     assert set(drag.verdict.outdated[first:]) == {True}
-
-
-def test_a_slow_verdict_is_the_present_ones_after_the_drag(drag: Drag, qtbot: QtBot) -> None:
-    drag.move(takes=round(3e3 * VERDICT_DELAY))
-    assert drag.verdict.outdated[-1]
     drag.simulation.deliver(drag.latest)
     drag.simulation.now += 2 * PAUSE
     qtbot.waitUntil(lambda: not drag.verdict.outdated[-1])
@@ -260,8 +236,7 @@ def test_a_run_with_slow_pictures_marks_no_picture_and_tells_its_value(drag: Dra
     assert set(drag.verdict.outdated) == {False}
     first = marked.index(True)
     assert all(marked[first:])  # results that no verdict tells of are marked, without flicker
-    read = of_reading(drag.simulation.board.results)
-    assert read is not None
+    read = not_none(of_reading(drag.simulation.board.results))
     assert drag.verdict.runs[-1] == (f"ISO speed {read.scene.camera.iso:.4g}", "")
     drag.outdated.follow_run("")
     assert drag.verdict.runs[-1] == ("", "")

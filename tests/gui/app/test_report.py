@@ -3,6 +3,7 @@
 import logging
 from pathlib import Path
 
+from gui.kinds import add_widget
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QDialog, QLabel, QPlainTextEdit, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
@@ -14,14 +15,11 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
 
-def test_it_has_the_version_and_the_scene() -> None:
+def test_it_has_the_version_and_the_scene_and_hides_the_users_folder() -> None:
     scene = occ.load_preset("phone-68us")
     text = report_text(scene, SimulationSettings(), [])
     assert occ.__version__ in text
     assert occ.Scene.from_toml(text.partition("Scene:\n")[2]) == scene
-
-
-def test_it_hides_the_users_folder() -> None:
     text = report_text(Scene(), SimulationSettings(), [f'File "{Path.home() / "a.py"}", line 3'])
     assert str(Path.home()) not in text
     assert "~" in text
@@ -39,8 +37,7 @@ def test_it_has_what_was_logged_last(qapp: QApplication) -> None:
 
 
 def test_it_is_shown_and_copied(qtbot: QtBot) -> None:
-    window = QWidget()
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, QWidget())
     shown = report_text(Scene().replace(iso=456.0), SimulationSettings(), [])
     assert "iso = 456" in shown
     show_report(window, shown)

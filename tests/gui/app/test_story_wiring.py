@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QGuiApplication
@@ -71,15 +72,14 @@ def test_a_decoder_is_chosen_in_the_story_or_by_its_tab(
         story.decoder.chosen.emit(name)
         user.wait_until_idle()
         assert pane.decoder() == name
-        decoded = story.rows.decoded
-        assert decoded is not None
+        decoded = not_none(story.rows.decoded)
         assert decoded.decoder == name
         assert decoded.code == 718
     pane.decoders.setCurrentIndex(0)
     assert story.decoder.key() == "threshold"
 
 
-def test_the_thumbnail_opens_the_whole_picture_and_a_button_leads_back(
+def test_thumbnail_or_picture_before_open_the_whole_picture_and_lead_back(
     application: Application, qtbot: QtBot
 ) -> None:
     story = application.story
@@ -92,9 +92,6 @@ def test_the_thumbnail_opens_the_whole_picture_and_a_button_leads_back(
     qtbot.mouseClick(story.whole, Qt.MouseButton.LeftButton)
     assert story.rows.isVisible()
     assert not application.view("picture").isVisible()
-
-
-def test_the_picture_before_is_shown_in_the_whole_one(application: Application) -> None:
     story, before = application.story, application.view("picture").before.chosen
     before.setChecked(True)
     assert story.shows_whole_picture
@@ -117,13 +114,23 @@ def test_the_receivers_picture_is_chosen_in_all_panes(application: Application) 
         application.view("profile"),
     )
     story.picture_chosen.emit("receiver")
-    assert (story.whose.key(), image.whose, profile.is_enhanced) == ("receiver", "receiver", True)
-    reading = profile._reading
-    assert reading is not None
+    assert (story.whose.key(), image.whose) == ("receiver", "receiver")
+    assert profile.enhanced.isChecked()
+    reading = not_none(profile._reading)
     assert story.rows.profile.levels is reading.signal
     image.choose_picture("camera")
     assert story.whose.key() == "camera"
     assert story.rows.profile.levels is reading.profile
+
+
+def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) -> None:
+    rows = application.story.rows
+    row = rows.profile
+    column = round((rows.axis.first + rows.axis.last) / 2)
+    qtbot.mouseMove(row, QPoint(round(row.x_of(column)), row.height() // 2))
+    pointed = rows.crosshair.pointed
+    assert pointed == pytest.approx(column, abs=1)
+    assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
 
 
 @pytest.mark.own_window
@@ -146,28 +153,6 @@ def test_an_open_photo_is_drawn_in_the_story(
     assert {"fitted", "photo"}.isdisjoint(rows.legend.shown)
 
 
-def test_a_scene_without_a_picture_is_said_above_the_last_one(
-    application: Application, user: User
-) -> None:
-    bar = application.story.verdict
-    application.store.change(distance=0.1, yaw=1.2)
-    user.wait_until_idle()
-    assert (bar.state, bar.title.text()) == (State.BAD, "No picture of this scene")
-    application.store.undo_stack.undo()
-    user.wait_until_idle()
-    assert bar.state is State.GOOD
-
-
-def test_the_mouse_reads_all_rows_out(application: Application, qtbot: QtBot) -> None:
-    rows = application.story.rows
-    row = rows.profile
-    column = round((rows.axis.first + rows.axis.last) / 2)
-    qtbot.mouseMove(row, QPoint(round(row.x_of(column)), row.height() // 2))
-    pointed = rows.crosshair.pointed
-    assert pointed == pytest.approx(column, abs=1)
-    assert application.story.readout.toolTip().startswith(f"column {pointed}  ·  ")
-
-
 def test_the_equations_explain_the_column_that_the_story_shows(
     application: Application, user: User, qtbot: QtBot
 ) -> None:
@@ -185,14 +170,7 @@ def test_the_equations_explain_the_column_that_the_story_shows(
     assert crosshair.column == pane.column.value() == 655
 
 
-def test_the_bar_leads_to_the_lesson_on_long_exposures(application: Application) -> None:
-    application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
-    pane = application.shell.pane("lessons")
-    assert not application.window.is_put_away("lessons")
-    assert pane.controller._current.name == AVERAGES_LESSON
-
-
-def test_the_context_menu_copies_the_values_at_the_crosshair(
+def test_the_context_menu_copies_the_values_at_the_crosshair_and_the_bar_leads_to_a_lesson(
     application: Application, user: User
 ) -> None:
     user.wait_until_idle()
@@ -204,3 +182,7 @@ def test_the_context_menu_copies_the_values_at_the_crosshair(
     assert QGuiApplication.clipboard().text().startswith("column ")
     assert user.message.startswith("Copied: column ")
     assert "Copy fi&gure" in entries
+    application.story.verdict.lesson_wanted.emit(AVERAGES_LESSON)
+    pane = application.shell.pane("lessons")
+    assert not application.window.is_put_away("lessons")
+    assert pane.controller._current.name == AVERAGES_LESSON

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from gui.kinds import show_widget
 from gui.stores import show
 from gui.user import User
 from PIL import Image
@@ -70,10 +71,7 @@ def test_a_tool_tip_shows_a_text_letter_by_letter(qapp: QApplication, text: str)
 
 
 def test_a_label_and_its_tool_tip_show_the_same_line(qtbot: QtBot) -> None:
-    label = ElidedLabel(NAME)
-    qtbot.addWidget(label)
-    label.resize(4000, 20)
-    label.show()
+    label = show_widget(qtbot, ElidedLabel(NAME), 4000, 20)
     assert (label.text(), seen(label.toolTip())) == (SHOWN, SHOWN)
 
 

@@ -20,7 +20,6 @@ class Bench:
         self._qtbot = qtbot
         self._allowed = threading.Semaphore(0)
         self.at_work = threading.Event()
-        self.threads: set[int] = set()
         self.made: list[object] = []
         self.items: list[object] = []
         self.ends: list[str] = []
@@ -30,7 +29,6 @@ class Bench:
         self.runner.failed.connect(self.ends.append)
 
     def _work(self, request: str, report: Report) -> None:
-        self.threads.add(threading.get_ident())
         for number in range(3):
             self.at_work.set()
             assert self._allowed.acquire(timeout=PATIENCE_S)
@@ -70,16 +68,6 @@ def test_items_arrive_in_order_each_as_it_comes_and_then_the_end(bench: Bench) -
     assert bench.items == ["a 0", "a 1", "a 2"]
     assert bench.ends == ["finished"]
     assert bench.runner.is_idle
-
-
-def test_work_runs_on_one_other_thread(bench: Bench) -> None:
-    bench.allow(6)
-    for request in ("a", "b"):
-        bench.ends.clear()
-        bench.runner.ask(request)
-        bench.wait_for_end()
-    assert len(bench.threads) == 1
-    assert threading.get_ident() not in bench.threads
 
 
 def test_a_cancelled_run_ends_at_its_current_item(bench: Bench, qtbot: QtBot) -> None:

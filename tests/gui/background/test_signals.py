@@ -21,8 +21,6 @@ def stages_of(*values: Any, rank: int = 0, whole: bool = False) -> Stages:
 
 
 class Received:
-    """All that a channel gives."""
-
     def __init__(self, channel: JobChannel) -> None:
         self.results: list[tuple[Any, Any]] = []
         self.threads: set[int] = set()
@@ -193,9 +191,6 @@ def test_stopping_ends_the_workers_and_nothing_arrives_any_more(
     channel.put("late", stages_of("b"))
     qtbot.wait(30)
     assert (received.results, received.failures) == ([], [])
-
-
-def test_without_workers_no_heartbeat_is_counted(queue_of: Callable[..., WorkQueue]) -> None:
     assert queue_of(HeldWorker()).counted(0) == 0
 
 

@@ -46,7 +46,6 @@ class Bench:
         self.result_threads.add(threading.get_ident())
 
     def ask_and_hold(self, request: object) -> None:
-        """Ask for a result and come back while it is at work."""
         self.begun.clear()
         self.go_on.clear()
         self.runner.ask(request)
@@ -81,13 +80,6 @@ def test_the_first_and_last_of_a_burst_are_computed_and_shown(
     finish()
     assert bench.worked_on == [1, 5]
     assert bench.results == ["result of 1", "result of 5"]
-
-
-def test_requests_one_after_the_other_are_all_computed(bench: Bench, qtbot: QtBot) -> None:
-    for request in (1, 2, 3):
-        with qtbot.waitSignal(bench.runner.idle):
-            bench.runner.ask(request)
-    assert bench.results == ["result of 1", "result of 2", "result of 3"]
 
 
 def test_a_request_made_by_who_is_shown_a_result_is_computed(
@@ -166,21 +158,20 @@ def test_stopping_waits_for_running_work_and_drops_the_rest(bench: Bench) -> Non
     assert bench.worked_on == [1]
 
 
-def test_stopping_twice_is_as_good_as_once(bench: Bench, qtbot: QtBot) -> None:
-    with qtbot.waitSignal(bench.runner.idle):
-        bench.runner.ask(1)
-    bench.runner.stop()
-    bench.runner.stop()
-    assert bench.worked_on == [1]
-
-
-def test_nothing_arrives_after_stopping(bench: Bench) -> None:
+def test_nothing_arrives_after_stopping_once_or_twice_and_nothing_more_is_done(
+    bench: Bench, qtbot: QtBot
+) -> None:
     bench.ask_and_hold(1)
     bench.go_on.set()
     bench.runner.stop()
     QApplication.processEvents()
     assert bench.worked_on == [1]
     assert bench.results == []
+    bench.runner.stop()
+    bench.runner.ask(2)
+    qtbot.wait(20)
+    assert bench.runner.is_idle
+    assert bench.worked_on == [1]
 
 
 def test_work_that_gives_way_ends_without_a_result(
@@ -208,14 +199,6 @@ def test_work_that_gives_way_ends_when_it_is_stopped(bench: Bench) -> None:
     stopping.join(PATIENCE_S)
     QApplication.processEvents()
     assert bench.results == []
-
-
-def test_what_is_asked_after_stopping_is_not_done(bench: Bench, qtbot: QtBot) -> None:
-    bench.runner.stop()
-    bench.runner.ask(1)
-    qtbot.wait(20)
-    assert bench.runner.is_idle
-    assert bench.worked_on == []
 
 
 def test_cancelled_work_goes_on_unseen_and_the_next_begins_after_it(

@@ -27,7 +27,7 @@ class Worker(QObject):
         self.done_on.append(threading.get_ident())
 
 
-def test_work_waits_for_the_thread_and_is_done_on_it(qtbot: QtBot) -> None:
+def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -> None:
     worker = Worker()
     thread = WorkerThread(worker, "work")
     worker.asked.emit()
@@ -37,9 +37,6 @@ def test_work_waits_for_the_thread_and_is_done_on_it(qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: bool(worker.done_on))
     assert threading.get_ident() not in worker.done_on
     thread.end()
-
-
-def test_no_thread_begins_after_its_end(qtbot: QtBot) -> None:
     worker = Worker()
     thread = WorkerThread(worker, "work")
     thread.end()

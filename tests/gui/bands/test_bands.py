@@ -1,10 +1,10 @@
 """The pane of the bars shows what the model counts, and sets speeds without bars."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.kinds import show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -24,11 +24,7 @@ _LAMP = occ.load_preset("phone-136us").replace(
 
 @pytest.fixture
 def view(qtbot: QtBot) -> BandsView:
-    view = BandsView()
-    qtbot.addWidget(view)
-    view.resize(900, 600)
-    view.show()
-    return view
+    return show_widget(qtbot, BandsView(), 900, 600)
 
 
 def _rows(view: BandsView) -> dict[str, list[str]]:
@@ -67,10 +63,8 @@ def test_the_map_is_dark_along_the_valleys() -> None:
 
 
 @pytest.fixture
-def bench(qtbot: QtBot) -> Iterator[PaneBench]:
-    bench = PaneBench(qtbot, _LAMP.replace(exposure_time=136e-6))
-    yield bench
-    bench.shell.stop()
+def bench(qtbot: QtBot) -> PaneBench:
+    return PaneBench(qtbot, _LAMP.replace(exposure_time=136e-6))
 
 
 def test_a_speed_that_is_taken_becomes_the_exposure_at_the_same_brightness(

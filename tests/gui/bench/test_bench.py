@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from gui.kinds import not_none
 from gui.pane_bench import PaneBench
 from gui.stores import show, store_of
 from PySide6.QtWidgets import QApplication
@@ -55,8 +56,7 @@ class Measuring:
         return self.pane.state._full
 
     def cell(self, row: int) -> str:
-        item = self.pane.table.item(row, 2)
-        assert item is not None
+        item = not_none(self.pane.table.item(row, 2))
         return item.text()
 
     def measure(self, whose: str = PUBLISHED) -> None:
@@ -86,8 +86,7 @@ def test_the_scenes_code_and_timing_are_measured(small_scene: Scene) -> None:
 
 def test_what_the_pane_shows_is_what_the_model_measures(measuring: Measuring) -> None:
     measuring.measure()
-    full = measuring.controller.full
-    assert full is not None
+    full = not_none(measuring.controller.full)
     request, points = full
     expected = [one for place in request.points for one in measure_bench_point(request, place)]
     assert list(points) == expected
@@ -205,8 +204,7 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
     assert measuring.controller.full is not None
     _, (first, *_) = measuring.controller.full
     measuring.pane.table.show_points([replace(first, note="Why.")], RATES, 30.0)
-    item = measuring.pane.table.item(0, 2)
-    assert item is not None
+    item = not_none(measuring.pane.table.item(0, 2))
     assert item.toolTip() == "Why."
     plots = measuring.pane.plots[RATES]
     values = [
@@ -224,7 +222,9 @@ def test_a_cell_tells_its_note_and_every_point_is_in_view(measuring: Measuring) 
         assert above.max() < high
 
 
-def test_before_the_first_measurement_the_pane_says_what_it_is_for(measuring: Measuring) -> None:
+def test_before_the_first_measurement_the_pane_says_what_it_is_for_and_then_what_theory_says(
+    measuring: Measuring,
+) -> None:
     pane = measuring.pane
     assert pane._pages.currentWidget() is pane.invitation
     measuring.measure()
@@ -236,17 +236,23 @@ def test_before_the_first_measurement_the_pane_says_what_it_is_for(measuring: Me
     for curve in pane.plots[BITS]._bounds.values():
         x, _ = curve.getData()
         assert len(x) > 1
+    for plots in pane.plots.values():
+        for axis, plot in plots.plots.items():
+            assert plots._bounds[axis] in plot.getPlotItem().items
+    pane.resize(700, 500)
+    pane.show()
+    QApplication.processEvents()
+    assert pane.state.width() > 0.6 * pane.width()
 
 
-def test_each_number_of_bits_that_is_offered_is_one_of_whole_payloads(measuring: Measuring) -> None:
+def test_each_number_of_bits_is_one_of_whole_payloads_and_is_measured_before_the_map(
+    measuring: Measuring,
+) -> None:
     effort, whole = measuring.pane.effort, BenchRequest().payload_bits
     offered = [int(effort.itemData(place)) for place in range(effort.count())]
     assert len(offered) > 1
     assert all(bits % whole == 0 for bits in offered)
     assert offered == sorted(set(offered))
-
-
-def test_a_measurement_that_somebody_waits_for_goes_before_the_map(measuring: Measuring) -> None:
     assert all(stage.rank < min(0, *RANKS) for stage in stages_of(measuring))
 
 
@@ -262,17 +268,3 @@ def stages_of(measuring: Measuring) -> list[Stage]:
     measuring.pane.measure.click()
     assert put
     return put
-
-
-def test_what_theory_says_is_drawn_and_the_state_has_the_room_that_is_left(
-    measuring: Measuring,
-) -> None:
-    measuring.measure()
-    pane = measuring.pane
-    for plots in pane.plots.values():
-        for axis, plot in plots.plots.items():
-            assert plots._bounds[axis] in plot.getPlotItem().items
-    pane.resize(700, 500)
-    pane.show()
-    QApplication.processEvents()
-    assert pane.state.width() > 0.6 * pane.width()

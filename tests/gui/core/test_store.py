@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from gui.kinds import collect
 
 from occ_gui.core.store import Store
 from occ_gui.core.workspace import Workspace
@@ -25,9 +26,8 @@ def iso(store: Store) -> float:
 
 
 def test_who_looks_at_a_part_hears_of_its_changes_alone(store: Store) -> None:
-    rates: list[object] = []
     rate = store.select(lambda workspace: workspace.frame_rate)
-    rate.changed.connect(rates.append)
+    rates = collect(rate.changed)
     put_iso(store, 200.0)
     store.put(replace(store.workspace, frame_rate=24.0))
     store.put(replace(store.workspace, frame_rate=24.0))
@@ -116,9 +116,8 @@ def test_a_step_says_what_it_has_left_before_anybody_hears_of_it(store: Store) -
 def test_a_listener_that_fails_keeps_nobody_from_hearing_later_changes(
     store: Store, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    heard: list[object] = []
     rate = store.select(lambda workspace: workspace.frame_rate)
-    rate.changed.connect(heard.append)
+    heard = collect(rate.changed)
     failing = store.select(lambda workspace: 1 / (workspace.frame_rate - 24.0))
     with pytest.raises(ZeroDivisionError):
         store.put(replace(store.workspace, frame_rate=24.0))

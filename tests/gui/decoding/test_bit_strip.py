@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
+from gui.kinds import add_widget
 from numpy.typing import NDArray
 from pytestqt.qtbot import QtBot
 
@@ -17,8 +18,7 @@ CLEARLY = 40
 
 @pytest.fixture
 def strip(qtbot: QtBot) -> BitStrip:
-    strip = BitStrip()
-    qtbot.addWidget(strip)
+    strip = add_widget(qtbot, BitStrip())
     strip.resize(strip.sizeHint())
     return strip
 
@@ -57,27 +57,20 @@ def test_wrong_places_are_those_received_otherwise_than_sent(
 
 
 @pytest.mark.parametrize("bit", [0, 1])
-def test_a_wrong_bit_differs_from_a_right_one_in_grey_print(picture: Picture, bit: int) -> None:
-    right = picture([bit], [bit])
-    wrong = picture([1 - bit], [bit])
-    below = slice(right.shape[0] // 2, None)  # the row of the received bits
-    assert changed_pixels(right[below], wrong[below]) >= 20
-
-
-@pytest.mark.parametrize("bit", [0, 1])
-def test_a_right_bit_looks_as_it_was_sent(picture: Picture, bit: int) -> None:
-    drawn = picture([bit], [bit])
-    height = 24
-    cells = [drawn[top : top + height, 66:95] for top in (3, 30)]
-    assert np.array_equal(cells[0], cells[1])
-
-
-@pytest.mark.parametrize("bit", [0, 1])
-def test_received_bits_do_not_change_how_the_sent_ones_look(picture: Picture, bit: int) -> None:
+def test_a_wrong_or_missing_bit_differs_from_a_right_one_in_grey_print(
+    picture: Picture, bit: int
+) -> None:
     right, wrong, missing = (picture([bit], received) for received in ([bit], [1 - bit], []))
-    above = slice(0, right.shape[0] // 2)
+    middle = right.shape[0] // 2
+    above, below = slice(0, middle), slice(middle, None)
+    assert changed_pixels(right[below], picture([1 - bit], [bit])[below]) >= 20
+    assert changed_pixels(right, missing) >= 20
+    # Received bits do not change how the sent ones look.
     assert np.array_equal(right[above], wrong[above])
     assert np.array_equal(right[above], missing[above])
+    # A right bit looks as it was sent.
+    cells = [right[top : top + 24, 66:95] for top in (3, 30)]
+    assert np.array_equal(cells[0], cells[1])
 
 
 def test_the_place_of_a_missing_bit_is_outlined(picture: Picture) -> None:
@@ -88,23 +81,13 @@ def test_the_place_of_a_missing_bit_is_outlined(picture: Picture) -> None:
     assert not outline[3:-3, 3:-3].any()
 
 
-@pytest.mark.parametrize("bit", [0, 1])
-def test_a_missing_bit_differs_from_a_received_one_in_grey_print(
-    picture: Picture, bit: int
-) -> None:
-    assert changed_pixels(picture([bit], [bit]), picture([bit], [])) >= 20
-
-
-def test_ones_differ_from_zeros_in_grey_print(picture: Picture) -> None:
-    assert changed_pixels(picture([1], [1]), picture([0], [0])) >= 20
-
-
-def test_only_the_wrong_cell_is_marked(picture: Picture) -> None:
+def test_only_the_wrong_cell_is_marked_and_ones_differ_from_zeros(picture: Picture) -> None:
     right, wrong = picture([1, 1, 1], [1, 1, 1]), picture([1, 0, 1], [1, 1, 1])
     columns = np.flatnonzero((right != wrong).any(axis=0))
     assert columns.size
     assert columns.min() >= 66 + 27 - 1
     assert columns.max() <= 66 + 2 * 27
+    assert changed_pixels(picture([1], [1]), picture([0], [0])) >= 20
 
 
 @pytest.mark.parametrize("count", [10, 16])
@@ -120,19 +103,20 @@ def test_every_bit_has_a_cell_of_its_own_even_in_the_least_width(
     assert changed_pixels(last, picture(alternating, alternating)) >= 10
 
 
-def test_many_bits_in_hardly_any_width_do_not_raise(strip: BitStrip, picture: Picture) -> None:
-    strip.setFixedWidth(70)
-    drawn = picture([1] * 64, [0] * 64)
-    assert drawn.shape == (strip.height(), 70)
-
-
-def test_who_cannot_see_the_strip_can_read_it(strip: BitStrip) -> None:
+def test_who_cannot_see_the_strip_can_read_it_and_many_bits_are_counted(
+    strip: BitStrip, picture: Picture
+) -> None:
     strip.show_bits([1, 0, 1], [1, 1, 1])
     assert strip.accessibleDescription() == "sent 101, received 111, 1 wrong"
     strip.show_bits([1, 0, 1], [])
     assert strip.accessibleDescription() == "sent 101, received nothing, 0 wrong"
     assert strip.toolTip() == strip.accessibleDescription()
     assert strip.accessibleName()
+    strip.show_bits([0] * 400, [0] * 100 + [1])
+    assert strip.toolTip() == "sent 400 bits, received 101, 1 wrong"
+    strip.setFixedWidth(70)
+    drawn = picture([1] * 64, [0] * 64)
+    assert drawn.shape == (strip.height(), 70)
 
 
 @pytest.mark.parametrize("count", [40, 400, 4096])
@@ -149,11 +133,6 @@ def test_one_wrong_bit_among_many_is_seen_in_grey_print(
 def test_bits_that_are_missing_at_the_end_leave_their_bars_out(picture: Picture) -> None:
     sent = [1] * 400
     assert changed_pixels(picture(sent, sent), picture(sent, sent[:200])) > 400
-
-
-def test_many_bits_are_counted_in_the_tool_tip(strip: BitStrip) -> None:
-    strip.show_bits([0] * 400, [0] * 100 + [1])
-    assert strip.toolTip() == "sent 400 bits, received 101, 1 wrong"
 
 
 def test_missing_bars_are_a_line_where_those_of_zeros_end(

@@ -1,10 +1,9 @@
 """The decoders' steps are drawn as they were taken."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.kinds import SnapshotOf, show_widget
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -14,24 +13,15 @@ from occ_gui.decoding.decode_steps import RunLengthPlot, SignalPlot
 from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.decoding import DecodeResult, RunHistogram
 
-SnapshotOf = Callable[..., Snapshot]
-
 
 @pytest.fixture
 def signal_plot(qtbot: QtBot) -> SignalPlot:
-    plot = SignalPlot()
-    qtbot.addWidget(plot)
-    plot.resize(360, 200)
-    plot.show()
-    return plot
+    return show_widget(qtbot, SignalPlot(), 360, 200)
 
 
 @pytest.fixture
 def run_length_plot(qtbot: QtBot) -> RunLengthPlot:
-    plot = RunLengthPlot()
-    qtbot.addWidget(plot)
-    plot.show()
-    return plot
+    return show_widget(qtbot, RunLengthPlot())
 
 
 @pytest.fixture
@@ -54,7 +44,9 @@ def legend_texts(widget: QWidget) -> list[str]:
     return [label.text() for label in widget.findChildren(QLabel) if label.isVisible()]
 
 
-def test_the_signal_and_its_threshold_are_drawn(signal_plot: SignalPlot, paper: Snapshot) -> None:
+def test_the_signal_its_threshold_and_one_chips_under_columns_above_it_are_drawn(
+    signal_plot: SignalPlot, paper: Snapshot
+) -> None:
     decoded = paper.decoded
     signal_plot.show_result(decoded, paper.packet_columns)
     assert decoded.signal is not None
@@ -62,13 +54,6 @@ def test_the_signal_and_its_threshold_are_drawn(signal_plot: SignalPlot, paper: 
     assert levels(signal_plot.model) == []
     assert signal_plot.threshold.isVisible()
     assert signal_plot.threshold.value() == decoded.threshold
-
-
-def test_every_one_chip_lies_under_columns_above_the_threshold(
-    signal_plot: SignalPlot, paper: Snapshot
-) -> None:
-    decoded = paper.decoded
-    signal_plot.show_result(decoded, paper.packet_columns)
     drawn = signal_plot.chips.opts
     assert signal_plot.chips.isVisible()
     assert len(drawn["x0"]) == int((decoded.chips == 1).sum())
@@ -103,7 +88,7 @@ def test_the_level_axis_has_no_numbers_where_only_the_chips_lie(signal_plot: Sig
     assert all(float(text) == value for value, text in texts.items() if value >= 0)
 
 
-def test_a_folding_decoder_shows_the_folded_signal_and_its_model(
+def test_a_folding_decoder_shows_the_folded_signal_and_its_model_which_go_with_it(
     signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
 ) -> None:
     signal_plot.show_result(paper.decoded, paper.packet_columns)
@@ -116,37 +101,29 @@ def test_a_folding_decoder_shows_the_folded_signal_and_its_model(
     assert not signal_plot.threshold.isVisible()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
-
-
-def test_the_paper_decoders_signal_comes_back_without_the_model(
-    signal_plot: SignalPlot, paper: Snapshot, matched: DecodeResult
-) -> None:
-    signal_plot.show_result(matched, paper.packet_columns)
     signal_plot.show_result(paper.decoded, paper.packet_columns)
     assert levels(signal_plot.model) == []
     assert "model of the code" not in legend_texts(signal_plot)
     assert "level" in signal_plot.plot.getAxis("left").labelText
 
 
-def test_a_step_that_was_not_reached_shows_no_plot(
-    signal_plot: SignalPlot, run_length_plot: RunLengthPlot
+def test_a_step_that_was_not_reached_shows_no_plot_and_no_chips_of_the_last_result(
+    signal_plot: SignalPlot, run_length_plot: RunLengthPlot, paper: Snapshot
 ) -> None:
     nothing = DecodeResult("threshold", failure="No panel found.")
     signal_plot.show_result(nothing, 300.0)
     run_length_plot.show_result(nothing)
     assert not signal_plot.isVisible()
     assert not run_length_plot.isVisible()
-
-
-def test_chips_of_the_last_result_go_when_the_next_has_none(
-    signal_plot: SignalPlot, paper: Snapshot
-) -> None:
     signal_plot.show_result(paper.decoded, paper.packet_columns)
     flat = DecodeResult("threshold", failure="No stripes.", signal=np.full(50, 7.0))
     signal_plot.show_result(flat, paper.packet_columns)
     assert signal_plot.isVisible()
     assert not signal_plot.chips.isVisible()
     assert not signal_plot.threshold.isVisible()
+    for widget in (signal_plot, run_length_plot):
+        least = max(widget.minimumSizeHint().height(), widget.minimumHeight())
+        assert least >= 100
 
 
 def test_run_lengths_are_counted_ones_up_and_zeros_down(run_length_plot: RunLengthPlot) -> None:
@@ -166,15 +143,7 @@ def test_run_lengths_are_counted_ones_up_and_zeros_down(run_length_plot: RunLeng
     assert splits[1] is None or not len(splits[1])
 
 
-def test_both_plots_are_tall_enough_to_be_read(
-    signal_plot: SignalPlot, run_length_plot: RunLengthPlot
-) -> None:
-    for widget in (signal_plot, run_length_plot):
-        least = max(widget.minimumSizeHint().height(), widget.minimumHeight())
-        assert least >= 100
-
-
-def test_the_light_of_the_chips_is_drawn_beside_the_signals(
+def test_the_light_of_the_chips_is_drawn_beside_the_signals_and_the_threshold_in_it(
     signal_plot: SignalPlot, paper: Snapshot
 ) -> None:
     found = occ.decode(paper.frame.image, paper.scene, "sequence")
@@ -185,11 +154,6 @@ def test_the_light_of_the_chips_is_drawn_beside_the_signals(
     assert levels(signal_plot.model) == found.light_model.tolist()
     assert "model of the code" in legend_texts(signal_plot)
     assert "threshold" not in legend_texts(signal_plot)
-
-
-def test_the_threshold_is_drawn_in_the_equalized_light(
-    signal_plot: SignalPlot, paper: Snapshot
-) -> None:
     found = occ.decode(paper.frame.image, paper.scene, "equalizer")
     assert found.equalized is not None
     signal_plot.show_result(found, paper.packet_columns)

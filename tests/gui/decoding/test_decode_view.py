@@ -1,44 +1,36 @@
 """What the receiver read, in words."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, not_none, show_widget
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.simulation.jobs import reading_by_profile
-from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.decoding import DecodeResult, Region
-
-SnapshotOf = Callable[..., Snapshot]
 
 
 @pytest.fixture
 def view(qtbot: QtBot) -> DecodeView:
-    view = DecodeView()
-    qtbot.addWidget(view)
-    view.resize(360, 400)
-    view.show()
-    return view
+    return show_widget(qtbot, DecodeView(), 360, 400)
 
 
 def texts(view: DecodeView) -> set[str]:
     return {label.text() for label in view.findChildren(QLabel) if label.isVisible()}
 
 
-def test_a_code_read_right_is_marked(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+def test_a_code_read_right_is_marked_and_wrong_bits_are_counted(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
     view.show_reading(snapshot_of(code=718))
     assert view.verdict.text() == "✓ Code 718 read, all bits right"
     assert not view.reason.isVisible()
     assert view.strip.isVisible()
     assert view.strip.wrong_places() == []
-
-
-def test_wrong_bits_are_counted(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(code=718)
     received = np.array([1, 0, 1, 1, 0, 0, 1, 1, 0, 1], dtype=np.uint8)  # the last two are wrong
     decoded = replace(snapshot.decoded, bits=received, code=717)
@@ -48,16 +40,15 @@ def test_wrong_bits_are_counted(view: DecodeView, snapshot_of: SnapshotOf) -> No
     assert not view.reason.isVisible()
 
 
-def test_a_failure_is_shown_with_its_reason(view: DecodeView, snapshot_of: SnapshotOf) -> None:
+def test_a_failure_is_shown_with_its_reason_and_the_bits_read_beside_it(
+    view: DecodeView, snapshot_of: SnapshotOf
+) -> None:
     snapshot = snapshot_of(switching_frequency=500.0, distance=5.0)
     assert snapshot.decoded.failure
     view.show_reading(snapshot)
     assert view.verdict.text() == "✗ No code read"
     assert view.reason.isVisible()
     assert view.reason.text() == snapshot.decoded.failure
-
-
-def test_bits_read_beside_a_failure_are_shown(view: DecodeView, snapshot_of: SnapshotOf) -> None:
     decoded = DecodeResult(
         "threshold", failure="The chips break the line code.", bits=np.array([0, 0], dtype=np.uint8)
     )
@@ -76,7 +67,7 @@ def test_a_raw_pattern_has_no_bits_to_compare(view: DecodeView, snapshot_of: Sna
     assert view.strip.isVisible()
 
 
-def test_measured_values_are_shown_with_their_units(
+def test_measured_values_are_shown_with_their_units_and_no_old_ones(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     decoded = DecodeResult(
@@ -89,11 +80,6 @@ def test_measured_values_are_shown_with_their_units(
     )
     view.show_reading(replace(snapshot_of(), decoded=decoded))
     assert {"1000 x 200 px", "123.5 grey levels", "12.50 columns", "77"} <= texts(view)
-
-
-def test_a_step_that_was_not_reached_shows_no_old_value(
-    view: DecodeView, snapshot_of: SnapshotOf
-) -> None:
     units = ("px", "grey levels", "columns")
     view.show_reading(snapshot_of())
     assert all(any(text.endswith(unit) for text in texts(view)) for unit in units)
@@ -105,8 +91,7 @@ def test_a_long_reason_is_shown_whole(view: DecodeView, snapshot_of: SnapshotOf)
     decoded = DecodeResult("threshold", failure="So it happened that no code was read. " * 12)
     view.resize(view.minimumSizeHint().width(), 700)
     view.show_reading(replace(snapshot_of(), decoded=decoded))
-    layout = view.layout()
-    assert layout is not None
+    layout = not_none(view.layout())
     layout.activate()
     for label in (view.verdict, view.reason):
         assert label.height() >= label.heightForWidth(label.width())
@@ -125,9 +110,7 @@ def test_each_decoders_tab_shows_whether_it_read_the_code(
 def test_a_slow_decoder_is_asked_for_when_its_tab_is_chosen(
     qtbot: QtBot, snapshot_of: SnapshotOf
 ) -> None:
-    view = DecodeView(("threshold", "matched", "equalizer", "sequence"))
-    qtbot.addWidget(view)
-    view.show()
+    view = show_widget(qtbot, DecodeView(("threshold", "matched", "equalizer", "sequence")))
     snapshot = snapshot_of(code=5, exposure_time=136e-6, switching_frequency=20e3)
     view.show_reading(snapshot)
     shown = [view.decoders.tabText(place) for place in range(view.decoders.count())]
@@ -159,12 +142,11 @@ def test_a_chosen_decoder_stays_chosen_and_shows_its_result(
     assert view.reason.text() == snapshot.decoded.failure
 
 
-def test_a_picture_that_contradicts_its_profile_says_so(
+def test_a_picture_that_contradicts_its_own_profile_says_so(
     view: DecodeView, snapshot_of: SnapshotOf
 ) -> None:
     snapshot = snapshot_of(code=718)
-    early = reading_by_profile(snapshot.request)
-    assert early is not None
+    early = not_none(reading_by_profile(snapshot.request))
     view.show_reading(early)
     assert view.origin.text() == "By the column profile; the picture follows."
     view.show_reading(snapshot)
@@ -178,14 +160,8 @@ def test_a_picture_that_contradicts_its_profile_says_so(
     )
     view.decoders.setCurrentIndex(1)  # of which both say the same
     assert view.origin.text() == "Read from the picture."
-
-
-def test_a_profile_of_another_scene_contradicts_no_picture(
-    view: DecodeView, snapshot_of: SnapshotOf
-) -> None:
-    early = reading_by_profile(snapshot_of(code=718).request)
-    assert early is not None
-    view.show_reading(early)
+    view.decoders.setCurrentIndex(0)
+    view.show_reading(early)  # a profile of another scene contradicts no picture
     view.show_reading(snapshot_of(switching_frequency=500.0))
     assert view.verdict.text() == "✗ No code read"
     assert view.origin.text() == "Read from the picture."

@@ -1,6 +1,7 @@
 """A payload, sent and received: wrong letters are crossed out."""
 
 import pytest
+from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.decoding.payload_text import PayloadText
@@ -9,9 +10,7 @@ from occ_model.scene.payload import bits_of_payload
 
 @pytest.fixture
 def text(qtbot: QtBot) -> PayloadText:
-    text = PayloadText()
-    qtbot.addWidget(text)
-    return text
+    return add_widget(qtbot, PayloadText())
 
 
 def flipped(payload: str, *places: int) -> list[int]:
@@ -21,10 +20,14 @@ def flipped(payload: str, *places: int) -> list[int]:
     return bits
 
 
-def test_a_text_received_rightly_is_written_twice(text: PayloadText) -> None:
+def test_a_text_received_rightly_is_written_twice_and_a_letter_that_was_not_is_a_dot(
+    text: PayloadText,
+) -> None:
     text.show_payload("text:HELLO", flipped("text:HELLO"))
     assert text.accessibleDescription() == "sent HELLO, received HELLO, 0 wrong"
     assert "<s" not in text.text()
+    text.show_payload("hex:0aff", flipped("hex:0aff")[:8])
+    assert text.accessibleDescription() == "sent 0aff, received 0a·, 1 wrong"
 
 
 def test_a_letter_with_a_wrong_bit_is_crossed_out(text: PayloadText) -> None:
@@ -35,17 +38,9 @@ def test_a_letter_with_a_wrong_bit_is_crossed_out(text: PayloadText) -> None:
     assert ">?</s>O" in received
 
 
-def test_a_letter_that_was_not_received_is_a_dot(text: PayloadText) -> None:
-    text.show_payload("hex:0aff", flipped("hex:0aff")[:8])
-    assert text.accessibleDescription() == "sent 0aff, received 0a·, 1 wrong"
-
-
-def test_a_text_is_never_read_as_markup(text: PayloadText) -> None:
+def test_a_text_is_never_read_as_markup_and_a_long_one_cut(text: PayloadText) -> None:
     text.show_payload("text:<b>&", flipped("text:<b>&", 3))
     assert "&lt;b&gt;&amp;" in text.text()
-
-
-def test_a_long_text_is_cut(text: PayloadText) -> None:
     payload = "text:" + "x" * 512
     text.show_payload(payload, flipped(payload, 4000))
     assert len(text.text()) < 400

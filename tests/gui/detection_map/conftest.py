@@ -28,21 +28,17 @@ class MapBench(PaneBench):
 
     @property
     def pane(self) -> MapPane:
-        """The pane, which is made when it is first asked for."""
         pane: MapPane = self.shell.pane("map")
         return pane
 
     @property
     def view(self) -> MapView:
-        """Its view."""
         return self.pane.view
 
     def choose_decoder(self, name: str) -> None:
-        """Show what this decoder reads."""
         self.store.put(replace(self.store.workspace, decoder=name))
 
     def stop(self) -> None:
-        """End all work."""
         self.shell.stop()
         self.measuring.stop()
 
@@ -51,7 +47,6 @@ class MapBench(PaneBench):
 def map_bench(
     qtbot: QtBot, small_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[MapBench]:
-    """Give the pane of the map."""
     bench = MapBench(qtbot, small_scene, monkeypatch)
     yield bench
     bench.stop()

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from gui.detection_map.conftest import MapBench
+from gui.kinds import add_widget, show_widget
 from PySide6.QtCore import QPoint, QTimer
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
 from pytestqt.qtbot import QtBot
@@ -72,10 +73,7 @@ def advice_on(scene: Scene) -> Advice:
 
 @pytest.fixture
 def view(qtbot: QtBot) -> AdviceView:
-    view = AdviceView()
-    qtbot.addWidget(view)
-    view.show()
-    return view
+    return show_widget(qtbot, AdviceView())
 
 
 @pytest.fixture
@@ -92,7 +90,7 @@ def advised(
     return map_bench
 
 
-def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) -> None:
+def test_the_sentences_hold_value_bits_interval_limit_and_theory(small_scene: Scene) -> None:
     lines = [line.text for line in advice_lines(advice_on(small_scene))]
     assert lines[1].startswith("The lowest frequency that it reads is 14.7 kHz: ")
     assert lines[2] == (
@@ -108,11 +106,14 @@ def test_the_sentences_hold_value_bits_interval_and_limit(small_scene: Scene) ->
         f"At 10 kHz it read 20 of 20 pictures of code {small_scene.transmitter.code}, 100 % of the "
         f"bits (83.9 to 100.0 %): 300 bits a second, if others are read as well."
     )
+    assert "Below 3.468 kHz the picture does not hold" in lines[3]
+    assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
+    assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
+    assert "from 1.17 ms on, columns lit throughout are white" in lines[7]
 
 
 def test_cards_and_page_count_bits_at_the_same_frame_rate(qtbot: QtBot, small_scene: Scene) -> None:
-    view = AdviceView(["threshold"])
-    qtbot.addWidget(view)
+    view = add_widget(qtbot, AdviceView(["threshold"]))
     qtbot.addWidget(view.cards)
     view.use_frame_rate(12.0)
     view.show_advice(advice_on(small_scene))
@@ -131,14 +132,6 @@ def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
     line = advice_lines(doubtful)[2]
     assert line.text.endswith("No value inside is surely read.")
     assert line.destination is None
-
-
-def test_the_numbers_of_theory_stand_beside_them(small_scene: Scene) -> None:
-    lines = [line.text for line in advice_lines(advice_on(small_scene))]
-    assert "Below 3.468 kHz the picture does not hold" in lines[3]
-    assert "ends at 7.353 kHz and an alternating pattern at 14.71 kHz" in lines[4]
-    assert "ends at 100 µs and an alternating pattern at 200 µs" in lines[7]
-    assert "from 1.17 ms on, columns lit throughout are white" in lines[7]
 
 
 def test_where_nothing_is_read_the_models_sentence_is_shown(small_scene: Scene) -> None:
@@ -291,17 +284,13 @@ def test_progress_is_shown_while_searching_only(view: AdviceView) -> None:
     assert not view.progress.isVisible()
 
 
-def test_every_button_has_a_name_and_says_what_it_does(
+def test_every_button_has_a_name_and_says_what_it_does_and_which_value_it_sets(
     view: AdviceView, small_scene: Scene
 ) -> None:
     view.show_advice(advice_on(small_scene))
     for button in view.findChildren(QPushButton):
         assert button.accessibleName() or button.text()
         assert button.toolTip()
-
-
-def test_a_button_says_which_value_it_sets(view: AdviceView, small_scene: Scene) -> None:
-    view.show_advice(advice_on(small_scene))
     texts = [button.text() for button in view.destinations]
     assert texts == ["Take me to 14.55 kHz", "Take me to 10 µs", "Take me to 194 µs"]
 

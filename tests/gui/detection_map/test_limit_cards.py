@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
+from gui.kinds import add_widget, show_widget
 from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
@@ -21,9 +22,7 @@ from occ_model.study.advice import advice_of
 
 @pytest.fixture
 def cards(qtbot: QtBot) -> LimitCards:
-    made = LimitCards(["threshold", "matched"])
-    qtbot.addWidget(made)
-    return made
+    return add_widget(qtbot, LimitCards(["threshold", "matched"]))
 
 
 def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
@@ -37,8 +36,7 @@ def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
 def test_a_card_states_what_the_page_of_advice_states(
     cards: LimitCards, small_scene: Scene, qtbot: QtBot
 ) -> None:
-    view = AdviceView()
-    qtbot.addWidget(view)
+    view = add_widget(qtbot, AdviceView())
     advice = advice_on(small_scene)
     view.show_advice(advice)
     cards.show_advice(advice)
@@ -59,14 +57,16 @@ def test_go_leads_to_where_every_bit_was_read(cards: LimitCards, small_scene: Sc
     assert written("switching_frequency", INSIDE.value) in button.text()
     button.click()
     assert told == [("switching_frequency", INSIDE.value, "threshold")]
+    card = cards.cards["matched"]
+    wanted = TextSize.HEADING.value * card.font().pointSizeF()
+    assert card.value.font().pointSizeF() == pytest.approx(wanted)
 
 
-def test_a_search_that_met_no_end_says_so(cards: LimitCards, small_scene: Scene) -> None:
+def test_a_search_that_met_no_end_says_so_and_without_a_place_to_go_the_button_rests(
+    cards: LimitCards, small_scene: Scene
+) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))
     assert cards.cards["threshold"].value.text() == "14.7 kHz, searched to"
-
-
-def test_without_a_place_to_go_the_button_rests(cards: LimitCards, small_scene: Scene) -> None:
     card = cards.cards["threshold"]
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, BAD)))
     assert not card.go.isEnabled()
@@ -91,8 +91,8 @@ def test_limits_of_an_earlier_scene_are_marked_and_asked_again(
     assert card.value.text() == "…"
 
 
-def test_nothing_is_searched_for_cards_that_are_not_seen(
-    cards: LimitCards, small_scene: Scene
+def test_limits_are_asked_for_once_while_cards_are_seen_and_not_for_a_scene_that_came_back(
+    cards: LimitCards, small_scene: Scene, qtbot: QtBot
 ) -> None:
     cards.show_outdated(True)
     assert not cards.is_waiting
@@ -100,12 +100,26 @@ def test_nothing_is_searched_for_cards_that_are_not_seen(
     assert cards.is_waiting
     cards.hide()
     assert not cards.is_waiting
+    cards.show()
+    with qtbot.waitSignal(cards.asked):
+        pass
+    assert not cards.is_waiting
+    cards.show_begun()
+    cards.show_ended()
+    cards.show_outdated(True)
+    assert cards.is_waiting
+    cards.show_outdated(False)
+    assert not cards.is_waiting
+    cards.show()
+    cards.show_begun()
+    cards.show_ended("The scene has changed; ask again.")
+    cards.show_outdated(True)
+    cards.show_outdated(False)
+    assert cards.is_waiting
 
 
 def test_cards_stand_above_a_map_that_leaves_space(qtbot: QtBot) -> None:
-    view = MapView(["threshold", "matched"])
-    qtbot.addWidget(view)
-    view.show()
+    view = show_widget(qtbot, MapView(["threshold", "matched"]))
     for height, shown in ((300, False), (600, True), (300, False)):
         view.resize(QSize(700, height))
         assert view.cards.isVisible() == shown
@@ -113,8 +127,7 @@ def test_cards_stand_above_a_map_that_leaves_space(qtbot: QtBot) -> None:
 
 def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene: Scene) -> None:
     """A window of 1280 pixels has some 910 beside the sliders."""
-    cards = LimitCards(list(DECODERS))
-    qtbot.addWidget(cards)
+    cards = add_widget(qtbot, LimitCards(list(DECODERS)))
     for decoder, card in cards.cards.items():
         end = advice_on(small_scene).frequency.found.highest
         assert end is not None
@@ -127,38 +140,6 @@ def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene
     cards.show()
     card.range.set_full_text("from 3.56 kHz; gap 14.07 kHz to 17.19 kHz and 12 gaps more")
     assert card.range.text().startswith("from 3.56 kHz; gap 14.07")
-
-
-def test_the_value_of_a_card_is_as_large_as_a_heading(cards: LimitCards) -> None:
-    card = cards.cards["matched"]
-    wanted = TextSize.HEADING.value * card.font().pointSizeF()
-    assert card.value.font().pointSizeF() == pytest.approx(wanted)
-
-
-def test_limits_are_asked_for_once_and_not_for_a_scene_that_came_back(
-    cards: LimitCards, small_scene: Scene, qtbot: QtBot
-) -> None:
-    cards.show()
-    with qtbot.waitSignal(cards.asked):
-        pass
-    assert not cards.is_waiting
-    cards.show_begun()
-    cards.show_ended()
-    cards.show_outdated(True)
-    assert cards.is_waiting
-    cards.show_outdated(False)
-    assert not cards.is_waiting
-
-
-def test_limits_whose_search_was_broken_off_are_asked_for_when_their_scene_comes_back(
-    cards: LimitCards,
-) -> None:
-    cards.show()
-    cards.show_begun()
-    cards.show_ended("The scene has changed; ask again.")
-    cards.show_outdated(True)
-    cards.show_outdated(False)
-    assert cards.is_waiting
 
 
 def test_a_search_without_a_limit_says_why(cards: LimitCards, small_scene: Scene) -> None:

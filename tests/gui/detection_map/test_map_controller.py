@@ -3,10 +3,12 @@
 import pickle
 from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
 from gui.conftest import InlineWorkers
+from gui.kinds import not_none
 from gui.stores import show, store_of
 from pytestqt.qtbot import QtBot
 
@@ -16,7 +18,7 @@ from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.detection_map import map_controller as module
 from occ_gui.detection_map import map_schedule
 from occ_gui.detection_map.map_controller import DetectionMapController
-from occ_gui.detection_map.rate_map import PointFacts, RateMap
+from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_model.parallel.job import Job, JobResult
 from occ_model.receiver.decoders import QUICK_DECODERS
@@ -26,47 +28,6 @@ from occ_model.study.confidence import interval_of_pictures
 SHAPE = (13, 7)
 IMAGES = (1, 2)
 FREQUENCY, DISTANCE = "switching_frequency", "distance"
-
-
-class RecordingPane:
-    """A pane that keeps all that it receives."""
-
-    def __init__(self) -> None:
-        self.known: list[int] = []
-        self.progress: list[tuple[int, int, int]] = []
-        self.failures: list[str] = []
-        self.left_out: tuple[str, ...] = ()
-        self.facts: PointFacts | None = None
-        self.ages: list[float] = []
-        self.axes: tuple[str, str] | None = None
-
-    def show_axes(self, x: str, y: str) -> None:
-        self.axes = (x, y)
-
-    def show_map(self, rates: RateMap) -> None:
-        self.known.append(rates.known)
-
-    def show_scene(self, scene: Scene) -> None:
-        pass
-
-    def show_progress(self, known: int, total: int, images: int) -> None:
-        self.progress.append((known, total, images))
-
-    def show_failure(self, sentence: str) -> None:
-        if sentence:
-            self.failures.append(sentence)
-
-    def show_age(self, age: float) -> None:
-        self.ages.append(age)
-
-    def show_left_out(self, effects: tuple[str, ...]) -> None:
-        self.left_out = effects
-
-    def show_bits(self, shown: str, frames_a_second: float) -> None:
-        self.bits = (shown, frames_a_second)
-
-    def show_facts(self, facts: PointFacts | None) -> None:
-        self.facts = facts
 
 
 class RememberingWorkers(InlineWorkers):
@@ -81,6 +42,14 @@ class RememberingWorkers(InlineWorkers):
         return self._done[asked]
 
 
+def all_shown(show: Mock) -> list[Any]:
+    return [call.args[0] for call in show.call_args_list]
+
+
+def shown(show: Mock) -> Any:
+    return all_shown(show)[-1]
+
+
 class Bench:
     """A controller with a small lattice whose workers need no processes."""
 
@@ -90,7 +59,7 @@ class Bench:
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
-        self.pane = RecordingPane()
+        self.pane = Mock()
         self.controller = DetectionMapController(self.scenes, self.queue.channels[0], self.pane)
 
     def wait_until_idle(self) -> RateMap:
@@ -121,7 +90,9 @@ def bench_of(
         bench.queue.stop()
 
 
-def test_the_map_is_the_sweeps_table_of_the_same_points(bench_of: Callable[..., Bench]) -> None:
+def test_the_map_is_the_sweeps_table_of_the_same_points_along_both_sliders(
+    bench_of: Callable[..., Bench],
+) -> None:
     bench = bench_of()
     found = bench.look()
     axes = {FREQUENCY: found.x_values, DISTANCE: found.y_values}
@@ -129,15 +100,13 @@ def test_the_map_is_the_sweeps_table_of_the_same_points(bench_of: Callable[..., 
     assert found.least_images == IMAGES[-1]
     for decoder in QUICK_DECODERS:
         np.testing.assert_array_equal(found.rates(decoder), table.rates(decoder))
-
-
-def test_the_lattice_spans_both_sliders(bench_of: Callable[..., Bench]) -> None:
-    found = bench_of().look()
     assert (found.x_values[0], found.x_values[-1]) == (500.0, 100e3)
     assert (found.y_values[0], found.y_values[-1]) == (0.2, 5.0)
 
 
-def test_a_coarse_map_comes_first_and_no_point_is_repeated(bench_of: Callable[..., Bench]) -> None:
+def test_a_coarse_map_comes_first_and_no_point_is_measured_again(
+    bench_of: Callable[..., Bench],
+) -> None:
     bench = bench_of()
     bench.look()
     points = [
@@ -148,6 +117,10 @@ def test_a_coarse_map_comes_first_and_no_point_is_repeated(bench_of: Callable[..
     ]
     assert sorted(points) == sorted((i, n) for n in IMAGES for i in range(91))
     assert {index for index, _ in points[:6]} == {7 * x + y for x in (0, 6, 12) for y in (0, 6)}
+    before = len(bench.workers.jobs)
+    bench.controller.set_seen(False)
+    bench.look()
+    assert len(bench.workers.jobs) == before
 
 
 def test_nothing_is_measured_while_nobody_looks(
@@ -163,17 +136,6 @@ def test_nothing_is_measured_while_nobody_looks(
     before = len(bench.workers.jobs)
     bench.scenes.change(iso=400.0)
     qtbot.wait(30)
-    assert len(bench.workers.jobs) == before
-
-
-def test_what_is_known_is_not_measured_again_when_shown_again(
-    bench_of: Callable[..., Bench],
-) -> None:
-    bench = bench_of()
-    bench.look()
-    before = len(bench.workers.jobs)
-    bench.controller.set_seen(False)
-    bench.look()
     assert len(bench.workers.jobs) == before
 
 
@@ -217,14 +179,13 @@ def test_the_point_at_the_mouse_has_the_interval_of_its_pictures(
     bench = bench_of()
     found = bench.look()
     bench.controller.point_at((6, 3))
-    facts = bench.pane.facts
-    assert facts is not None
+    facts = not_none(shown(bench.pane.show_facts))
     assert (facts.x, facts.y, facts.sent) == (found.x_values[6], found.y_values[3], 20)
     for name, right, low, high in facts.counts:
         assert 100 * right / facts.sent == found.rates(name)[6, 3]
         assert (low, high) == interval_of_pictures(right, facts.sent, facts.images)
     bench.controller.point_at(None)
-    assert bench.pane.facts is None
+    assert shown(bench.pane.show_facts) is None
 
 
 def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., Bench]) -> None:
@@ -236,8 +197,8 @@ def test_what_the_model_refuses_is_hatched_and_says_why(bench_of: Callable[..., 
     assert not refused[:, -1].any()
     np.testing.assert_array_equal(np.isnan(found.rates("threshold")), refused)
     bench.controller.point_at((0, 0))
-    assert bench.pane.facts is not None
-    assert bench.pane.facts.note
+    assert shown(bench.pane.show_facts) is not None
+    assert shown(bench.pane.show_facts).note
 
 
 def test_image_effects_are_simulated_or_left_out_with_a_note(
@@ -245,13 +206,13 @@ def test_image_effects_are_simulated_or_left_out_with_a_note(
 ) -> None:
     bench = bench_of(vignetting_exponent=8.0, rows=40, columns=60)
     bench.look()
-    assert bench.pane.left_out == ()
+    assert shown(bench.pane.show_left_out) == ()
     settings = bench.workers.jobs[0].arguments[1]
     assert (settings.force, settings.path) == ({}, "auto")
     bench.workers.jobs.clear()
     bench.controller.use_image_effects(False)
     bench.wait_until_idle()
-    assert bench.pane.left_out == ("Vignetting",)
+    assert shown(bench.pane.show_left_out) == ("Vignetting",)
     settings = bench.workers.jobs[0].arguments[1]
     assert settings.force == dict.fromkeys(IMAGE_EFFECTS, False)
 
@@ -266,15 +227,23 @@ def test_a_failure_is_shown_and_the_last_map_stays(bench_of: Callable[..., Bench
     bench.workers.result = refuse
     bench.scenes.change(iso=200.0)
     assert bench.wait_until_idle() is before
-    assert bench.pane.failures == ["The work in the background failed: MemoryError: no memory."]
+    assert list(filter(None, all_shown(bench.pane.show_failure))) == [
+        "The work in the background failed: MemoryError: no memory."
+    ]
 
 
-def test_choosing_one_parameter_twice_exchanges_both(bench_of: Callable[..., Bench]) -> None:
+def test_the_pane_follows_the_axes_what_is_shown_and_the_pictures_a_second(
+    bench_of: Callable[..., Bench],
+) -> None:
     bench = bench_of()
     bench.controller.choose_axes(DISTANCE, DISTANCE)
-    assert bench.pane.axes == (DISTANCE, FREQUENCY)
+    assert bench.pane.show_axes.call_args.args == (DISTANCE, FREQUENCY)
     bench.controller.choose_axes(DISTANCE, DISTANCE)
-    assert bench.pane.axes == (FREQUENCY, DISTANCE)
+    assert bench.pane.show_axes.call_args.args == (FREQUENCY, DISTANCE)
+    show(bench.scenes.store, shown="bits")
+    assert bench.pane.show_bits.call_args.args[0] == "bits"
+    show(bench.scenes.store, frame_rate=12.0)
+    assert bench.pane.show_bits.call_args.args == ("bits", 12.0)
 
 
 @pytest.mark.whole
@@ -307,14 +276,14 @@ def test_a_map_of_an_earlier_scene_ages_until_the_next_is_there(
 ) -> None:
     bench = bench_of()
     bench.look()
-    assert set(bench.pane.ages) == {0.0}
-    bench.pane.ages.clear()
+    assert set(all_shown(bench.pane.show_age)) == {0.0}
+    bench.pane.show_age.reset_mock()
     bench.scenes.change(start_time=1e-3)  # the map does not depend on it
-    assert set(bench.pane.ages) == {0.0}
+    assert set(all_shown(bench.pane.show_age)) == {0.0}
     bench.scenes.change(exposure_time=136e-6)
-    assert bench.pane.ages[-1] > 0.0
+    assert shown(bench.pane.show_age) > 0.0
     bench.wait_until_idle()
-    assert bench.pane.ages[-1] == 0.0
+    assert shown(bench.pane.show_age) == 0.0
 
 
 def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
@@ -336,44 +305,18 @@ def test_a_first_answer_is_awaited_until_it_is_there_or_found_to_take_long(
     bench.wait_until_idle()
     assert awaited
     assert not any(waiting for _, waiting in awaited)
+    assert controller.full is not None
+    assert controller.full[0] is controller.map
     bench.scenes.change(iso=200.0)
     assert waits()
     controller.set_seen(False)
     assert not waits()
+    assert controller.full is None, "it is of its own scene alone"
     monkeypatch.setattr(module, "left_out", lambda *_: ("a lens",))
     request = controller._request()
     found: list[bool] = []
     list(request.stages(np.zeros(SHAPE, dtype=np.int64), True, lambda: found.append(True)))
     assert found == [True]
-
-
-def test_a_map_is_full_of_its_own_scene_alone_and_its_first_answer_awaited_once(
-    bench_of: Callable[..., Bench],
-) -> None:
-    bench = bench_of()
-    controller = bench.controller
-    assert controller.full is None
-    controller.set_seen(True)
-    assert controller.is_first_answer_awaited
-    shown = bench.wait_until_idle()
-    assert not controller.is_first_answer_awaited
-    full = controller.full
-    assert full is not None
-    assert full[0] is shown
-    controller.set_seen(False)
-    bench.scenes.change(iso=200.0)
-    assert controller.full is None
-    assert not controller.is_first_answer_awaited
-
-
-def test_the_pane_follows_what_is_shown_and_the_pictures_a_second(
-    bench_of: Callable[..., Bench],
-) -> None:
-    bench = bench_of()
-    show(bench.scenes.store, shown="bits")
-    assert bench.pane.bits[0] == "bits"
-    show(bench.scenes.store, frame_rate=12.0)
-    assert bench.pane.bits == ("bits", 12.0)
 
 
 @pytest.mark.parametrize("with_image_effects", [False, True])

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 from gui.conftest import InlineWorkers, LazyWorkers
+from gui.kinds import collect, show_widget
 from gui.stores import show, store_of
 from pytestqt.qtbot import QtBot
 
@@ -33,10 +34,7 @@ def none_by(decoder: str) -> MostBits:
 
 @pytest.fixture
 def card(qtbot: QtBot) -> MostBitsCard:
-    made = MostBitsCard()
-    qtbot.addWidget(made)
-    made.show()
-    return made
+    return show_widget(qtbot, MostBitsCard())
 
 
 def buttons(card: MostBitsCard) -> set[str]:
@@ -60,7 +58,7 @@ def test_the_card_asks_searches_and_leads_there(card: MostBitsCard, small_scene:
     assert buttons(card) == {"Go"}
 
 
-def test_what_is_of_an_earlier_scene_is_marked_and_leads_nowhere(
+def test_an_earlier_result_is_marked_and_leads_nowhere_and_none_says_why(
     card: MostBitsCard, small_scene: Scene
 ) -> None:
     card.show_begun()
@@ -70,9 +68,6 @@ def test_what_is_of_an_earlier_scene_is_marked_and_leads_nowhere(
     assert card.text.toolTip().startswith("Earlier scene: ")
     assert buttons(card) == {"Search", "Go"}
     assert not card.go.isEnabled()
-
-
-def test_where_no_decoder_reads_anything_the_card_says_why(card: MostBitsCard) -> None:
     card.show_begun()
     card.show_found(none_by("threshold"))
     card.show_ended("")
@@ -125,8 +120,7 @@ def bench(
 
 
 def test_go_makes_the_scene_what_was_found_in_one_step(bench: Bench, qtbot: QtBot) -> None:
-    told: list[str] = []
-    bench.controller.went.connect(told.append)
+    told = collect(bench.controller.went)
     before = bench.scenes.scene
     bench.card.search.click()
     qtbot.waitUntil(lambda: bench.controller.channel.is_idle)

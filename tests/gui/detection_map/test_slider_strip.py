@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import add_widget
 from gui.pane_bench import ControlsBench, handle_middle
 from gui.stores import store_of
 from PySide6.QtWidgets import QApplication, QSlider
@@ -14,10 +15,12 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.background.signals import WorkQueue
 from occ_gui.detection_map import slider_strip_controller as module
+from occ_gui.detection_map import wiring
 from occ_gui.detection_map.colour_map import RATES, to_colours
 from occ_gui.detection_map.rate_map import lattice
-from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips, StripLegend
+from occ_gui.detection_map.slider_strip import IMAGES, SliderStrip, SliderStrips
 from occ_gui.detection_map.slider_strip_controller import SliderStripController
+from occ_gui.detection_map.wiring import Measuring
 from occ_gui.scene.control_panel import MAIN
 from occ_gui.scene.parameter_rows import QuantityRow
 from occ_model.scene.parameters import quantity
@@ -101,6 +104,9 @@ def test_nothing_is_measured_while_the_strips_are_not_seen(bench: Bench, qtbot: 
     bench.scenes.change(exposure_time=68e-6)
     qtbot.wait(30)
     assert bench.measured() == []
+    bench.scenes.change(pattern="10")
+    bench.controller.set_seen(True)
+    assert set(bench.wait_until_idle()["iso"]) == {None}
 
 
 def test_moving_a_slider_leaves_its_own_strip_as_it_is(bench: Bench) -> None:
@@ -118,7 +124,9 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     bench.controller.set_seen(True)
     bench.wait_until_idle()
     bench.measured()
+    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
     bench.scenes.change(switching_frequency=40e3)
+    assert bench.strips.outdated == {"switching_frequency": False, "iso": True}
     bench.wait_until_idle()
     of_one = bench.measured()
     for frequency in (20e3, 25e3, 30e3):
@@ -126,12 +134,6 @@ def test_a_movement_is_measured_once_where_it_ends(bench: Bench) -> None:
     bench.wait_until_idle()
     assert bench.measured() == of_one != []
     assert bench.strips.outdated == dict.fromkeys(NAMES, False)
-
-
-def test_a_scene_that_the_model_refuses_is_unknown(bench: Bench) -> None:
-    bench.scenes.change(pattern="10")
-    bench.controller.set_seen(True)
-    assert set(bench.wait_until_idle()["iso"]) == {None}
 
 
 @pytest.fixture
@@ -159,7 +161,7 @@ def test_a_strip_begins_and_ends_where_the_handle_does(strips: SliderStrips) -> 
         assert strip.height() == 6
 
 
-def test_good_bad_and_unknown_positions_look_different(
+def test_good_bad_and_unknown_positions_look_different_and_every_strip_says_what_it_is(
     strips: SliderStrips, grey_picture: Callable[..., Any]
 ) -> None:
     strip = strips.strips["iso"]
@@ -170,9 +172,6 @@ def test_good_bad_and_unknown_positions_look_different(
     bad, unknown, good = (int(row[place]) for place in places)
     assert len({bad, unknown, good}) == 3
     assert "read at 2 of 4" in strip.accessibleDescription()
-
-
-def test_every_strip_says_what_it_is(strips: SliderStrips) -> None:
     for strip in strips.strips.values():
         assert strip.accessibleName().startswith("Reading along ")
         assert "grey not known" in strip.toolTip()
@@ -188,16 +187,6 @@ def test_the_colours_of_a_strip_are_the_maps(strips: SliderStrips) -> None:
         place = round(first + share * (last - first))
         seen = picture.pixelColor(place, 3)
         assert [seen.red(), seen.green(), seen.blue()] == colour
-
-
-def test_strips_of_an_earlier_scene_are_marked_until_measured(bench: Bench) -> None:
-    bench.controller.set_seen(True)
-    bench.wait_until_idle()
-    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
-    bench.scenes.change(switching_frequency=40e3)
-    assert bench.strips.outdated == {"switching_frequency": False, "iso": True}
-    bench.wait_until_idle()
-    assert bench.strips.outdated == dict.fromkeys(NAMES, False)
 
 
 def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None:
@@ -218,7 +207,7 @@ def test_an_outdated_strip_says_so_at_once_and_fades_later(qtbot: QtBot) -> None
     assert strip.accessibleDescription() == "read at 5 of 5 positions"
 
 
-def test_the_legend_says_what_the_colours_mean_and_gives_way_to_the_sliders(
+def test_the_legend_shows_and_says_what_the_colours_mean_and_gives_way_to_the_sliders(
     strips: SliderStrips,
 ) -> None:
     legend = strips.legend
@@ -228,12 +217,17 @@ def test_the_legend_says_what_the_colours_mean_and_gives_way_to_the_sliders(
     assert not legend.isHidden()
     strips.set_shown(False)
     assert legend.isHidden()
+    legend.resize(legend.sizeHint())
+    picture = legend.grab().toImage()
+    middle = [picture.pixelColor(x, picture.height() // 2) for x in range(picture.width())]
+    seen = {(colour.red(), colour.green(), colour.blue()) for colour in middle}
+    ends = to_colours(np.array([[0.0], [1.0]]), 0.0, 1.0, RATES)[:, 0, :3]
+    assert {tuple(end) for end in ends.tolist()} <= seen
 
 
 def test_new_shares_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> None:
     slider = QSlider()
-    strip = SliderStrip(slider, "Frequency")
-    qtbot.addWidget(strip)
+    strip = add_widget(qtbot, SliderStrip(slider, "Frequency"))
     qtbot.addWidget(slider)
     strip.resize(200, 12)
     strip.show()
@@ -248,12 +242,22 @@ def test_new_shares_are_painted_at_once(qtbot: QtBot, monkeypatch: pytest.Monkey
     assert painted
 
 
-def test_the_legend_shows_the_colours_from_misread_to_read(qtbot: QtBot) -> None:
-    legend = StripLegend()
-    qtbot.addWidget(legend)
-    legend.resize(legend.sizeHint())
-    picture = legend.grab().toImage()
-    middle = [picture.pixelColor(x, picture.height() // 2) for x in range(picture.width())]
-    seen = {(colour.red(), colour.green(), colour.blue()) for colour in middle}
-    ends = to_colours(np.array([[0.0], [1.0]]), 0.0, 1.0, RATES)[:, 0, :3]
-    assert {tuple(end) for end in ends.tolist()} <= seen
+def test_the_strips_begin_a_while_after_the_picture_has_come(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(wiring, "START_MS", 1)
+    row = add_widget(qtbot, QuantityRow(quantity("iso")))
+    strips, asked = SliderStrips({"iso": row}), list[bool]()
+    there = [False, False, True, True]
+
+    def has_picture() -> bool:
+        asked.append(there[min(len(asked), len(there) - 1)])
+        return asked[-1]
+
+    measuring = Measuring(store_of(), strips, has_picture)
+    begun: list[Any] = []
+    monkeypatch.setattr(measuring, "_set_seen", begun.append)
+    strips.seen.emit(True)
+    qtbot.waitUntil(lambda: bool(begun))
+    assert (asked, begun) == ([False, False, True, True], [True])
+    measuring.stop()

@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 
 import pytest
+from gui.kinds import show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PySide6.QtCore import Qt
@@ -25,11 +26,7 @@ NOTHING: frozenset[str] = frozenset()
 @pytest.fixture
 def view(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> EquationText:
     monkeypatch.setattr(equation_text, "HIGHLIGHT_MS", 60)
-    view = EquationText()
-    qtbot.addWidget(view)
-    view.resize(360, 400)
-    view.show()
-    return view
+    return show_widget(qtbot, EquationText(), 360, 400)
 
 
 def marked(view: EquationText) -> list[str]:
@@ -50,7 +47,9 @@ def marked(view: EquationText) -> list[str]:
     return found
 
 
-def test_symbols_numbers_and_results_are_all_there(view: EquationText, small_scene: Scene) -> None:
+def test_symbols_numbers_and_results_are_all_there_indices_low_and_quantities_in_italics(
+    view: EquationText, small_scene: Scene
+) -> None:
     found = equations(small_scene)
     view.show_equations(found, NOTHING)
     text = view.toPlainText()
@@ -62,12 +61,6 @@ def test_symbols_numbers_and_results_are_all_there(view: EquationText, small_sce
     assert "(S t (Lv + EvR/π) / (K N2))1/γ" in text  # noqa: RUF001 - the equation's own letter
     assert "[equation (1)]" in text
     assert marked(view) == []
-
-
-def test_indices_stand_low_and_quantities_in_italics(
-    view: EquationText, small_scene: Scene
-) -> None:
-    view.show_equations(equations(small_scene), NOTHING)
     html = view.toHtml()
     assert re.search(
         r"font-style:italic;[^>]*>t</span><span[^>]*vertical-align:sub;[^>]*>on<", html

@@ -1,9 +1,8 @@
 """The exposure of the column that the mouse, a click, an arrow key or a number chooses."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
@@ -15,22 +14,15 @@ from occ_gui.explanation.exposure_plot import ExposurePlot
 from occ_gui.explanation.feature import equations
 from occ_gui.explanation.pane import ExplanationPane
 from occ_gui.profile.feature import profile
-from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.plot import Plot
 from occ_model.results.teaching import ExposureWindow
 from occ_model.scene.scene import Scene
 from occ_model.teaching.exposure_window import exposure_window
 
-SnapshotOf = Callable[..., Snapshot]
-
 
 @pytest.fixture
 def plot(qtbot: QtBot) -> ExposurePlot:
-    plot = ExposurePlot()
-    qtbot.addWidget(plot)
-    plot.resize(360, 200)
-    plot.show()
-    return plot
+    return show_widget(qtbot, ExposurePlot(), 360, 200)
 
 
 def test_chips_window_and_time_on_are_drawn_in_microseconds(
@@ -97,13 +89,12 @@ def test_the_view_can_be_enlarged_and_moved_a_little_beyond(
     assert np.ptp(box.viewRange()[0]) == pytest.approx(0.1 * last)
 
 
-def test_a_column_in_the_dark_has_no_time_on(plot: ExposurePlot, small_scene: Scene) -> None:
+def test_a_column_in_the_dark_has_no_time_on_and_what_is_not_drawn_is_named(
+    plot: ExposurePlot, small_scene: Scene
+) -> None:
     plot.show_window(exposure_window(small_scene.replace(pattern="0"), 5), 9.0)
     assert not plot.lit.isVisible()
     assert "LED on for 0 s (0 %)" in plot.sentence.text()
-
-
-def test_what_is_not_drawn_is_named(plot: ExposurePlot, small_scene: Scene) -> None:
     scene = small_scene.replace(exposure_time=1.0)
     window = exposure_window(scene, 5)
     plot.show_window(window, 9.0)
@@ -296,12 +287,11 @@ def test_the_column_shown_first_is_in_the_panels_first_packet(
     assert first < column < first + snapshot.packet_columns
 
 
-def test_every_control_says_what_it_does(plot: ExposurePlot) -> None:
+def test_every_control_says_what_it_does_and_a_click_on_hold_is_told(
+    plot: ExposurePlot, qtbot: QtBot
+) -> None:
     for control in (plot.column, plot.hold):
         assert control.toolTip().endswith(".")
-
-
-def test_a_click_on_hold_is_told(plot: ExposurePlot, qtbot: QtBot) -> None:
     for held in (True, False):
         with qtbot.waitSignal(plot.hold_chosen) as told:
             plot.hold.click()

@@ -1,6 +1,5 @@
 """The run of a slider is written as an animation, off the window's thread."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -27,10 +26,8 @@ class Bench(PaneBench):
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
-    bench = Bench(qtbot, small_scene)
-    yield bench
-    bench.shell.stop()
+def bench(qtbot: QtBot, small_scene: Scene) -> Bench:
+    return Bench(qtbot, small_scene)
 
 
 def test_the_run_of_a_slider_from_end_to_end_and_back_is_saved(

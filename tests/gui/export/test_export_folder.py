@@ -36,20 +36,20 @@ def test_what_a_killed_export_left_is_removed_by_the_next(tmp_path: Path) -> Non
     assert [path.name for path in tmp_path.iterdir()] == ["figure.png"]
 
 
-def test_nobody_else_reads_what_is_at_work(tmp_path: Path) -> None:
+def test_what_is_at_work_stays_unread_by_others_and_is_gone_at_its_end(tmp_path: Path) -> None:
+    with folder_aside(tmp_path) as aside:
+        (aside / "profile.png").write_bytes(b"half")
+        export(ExportJob((), folder=tmp_path))
+        assert (aside / "profile.png").read_bytes() == b"half"
+    assert list(tmp_path.iterdir()) == []
     names = set()
     for _ in range(10):
         with folder_aside(tmp_path) as aside:
             assert stat.S_IMODE(aside.stat().st_mode) == 0o700
             names.add(aside.name)
     assert len(names) == 10
-
-
-def test_what_is_at_work_stays_and_is_gone_at_its_end(tmp_path: Path) -> None:
     with folder_aside(tmp_path) as aside:
-        (aside / "profile.png").write_bytes(b"half")
-        export(ExportJob((), folder=tmp_path))
-        assert (aside / "profile.png").read_bytes() == b"half"
+        aside.rmdir()
     assert list(tmp_path.iterdir()) == []
 
 
@@ -64,12 +64,6 @@ def test_what_is_somebody_elses_stays(tmp_path: Path) -> None:
     before = sorted(tmp_path.rglob("*"))
     remove_left_behind(tmp_path)
     assert sorted(tmp_path.rglob("*")) == before
-
-
-def test_a_temporary_folder_that_is_gone_already_is_no_error(tmp_path: Path) -> None:
-    with folder_aside(tmp_path) as aside:
-        aside.rmdir()
-    assert list(tmp_path.iterdir()) == []
 
 
 def test_what_is_no_folder_of_files_alone_is_not_taken_for_one_of_an_export(tmp_path: Path) -> None:

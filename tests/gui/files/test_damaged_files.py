@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from gui.kinds import add_widget
 from gui.starts import PROJECT, Starts
 from PySide6.QtCore import QSettings
 from PySide6.QtWidgets import QLabel
@@ -70,7 +71,6 @@ NO_FILES: dict[str, Damage] = {
 
 
 def left_behind(folder: Path, **record: object) -> None:
-    """Write a session file."""
     (folder / "session-1.json").write_text(json.dumps({"format": 1, **record}), "ascii")
 
 
@@ -109,7 +109,8 @@ def test_a_damaged_scene_of_a_crash_is_kept_aside(tmp_path: Path, qtbot: QtBot, 
     left_behind(tmp_path, in_use=True, scene=text)
     file = SessionFile(tmp_path)
     assert file.crashed is None
-    assert (tmp_path / "session-1.unreadable").exists()
+    aside = (tmp_path / "session-1.unreadable").read_text("ascii")
+    assert json.loads(aside) == {"format": 1, "in_use": True, "scene": text}
     file.close()
 
 
@@ -195,8 +196,7 @@ def test_unreadable_lessons_are_reported(
         raise error
 
     monkeypatch.setattr("occ_gui.lessons.lesson_controller.lessons", fail)
-    view = LessonView()
-    qtbot.addWidget(view)
+    view = add_widget(qtbot, LessonView())
     answers = LessonAnswers()
     LessonController(application.store.store, application.board, view, answers).set_seen(True)
     answers.runner.stop()

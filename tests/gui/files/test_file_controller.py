@@ -7,11 +7,13 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, not_none
 from gui.stores import store_of
+from PIL import Image
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from occ_gui.files.file_controller import FileController
+from occ_gui.files.file_controller import FileController, _is_film
 from occ_gui.files.preferences import Preferences
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import Board
@@ -53,7 +55,9 @@ def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
     bench.photos.work.task.stop()
 
 
-def test_a_saved_scene_is_opened_exactly_as_it_was(bench: Bench, tmp_path: Path) -> None:
+def test_a_saved_scene_is_opened_exactly_as_it_was_in_one_step_that_can_be_undone(
+    bench: Bench, tmp_path: Path
+) -> None:
     path = tmp_path / "mine.toml"
     bench.store.change(exposure_time=1e-4 / 3, pattern="0110", yaw=0.1)
     saved = bench.store.scene
@@ -62,31 +66,26 @@ def test_a_saved_scene_is_opened_exactly_as_it_was(bench: Bench, tmp_path: Path)
     bench.files.open_scene(path)
     assert bench.store.scene == saved
     assert bench.status_message == ["Saved mine.toml", "Opened mine.toml"]
-
-
-def test_opening_a_scene_is_one_step_that_can_be_undone(bench: Bench, tmp_path: Path) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text(Scene().to_toml(), encoding="utf-8")
-    before = bench.store.scene
-    bench.files.open_scene(path)
     assert bench.store.undo_stack.undoText() == "opening of mine.toml"
     bench.store.undo_stack.undo()
-    assert bench.store.scene == before
+    assert bench.store.scene == Scene()
 
 
 @pytest.mark.parametrize(
-    "content",
+    ("content", "said"),
     [
-        b"this is no scene",
-        b"\xff\xfe\x00",
-        b"",
-        b"format = 1\n[camera]\niso = -5.0\n",
-        b"format = 1\n[camera]\nshutter = 1\n",
-        None,
+        (b"this is no scene", ""),
+        (b"\xff\xfe\x00", ""),
+        (b"", ""),
+        (b"format = 1\n[camera]\niso = -5.0\n", ""),
+        (b"format = 1\n[camera]\nshutter = 1\n", ""),
+        (None, ""),
+        (b"format = 99\n", "this version reads format 1"),
+        (b"format = 'new'\n[camera]\nlens = 3\n", "this version reads format 1"),
     ],
 )
 def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
-    bench: Bench, tmp_path: Path, small_scene: Scene, content: bytes | None
+    bench: Bench, tmp_path: Path, small_scene: Scene, content: bytes | None, said: str
 ) -> None:
     path = tmp_path / "wrong.toml"
     if content is not None:
@@ -95,25 +94,24 @@ def test_a_file_that_is_no_scene_is_refused_and_leaves_the_scene(
     (sentence,) = bench.status_message
     assert sentence.endswith((".", "?"))
     assert "Opened" not in sentence
+    assert said in sentence
     assert bench.store.scene == small_scene
     assert bench.store.undo_stack.count() == 0
 
 
-@pytest.mark.parametrize("content", ["format = 99\n", "format = 'new'\n[camera]\nlens = 3\n"])
-def test_a_scene_file_of_a_newer_version_is_refused(
-    bench: Bench, tmp_path: Path, small_scene: Scene, content: str
+@pytest.mark.parametrize("what", ["scene", "picture"])
+def test_what_cannot_be_written_gives_a_sentence_and_no_file(
+    bench: Bench, tmp_path: Path, snapshot_of: SnapshotOf, what: str
 ) -> None:
-    path = tmp_path / "newer.toml"
-    path.write_text(content, encoding="utf-8")
-    bench.files.open_scene(path)
-    assert "this version reads format 1" in bench.status_message[-1]
-    assert bench.store.scene == small_scene
-
-
-def test_an_unwritable_scene_gives_a_sentence_and_no_file(bench: Bench, tmp_path: Path) -> None:
-    for path in (tmp_path, tmp_path / "nowhere" / "scene.toml"):
-        bench.files.save_scene(path)
-        assert str(path) in bench.status_message[-1]
+    bench.shown = snapshot_of()
+    nowhere = tmp_path / "nowhere"
+    places = {
+        "scene": (tmp_path, nowhere / "scene.toml"),
+        "picture": (tmp_path / "p", tmp_path / "p.toml", nowhere / "p.png"),
+    }
+    for path in places[what]:
+        getattr(bench.files, f"save_{what}")(path)
+        assert path.name in bench.status_message[-1]
         assert "Saved" not in bench.status_message[-1]
     assert list(tmp_path.iterdir()) == []
 
@@ -140,30 +138,18 @@ def test_an_opened_scene_file_is_saved_under_a_new_name(
 
 @pytest.mark.parametrize("ending", ["png", "bmp", "tif"])
 def test_a_saved_picture_is_exactly_the_one_shown(
-    bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot], ending: str
+    bench: Bench, tmp_path: Path, snapshot_of: SnapshotOf, ending: str
 ) -> None:
     shown = bench.shown = snapshot_of(iso=400.0)
     path = tmp_path / f"picture.{ending}"
     bench.files.save_picture(path)
     assert bench.status_message == [f"Saved picture.{ending}: the camera's picture"]
-    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
-    assert written is not None
+    written = not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
     assert np.array_equal(written, shown.frame.camera_image)
 
 
-def test_an_unwritable_picture_gives_a_sentence_and_no_file(
-    bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
-) -> None:
-    bench.shown = snapshot_of()
-    for path in (tmp_path / "p", tmp_path / "p.toml", tmp_path / "nowhere" / "p.png"):
-        bench.files.save_picture(path)
-        assert path.name in bench.status_message[-1]
-        assert "Saved" not in bench.status_message[-1]
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
-    bench: Bench, tmp_path: Path, snapshot_of: Callable[..., Snapshot]
+    bench: Bench, tmp_path: Path, snapshot_of: SnapshotOf
 ) -> None:
     path = tmp_path / "picture.png"
     store = bench.store.store
@@ -176,8 +162,7 @@ def test_a_picture_that_is_waited_for_is_the_one_chosen_at_first(
     (write,) = bench.waiting
     write(shown)
     assert "the receiver's picture" in bench.status_message[-1]
-    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
-    assert written is not None
+    written = not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
     assert np.array_equal(written, shown.frame.image)
 
 
@@ -185,7 +170,7 @@ def test_the_dialogs_answer_is_what_is_read_and_written(
     bench: Bench,
     tmp_path: Path,
     photo_file: Path,
-    snapshot_of: Callable[..., Snapshot],
+    snapshot_of: SnapshotOf,
     monkeypatch: pytest.MonkeyPatch,
     qtbot: QtBot,
 ) -> None:
@@ -252,7 +237,7 @@ def test_a_cancelled_dialog_does_nothing(
     assert bench.store.scene == small_scene
 
 
-def test_several_photos_of_the_dialog_become_a_table(
+def test_several_photos_of_the_dialog_become_a_table_which_is_saved_by_one(
     bench: Bench, photo_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:
     copy = tmp_path / "copy.png"
@@ -264,11 +249,6 @@ def test_several_photos_of_the_dialog_become_a_table(
         files.ask_for_photo()
     assert some.args == [[photo_file, copy]]
     assert opened.args[0].path == photo_file
-
-
-def test_the_table_of_several_photos_is_saved_by_a_dialog(
-    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "own"), ""))
     bench.files.ask_to_save_table("readout, µs\n")
     assert (tmp_path / "own.csv").read_bytes() == "readout, µs\n".encode()
@@ -315,3 +295,27 @@ def test_only_what_was_opened_or_saved_is_a_recent_file(
     bench.preferences.clear()
     bench.files.open_scene(tmp_path / "a.toml")
     assert bench.preferences.files == (tmp_path / "a.toml",)
+
+
+PICTURES = [Image.fromarray(np.full((4, 6), 40 * n, dtype=np.uint8)) for n in range(3)]
+
+
+@pytest.mark.parametrize("name", ["a.gif", "a.png"])
+def test_a_picture_that_moves_is_a_film_and_one_that_stands_is_a_photo(
+    tmp_path: Path, name: str
+) -> None:
+    path = tmp_path / name
+    PICTURES[0].save(path, save_all=True, append_images=PICTURES[1:], duration=40)
+    assert _is_film(path)
+    PICTURES[0].save(path)
+    assert not _is_film(path)
+
+
+def test_films_are_known_by_their_endings_and_damaged_pictures_are_photos(tmp_path: Path) -> None:
+    assert _is_film(Path("a.MP4"))
+    assert _is_film(Path("b.mkv"))
+    assert not _is_film(Path("c.jpg"))
+    damaged = tmp_path / "damaged.gif"
+    damaged.write_bytes(b"GIF89a")
+    assert not _is_film(damaged)
+    assert not _is_film(tmp_path / "missing.png")

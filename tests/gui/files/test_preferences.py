@@ -34,20 +34,19 @@ def test_opened_files_are_listed_at_the_next_start_latest_first(
     assert Preferences(settings(file)).files == tuple(reversed(paths))
 
 
-def test_a_file_that_is_opened_again_moves_to_the_front(tmp_path: Path) -> None:
+def test_a_file_that_is_opened_again_moves_to_the_front_and_only_so_many_are_remembered(
+    tmp_path: Path,
+) -> None:
     preferences = Preferences()
     a, b = tmp_path / "a", tmp_path / "b"
     for path in (a, b, a):
         preferences.add(path)
     assert preferences.files == (a, b)
-
-
-def test_only_so_many_are_remembered(tmp_path: Path) -> None:
-    preferences = Preferences()
     for place in range(MOST_RECENT + 3):
         preferences.add(tmp_path / str(place))
     assert len(preferences.files) == MOST_RECENT
     assert preferences.files[0].name == str(MOST_RECENT + 2)
+    assert Preferences().files == ()
 
 
 def test_every_change_is_emitted_and_nothing_else(tmp_path: Path) -> None:
@@ -63,13 +62,18 @@ def test_every_change_is_emitted_and_nothing_else(tmp_path: Path) -> None:
     assert told == [(tmp_path / "a",), ()]
 
 
-def test_a_dialog_begins_in_the_folder_of_the_last_file(file: Path, tmp_path: Path) -> None:
+def test_a_dialog_begins_in_the_folder_of_the_last_file_or_where_figures_were_written(
+    file: Path, tmp_path: Path
+) -> None:
     assert Preferences(settings(file)).folder == ""
     remember(file, tmp_path / "a.png")
     preferences = Preferences(settings(file))
     assert preferences.folder == str(tmp_path)
     preferences.visit(tmp_path / "gone" / "a.png")
     assert preferences.folder == ""
+    preferences = Preferences(settings(tmp_path / "other.ini"))
+    preferences.visit_export(tmp_path / "picture.png")
+    assert preferences.folder == str(tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -91,19 +95,6 @@ def test_a_file_that_holds_no_settings_is_as_good_as_none(file: Path, tmp_path: 
     assert preferences.files == ()
     preferences.add(tmp_path / "a")
     assert preferences.files == (tmp_path / "a",)
-
-
-def test_without_settings_nothing_is_kept(tmp_path: Path) -> None:
-    Preferences().add(tmp_path / "a")
-    assert Preferences().files == ()
-
-
-def test_where_no_file_was_opened_a_dialog_begins_where_figures_were_written(
-    file: Path, tmp_path: Path
-) -> None:
-    preferences = Preferences(settings(file))
-    preferences.visit_export(tmp_path / "picture.png")
-    assert preferences.folder == str(tmp_path)
 
 
 def test_exports_have_a_folder_of_their_own(file: Path, tmp_path: Path) -> None:

@@ -158,18 +158,13 @@ def test_a_preset_is_replaced_only_if_the_user_says_so(
         assert (preset_named("mine").scene != Scene()) == replace
 
 
-def test_a_name_that_cannot_be_is_answered_by_a_sentence(
+def test_a_name_that_cannot_be_is_answered_by_a_sentence_and_a_cancelled_dialog_does_nothing(
     matched: Application, user: User, answer: Answer
 ) -> None:
     answer("phone-136us", False)
     matched.view("photo").result.save.click()
     assert user.message == "'phone-136us' is a preset of the program; choose another name."
     assert user_presets() == ()
-
-
-def test_a_cancelled_dialog_saves_and_deletes_nothing(
-    matched: Application, user: User, answer: Answer
-) -> None:
     save_preset("mine", Scene())
     answer("", False)
     matched.view("photo").result.save.click()
@@ -177,7 +172,7 @@ def test_a_cancelled_dialog_saves_and_deletes_nothing(
     assert user_presets() == ("mine",)
 
 
-def test_a_deleted_preset_is_listed_no_more(
+def test_a_deleted_preset_is_listed_no_more_and_a_missing_one_gives_a_sentence(
     matched: Application, user: User, answer: Answer, own: Path
 ) -> None:
     (own / "rubbish.toml").unlink()
@@ -189,11 +184,6 @@ def test_a_deleted_preset_is_listed_no_more(
     assert user.message == "Deleted the preset mine"
     user.choose("D&elete preset")
     assert user.message == "There is no preset of your own."
-
-
-def test_a_missing_preset_gives_a_sentence_and_leaves_the_list(
-    matched: Application, user: User, answer: Answer
-) -> None:
     answer("mine", False)
     matched.view("photo").result.save.click()
     scene = matched.store.scene

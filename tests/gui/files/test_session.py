@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from gui.kinds import not_none
 from gui.starts import PROJECT, Starts
 from gui.user import User
 from PySide6.QtCore import QEvent, QSettings, Qt
@@ -34,6 +35,7 @@ from occ_gui.values.match_choice import MatchChoice
 from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame, PhotoReading
 from occ_gui.values.room_choice import RoomChoice
 from occ_gui.values.simulated import PinnedScene, SimulationRequest
+from occ_gui.window.modes.mode import MODES
 from occ_model.results.decoding import Region
 from occ_model.scene.recording import Recording
 from occ_model.scene.scene import Scene
@@ -102,8 +104,7 @@ def test_all_that_is_set_is_there_again(tmp_path: Path) -> None:
     file.close()
     again = SessionFile(tmp_path)
     assert again.last == Kept(workspace)
-    kept = again.last.workspace.pins[1]
-    assert kept is not None
+    kept = not_none(again.last.workspace.pins[1])
     assert kept.request.more == pin.request.more  # by which pins are not told apart
     again.close()
 
@@ -143,8 +144,7 @@ def test_what_cannot_be_of_a_room_is_as_at_first(name: str, value: object) -> No
     choice = RoomChoice("my.toml", small_room(), Path(__file__), 0.031)
     record = record_of(Kept(Workspace(Scene(), room=choice)))
     record["room"][name] = value
-    kept = kept_in(record)
-    assert kept is not None
+    kept = not_none(kept_in(record))
     left = replace(choice, photo=None) if name == "photo" else RoomChoice()
     assert kept.workspace.room == left
 
@@ -263,6 +263,30 @@ def test_a_layout_of_other_panes_is_left_alone(start: Starting, kept: QSettings)
         assert not application.window.docks["controls"].isHidden()
 
 
+def test_mode_and_layouts_are_there_at_the_next_start(start: Starting) -> None:
+    with start() as application:
+        application.window.modes.switch("effects")
+        application.window.docks["controls"].hide()
+        application.window.modes.switch("limits")
+    with start() as application:
+        modes, docks = application.window.modes, application.window.docks
+        assert modes.mode == "limits"
+        assert application.window.toolbar.modes.currentIndex() == [*MODES].index("limits")
+        for mode, panes in (("limits", set(MODES["limits"].panes)), ("effects", {"accuracy"})):
+            modes.switch(mode)
+            assert {name for name, dock in docks.items() if not dock.isHidden()} == panes
+
+
+@pytest.mark.whole
+def test_a_maximized_window_opens_maximized(start: Starting) -> None:
+    for maximized in (True, False):
+        with start() as application:
+            window = application.window
+            window.showMaximized() if maximized else window.showNormal()
+        with start() as application:
+            assert application.window.isMaximized() == maximized
+
+
 RUBBISH = ("", "rubbish", "\x00", "{}", "[1, 2]", "ä" * 5000)
 
 
@@ -298,26 +322,25 @@ def test_settings_that_cannot_be_are_left_out(text: str) -> None:
     assert kept_in(record) == Kept(Workspace(Scene()))
 
 
-def test_a_settings_file_that_is_no_settings_file_is_left_out(tmp_path: Path) -> None:
+def test_a_settings_file_that_is_none_is_left_out_and_one_of_the_older_form_alone(
+    tmp_path: Path, small_scene: Scene
+) -> None:
     (tmp_path / "session-1.json").write_bytes(os.urandom(4000))
     assert SessionFile(tmp_path).last is None
-
-
-def test_a_session_of_the_older_form_is_left_alone(tmp_path: Path, small_scene: Scene) -> None:
     old = tmp_path / "scene-1.toml"
     old.write_text(small_scene.to_toml(), encoding="utf-8")
     file = SessionFile(tmp_path)
     assert (file.last, file.crashed) == (None, None)
     file.close()
-    assert list(tmp_path.iterdir()) == [old]
+    assert old in tmp_path.iterdir()
 
 
-def test_a_scene_that_is_asked_for_wins(start: Starting, small_scene: Scene) -> None:
-    with start() as application:
-        application.store.change(iso=321.0)
-    asked = small_scene.replace(iso=99.0)
-    with start(asked=asked) as application:
-        assert application.store.scene == asked
+def test_a_scene_that_is_asked_for_wins(tmp_path: Path, small_scene: Scene) -> None:
+    file, asked = SessionFile(tmp_path), Workspace(small_scene.replace(iso=99.0))
+    file.write(Kept(Workspace(small_scene.replace(iso=321.0))), in_use=False)
+    file.close()
+    begun = restored(SessionFile(tmp_path), asked, is_scene_asked=True, are_settings_asked=False)
+    assert begun.scene == asked.scene
 
 
 def crash(folder: Path, scene: Scene) -> None:
@@ -325,18 +348,6 @@ def crash(folder: Path, scene: Scene) -> None:
     file = SessionFile(folder)
     file.write(Kept(Workspace(scene, SimulationSettings(tolerance=7.0))), in_use=True)
     file.close()
-
-
-def test_the_scene_and_settings_of_a_crash_are_restored_once(
-    start: Starting, tmp_path: Path, small_scene: Scene
-) -> None:
-    lost = small_scene.replace(iso=777.0)
-    crash(tmp_path / "state", lost)
-    with start() as application:
-        assert application.store.scene == lost
-        assert application.settings.settings.tolerance == 7.0
-        assert "is restored" in application.window.statusBar().currentMessage()
-    assert SessionFile(tmp_path / "state").crashed is None
 
 
 def test_the_scene_of_a_crash_is_restored_as_a_step(
@@ -349,12 +360,14 @@ def test_the_scene_of_a_crash_is_restored_as_a_step(
     other.close()
     with start() as application:
         assert application.store.scene == lost
+        assert application.settings.settings.tolerance == 7.0
         assert "is restored" in application.window.statusBar().currentMessage()
         application.store.undo_stack.undo()
         assert application.store.scene == later
+    assert SessionFile(tmp_path / "state").crashed is None
 
 
-@pytest.mark.parametrize("fresh", [False, True])
+@pytest.mark.parametrize("fresh", [False, pytest.param(True, marks=pytest.mark.whole)])
 def test_undo_restores_the_crashs_scene_behind_a_requested_one(
     start: Starting, tmp_path: Path, small_scene: Scene, fresh: bool
 ) -> None:
@@ -364,15 +377,6 @@ def test_undo_restores_the_crashs_scene_behind_a_requested_one(
         assert application.store.scene == asked
         application.store.undo_stack.undo()
         assert application.store.scene == lost
-
-
-def test_what_cannot_be_read_of_a_crash_is_kept_aside(start: Starting, tmp_path: Path) -> None:
-    (tmp_path / "state").mkdir()
-    left = json.dumps({"format": 1, "in_use": True, "scene": "format = 99\n"})
-    (tmp_path / "state" / "session-1.json").write_text(left, encoding="utf-8")
-    with start():
-        pass
-    assert (tmp_path / "state" / "session-1.unreadable").read_text() == left
 
 
 def test_the_session_written_last_is_restored_though_the_clock_was_put_back(
@@ -421,7 +425,6 @@ def comparison(application: Application) -> list[list[str]]:
 
 
 def undo_texts(application: Application) -> list[str]:
-    """Read the menu's list of steps."""
     stack = application.store.undo_stack
     return [stack.text(place) for place in range(stack.count())]
 
@@ -465,7 +468,6 @@ def test_nothing_of_a_killed_window_is_lost(
 
 
 def kept_scene(path: Path) -> Scene:
-    """Read the scene in a session file."""
     return Scene.from_toml(json.loads(path.read_text(encoding="utf-8"))["scene"])
 
 

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
+from gui.kinds import collect, not_none
 from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
@@ -36,7 +37,6 @@ def begin(application: Application) -> Begin:
 
 
 def scenes_in(folder: Path) -> list[Scene]:
-    """Read the scenes of all session files."""
     paths = sorted(folder.glob("*.json"))
     records = [json.loads(path.read_text(encoding="utf-8")) for path in paths]
     return [Scene.from_toml(record["scene"]) for record in records]
@@ -57,12 +57,11 @@ def test_two_windows_do_not_take_each_other_for_a_crash(tmp_path: Path) -> None:
     assert not list(tmp_path.glob("*.toml"))
 
 
-def test_a_full_disk_is_reported_once_each_time_it_fills(
+def test_a_full_disk_is_reported_once_each_time_it_fills_and_a_folder_that_cannot_be_made(
     begin: Begin, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session = begin(tmp_path)
-    messages: list[str] = []
-    session.status_message.connect(messages.append)
+    messages = collect(session.status_message)
     write = Path.write_bytes
 
     def full(path: Path, content: bytes) -> int:
@@ -78,19 +77,15 @@ def test_a_full_disk_is_reported_once_each_time_it_fills(
     assert len(messages) == 2
     assert "No space left on device" in messages[0]
     session.end()
-
-
-def test_a_folder_that_cannot_be_made_is_reported(begin: Begin, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     session = begin(tmp_path / "file" / "folder")
-    messages: list[str] = []
     session.status_message.connect(messages.append)
     session.write()
-    assert len(messages) == 1
+    assert len(messages) == 3
     session.end()
 
 
-def test_the_scene_is_written_a_moment_after_it_was_changed(
+def test_the_scene_is_written_a_moment_after_it_was_changed_in_the_file_of_the_settings(
     begin: Begin, application: Application, tmp_path: Path, qtbot: QtBot
 ) -> None:
     session, store = begin(tmp_path), application.store
@@ -98,17 +93,9 @@ def test_the_scene_is_written_a_moment_after_it_was_changed(
     store.change(iso=322.0)
     assert scenes_in(tmp_path) == []
     qtbot.waitUntil(lambda: scenes_in(tmp_path) == [store.scene])
-    session.end()
-
-
-def test_the_settings_are_written_in_the_same_file_as_the_scene(
-    begin: Begin, application: Application, tmp_path: Path
-) -> None:
-    session = begin(tmp_path)
     application.settings.set_tolerance(3.5)
     session.end()
-    last = SessionFile(tmp_path).last
-    assert last is not None
+    last = not_none(SessionFile(tmp_path).last)
     assert last.workspace == application.store.store.workspace
     assert [path.name for path in tmp_path.glob("*.json")] == ["session-1.json"]
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from gui.kinds import add_widget, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QObject, QPoint, Qt, QUrl, Slot
 from PySide6.QtGui import QColor, QDesktopServices, QImage, QPalette, QTextCursor, QTextDocument
@@ -32,10 +33,7 @@ IMAGE = int(QTextDocument.ResourceType.ImageResource.value)
 
 @pytest.fixture
 def manual(qtbot: QtBot) -> HelpWindow:
-    """Show the manual at its guide."""
-    window = HelpWindow(docs_folder())
-    qtbot.addWidget(window)
-    window.show()
+    window = show_widget(qtbot, HelpWindow(docs_folder()))
     window.show_page(GUIDE)
     return window
 
@@ -62,7 +60,6 @@ def system() -> Iterator[SystemBrowser]:
 
 
 def top_heading(browser: QTextBrowser) -> str:
-    """Give the text of the first line that is seen."""
     return browser.cursorForPosition(QPoint(20, 20)).block().text()
 
 
@@ -102,12 +99,10 @@ def test_every_page_is_laid_out_to_its_end_and_no_wider_than_its_window(
             block = block.next()
 
 
-def test_a_link_with_a_heading_shows_the_heading_at_the_top(manual: HelpWindow) -> None:
+def test_a_link_is_followed_to_its_heading_and_undone(manual: HelpWindow, qtbot: QtBot) -> None:
     manual.show_page("guide.md#compare-column-profiles")
     assert top_heading(manual.browser) == "Compare column profiles"
-
-
-def test_a_relative_link_is_followed_and_undone(qtbot: QtBot, manual: HelpWindow) -> None:
+    manual.show_page(GUIDE)
     click(qtbot, manual.browser, "parameters.md")
     assert manual.browser.source().fileName() == "parameters.md"
     manual.browser.backward()
@@ -133,7 +128,6 @@ def test_nothing_is_read_but_files_of_this_computer(manual: HelpWindow, url: str
 
 
 def picture_width(browser: QTextBrowser) -> float:
-    """Give the width of the guide's picture on the screen."""
     picture = browser.document().resource(IMAGE, QUrl("../pictures/window.png"))
     return float(picture.width() / picture.devicePixelRatio())
 
@@ -148,7 +142,9 @@ def test_a_picture_is_as_wide_as_the_page_and_no_wider(qtbot: QtBot, manual: Hel
         assert manual.browser.horizontalScrollBar().maximum() == 0
 
 
-def test_a_search_finds_the_next_place_and_begins_again(qtbot: QtBot, manual: HelpWindow) -> None:
+def test_a_search_finds_the_next_place_and_begins_again_and_one_for_nothing_stays(
+    qtbot: QtBot, manual: HelpWindow
+) -> None:
     qtbot.keyClicks(manual.search, "slider")
     count = manual.browser.toPlainText().lower().count("slider")
     places = []
@@ -160,6 +156,12 @@ def test_a_search_finds_the_next_place_and_begins_again(qtbot: QtBot, manual: He
     assert sorted(set(places)) == places[:count] == places[count:]
     qtbot.keyClicks(manual.search, " of no page")
     assert not manual.find_next()
+    manual.browser.moveCursor(QTextCursor.MoveOperation.End)
+    place = manual.browser.textCursor().position()
+    manual.search.clear()
+    manual.browser.moveCursor(QTextCursor.MoveOperation.End)
+    assert not manual.find_next()
+    assert manual.browser.textCursor().position() == place > 0
 
 
 def test_keys_begin_a_search_and_close_the_manual(qtbot: QtBot, manual: HelpWindow) -> None:
@@ -239,28 +241,6 @@ def test_the_start_does_not_import_the_window_of_the_manual() -> None:
     assert {"occ_gui.help.help_window", "occ_gui.help.help_browser"}.isdisjoint(loaded)
 
 
-def test_a_search_for_nothing_finds_nothing_and_stays_where_it_is(manual: HelpWindow) -> None:
-    manual.browser.moveCursor(QTextCursor.MoveOperation.End)
-    place = manual.browser.textCursor().position()
-    manual.search.clear()
-    manual.browser.moveCursor(QTextCursor.MoveOperation.End)
-    assert not manual.find_next()
-    assert manual.browser.textCursor().position() == place > 0
-
-
-def test_pictures_are_fitted_anew_where_the_width_changes_only(
-    manual: HelpWindow, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    browser, fitted = manual.browser, []
-    assert browser._pictures
-    monkeypatch.setattr(browser, "_fitted", lambda picture: fitted.append(picture) or picture)
-    width = browser.width()
-    browser.resize(width, browser.height() + 30)
-    assert not fitted
-    browser.resize(width + 30, browser.height())
-    assert len(fitted) == len(browser._pictures)
-
-
 def test_code_stands_as_far_from_the_text_below_as_from_that_above(manual: HelpWindow) -> None:
     block, tops, bottoms = manual.browser.document().begin(), [], []
     while block.isValid():
@@ -284,8 +264,7 @@ def test_a_picture_has_all_points_of_a_fine_screen(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(HelpBrowser, "devicePixelRatioF", lambda _: 2.0)
-    browser = HelpBrowser()
-    qtbot.addWidget(browser)
+    browser = add_widget(qtbot, HelpBrowser())
     browser.resize(400, 300)
     large, small = QImage(2000, 100, RGB), QImage(60, 30, RGB)
     room = browser.viewport().width()
@@ -295,16 +274,13 @@ def test_a_picture_has_all_points_of_a_fine_screen(
     assert browser._fitted(small).width() == 60
 
 
-def test_the_bar_of_the_manual_stays_where_it_is(manual: HelpWindow) -> None:
-    bars = manual.findChildren(QToolBar)
-    assert bars
-    assert not any(bar.isMovable() for bar in bars)
-
-
-def test_the_titles_of_the_pages_are_read_whole_and_every_part_has_a_name(
+def test_the_titles_of_the_pages_are_read_whole_every_part_has_a_name_and_the_bar_stays(
     manual: HelpWindow,
 ) -> None:
     pages = manual.page_list
     assert pages.viewport().width() >= pages.sizeHintForColumn(0)
     for part in (pages, manual.browser, manual.search):
         assert part.accessibleName()
+    bars = manual.findChildren(QToolBar)
+    assert bars
+    assert not any(bar.isMovable() for bar in bars)

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from gui.kinds import add_widget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.help.help_window import HelpWindow
@@ -14,7 +15,6 @@ _PAGE = "# One\nLight.\n## Bars\nDark *stripes*\n```\n# no heading\n```\n## Flic
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """Make a manual of one page."""
     (tmp_path / "index.md").write_text("# Manual\n* [First](one.md): a page\n", encoding="utf-8")
     (tmp_path / "one.md").write_text(_PAGE, encoding="utf-8")
     return tmp_path
@@ -24,23 +24,20 @@ def titles(found: list[Section]) -> list[str]:
     return [section.title for section in found]
 
 
-def test_a_page_is_divided_at_its_headings_and_not_within_an_example(folder: Path) -> None:
+def test_a_page_is_divided_at_its_headings_and_all_words_are_there_a_heading_counting_more(
+    folder: Path,
+) -> None:
     found = sections(folder)
     assert titles(found) == ["First", "First: Bars", "First: Flicker"]
     assert [section.link for section in found] == ["one.md", "one.md#bars", "one.md#flicker"]
     assert "no heading" in found[1].text
-
-
-def test_all_words_are_there_and_a_heading_counts_more(folder: Path) -> None:
-    found = sections(folder)
     assert titles(search(found, "BARS")) == ["First: Bars", "First: Flicker"]
     assert titles(search(found, "light bars")) == ["First: Flicker"]
     assert titles(search(found, "light unknown")) == []
 
 
 def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(qtbot: QtBot) -> None:
-    window = HelpWindow(docs_folder())
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, HelpWindow(docs_folder()))
     every = sections(docs_folder())
     assert len(every) > 100
     for section in every[:: len(every) // 12]:
@@ -53,8 +50,7 @@ def test_every_section_of_the_manual_is_found_by_its_heading_and_shown_there(qtb
 
 
 def test_what_is_nowhere_is_said_and_an_empty_search_lists_the_pages_again(qtbot: QtBot) -> None:
-    window = HelpWindow(docs_folder())
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, HelpWindow(docs_folder()))
     window.search_all.setText("xylophone")
     assert window.page_list.count() == 1
     assert window.page_list.item(0).text() == "Nothing found"

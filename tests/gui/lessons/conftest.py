@@ -1,6 +1,5 @@
 """The lessons with controls and a photo, without the window around them."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -27,7 +26,6 @@ class Lessons(ControlsBench):
         self.guide: LessonView = self.pane.view
 
     def answer(self, text: str) -> str:
-        """Type an answer, and return what the check says."""
         given = self.guide.step.answer_field
         given.field.setText(text)
         given.check.click()
@@ -35,31 +33,24 @@ class Lessons(ControlsBench):
         return given.sentence.text()
 
     def choose_sent(self, sent: str) -> None:
-        """Choose what was sent in a photo."""
         workspace = self.store.workspace
         form = replace(workspace.photo.form, sent=sent)
         self.store.put(replace(workspace, photo=replace(workspace.photo, form=form)))
 
     def wait_until_idle(self) -> None:
-        """Wait until answers are checked, reports written and photos read."""
         task = self.photos.work.task
         self._qtbot.waitUntil(lambda: self.shell.is_idle and task.is_idle)
 
     def stop(self) -> None:
-        """End all work."""
         self.shell.stop()
         self.photos.work.task.stop()
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Lessons]:
-    """Open the lessons."""
-    bench = Lessons(qtbot, small_scene)
-    yield bench
-    bench.stop()
+def bench(qtbot: QtBot, small_scene: Scene) -> Lessons:
+    return Lessons(qtbot, small_scene)
 
 
 @pytest.fixture
 def guide(bench: Lessons) -> LessonView:
-    """Give the view of the lessons."""
     return bench.guide

@@ -28,11 +28,6 @@ def test_opening_the_lessons_lists_them_and_changes_nothing(
         assert button.toolTip()
     assert bench.scenes.scene == small_scene
     assert bench.scenes.undo_stack.count() == 0
-
-
-def test_the_answer_is_shown_on_demand_until_the_next_step(
-    bench: Lessons, guide: LessonView
-) -> None:
     guide.list.choices[1].click()
     assert not guide.step.answer.isVisible()
     guide.step.reveal.click()
@@ -109,6 +104,12 @@ def test_a_photo_of_the_users_own_is_out_of_sight_while_a_lesson_needs_none(
     bench.wait_until_idle()
     assert bench.photos.path == photo_file
     assert bench.photos.choice.form.sent == "read"
+    guide.list.choices[5].click()
+    bench.wait_until_idle()
+    assert bench.photos.path != photo_file
+    guide.step.all.click()
+    bench.wait_until_idle()
+    assert bench.photos.path == photo_file
 
 
 def test_lessons_that_cannot_be_read_give_a_sentence(
@@ -121,10 +122,9 @@ def test_lessons_that_cannot_be_read_give_a_sentence(
     bench = Lessons(qtbot, small_scene)
     assert "<song>" in bench.guide.list.message.text()
     assert bench.guide.list.choices == []
-    bench.stop()
 
 
-def test_the_frequency_of_a_step_with_a_sample_photo_is_that_of_the_sample() -> None:
+def test_steps_name_docks_and_samples_with_their_frequency() -> None:
     truths = {path.stem: Scene.from_toml(path.with_suffix(".toml").read_text(encoding="utf-8"))
               for path in sample_photos()}  # fmt: skip
     steps = [step for lesson in lessons().lessons for step in lesson.steps if step.photo]
@@ -132,9 +132,6 @@ def test_the_frequency_of_a_step_with_a_sample_photo_is_that_of_the_sample() -> 
     for step in steps:
         truth = truths[step.photo].transmitter.switching_frequency
         assert step.scene.transmitter.switching_frequency == truth, step.goal
-
-
-def test_each_pane_that_a_step_names_is_a_dock() -> None:
     named = {step.pane for lesson in lessons().lessons for step in lesson.steps}
     assert named <= set(PANES)
 
@@ -201,19 +198,6 @@ def test_a_lesson_has_a_state_of_its_own_and_returns_the_users(
     bench.wait_until_idle()
     assert (bench.scenes.scene, bench.settings.settings) == (small_scene, mine)
     assert bench.scenes.undo_stack.undoText() == "end of the lesson"
-
-
-def test_the_users_photo_returns_after_a_lesson(
-    bench: Lessons, guide: LessonView, photo_file: Path
-) -> None:
-    bench.photos.open(photo_file)
-    bench.wait_until_idle()
-    guide.list.choices[5].click()
-    bench.wait_until_idle()
-    assert bench.photos.path != photo_file
-    guide.step.all.click()
-    bench.wait_until_idle()
-    assert bench.photos.path == photo_file
 
 
 def test_a_photo_opened_during_a_lesson_stays_open(

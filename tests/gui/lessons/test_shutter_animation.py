@@ -4,6 +4,7 @@ from itertools import pairwise
 from unittest.mock import Mock
 
 import pytest
+from gui.kinds import add_widget
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
@@ -20,8 +21,7 @@ def shutter() -> RollingShutter:
 
 @pytest.fixture
 def widget(qtbot: QtBot) -> QWidget:
-    widget = QWidget()
-    qtbot.addWidget(widget)
+    widget = add_widget(qtbot, QWidget())
     widget.resize(500, 400)
     return widget
 

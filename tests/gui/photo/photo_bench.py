@@ -30,16 +30,13 @@ class PhotoBench:
 
     @property
     def choice(self) -> PhotoChoice:
-        """What is set about photos."""
         return self.store.workspace.photo
 
     @property
     def part(self) -> PhotoPart:
-        """What the pane shows."""
         return PhotoPart.of(self.store.workspace, self.board.results)
 
     def choose(self, **changes: object) -> None:
-        """Set something about photos."""
         photo = replace(self.choice, **changes)  # type: ignore[arg-type]  # fields of its own
         self.store.put(replace(self.store.workspace, photo=photo))
 
@@ -53,7 +50,6 @@ class PhotoBench:
         self.board.put(replace(self.board.results, opened=opened))
 
     def show_reading(self, reading: Reading) -> None:
-        """Show this reading of the scene."""
         self.board.show_reading(reading)
 
 
@@ -77,16 +73,13 @@ class LiveView(PhotoView):
         self.choose(self.choice.with_certain(name, value))
 
     def choose(self, choice: PhotoChoice) -> None:
-        """Show another choice."""
         self.choice = choice
         self.show_choice(choice)
 
     def confirm(self, certain: dict[str, float]) -> None:
-        """Have these values be certain of the photo."""
         self.choose(replace(self.choice, certain=certain))
 
     def open(self, photo: Photo | None) -> None:
-        """Open a photo, or close it."""
         self.show_photo(photo)
         self.choose(self.choice.closed() if photo is None else self.choice.opened(photo.path))
 

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import collect
 from gui.photo.photo_bench import PhotoBench
 from pytestqt.qtbot import QtBot
 
@@ -17,7 +18,6 @@ from occ_gui.photo.match_controller import MatchController
 from occ_gui.photo.part_edits import PartEdits
 from occ_gui.values.match_choice import MatchChoice
 from occ_model.errors import MatchError
-from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
@@ -96,27 +96,17 @@ def bench(
     bench.controller.work.task.stop()
 
 
-def test_a_match_is_announced_from_its_start_to_its_result(bench: Bench) -> None:
-    bench.start()
-    assert bench.events == ["begun", 0.0, 0.5, "ended"]
-    assert bench.controller.match is not None
-    assert bench.failures == []
-
-
-def test_the_model_is_asked_for_what_was_chosen(
+def test_a_match_of_what_was_chosen_is_announced_from_its_start_to_its_result(
     bench: Bench, photo: Photo, small_scene: Scene
 ) -> None:
     bench.start(sent="read", estimate="switching_frequency", fit_gamma=True)
-    assert bench.asked == [
-        {
-            "photo": photo,
-            "scene": small_scene,
-            "estimate": "switching_frequency",
-            "sent": "read",
-            "fit_gamma": True,
-            "region": None,
-        }
-    ]
+    assert bench.events == ["begun", 0.0, 0.5, "ended"]
+    assert bench.controller.match is not None
+    assert bench.failures == []
+    assert bench.asked == [{
+        "photo": photo, "scene": small_scene, "estimate": "switching_frequency", "sent": "read",
+        "fit_gamma": True, "region": None,
+    }]  # fmt: skip
 
 
 def test_a_square_wave_is_two_chips_a_cycle(bench: Bench, small_scene: Scene) -> None:
@@ -132,6 +122,10 @@ def test_a_square_wave_that_cannot_be_is_refused_with_a_sentence(bench: Bench) -
     (sentence,) = bench.failures
     assert sentence.startswith("Switching frequency is ")
     assert bench.asked == []
+    bench.events.clear()
+    bench.show_photo(None)
+    bench.start()
+    assert (bench.events, bench.asked) == ([], [])
 
 
 def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> None:
@@ -143,6 +137,9 @@ def test_a_refusal_gives_each_reason_and_the_last_match_stays(bench: Bench) -> N
     assert bench.part.refusal == bench.refusal
     assert bench.controller.match is found
     assert "refused" in bench.age
+    bench.parts.draw(PARTS[0])
+    assert bench.part.refusal == (), "it is of the part that was matched"
+    bench.parts.match_whole()
     bench.refusal = ()
     bench.start()
     assert bench.age == ""
@@ -178,14 +175,6 @@ def test_a_match_is_marked_while_another_photo_is_read(bench: Bench) -> None:
     assert bench.age == ""
 
 
-def test_a_refusal_is_of_the_part_that_was_matched(bench: Bench) -> None:
-    bench.refusal = ("No scene explains these stripes.",)
-    bench.start()
-    assert bench.part.refusal == bench.refusal
-    bench.parts.draw(PARTS[0])
-    assert bench.part.refusal == ()
-
-
 def test_a_cancelled_match_gives_nothing_and_the_last_one_stays(bench: Bench, qtbot: QtBot) -> None:
     bench.start()
     found = bench.controller.match
@@ -218,38 +207,23 @@ def test_another_photo_ends_the_match_and_forgets_what_was_found(
     assert bench.scenes.scene == small_scene
 
 
-def test_a_match_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
+def test_a_match_comes_back_with_its_photo_and_stays_where_another_is_cancelled(
+    bench: Bench, photo: Photo
+) -> None:
     """As at the end of a lesson."""
     bench.start()
     users, opened, found = bench.store.workspace, bench.board.results.opened, bench.part.found
     bench.show_photo(replace(photo))
     assert bench.controller.match is None
+    bench.start()
     bench.store.put(users)
     bench.board.put(replace(bench.board.results, opened=opened))
     assert bench.part.found == found
-    assert len(bench.asked) == 1
-
-
-def test_a_match_that_came_back_with_its_photo_stays_where_another_is_cancelled(
-    bench: Bench, photo: Photo
-) -> None:
-    bench.start()
-    users, opened, found = bench.store.workspace, bench.board.results.opened, bench.part.found
-    bench.show_photo(replace(photo))
-    bench.start()
-    bench.store.put(users)
-    bench.board.put(replace(bench.board.results, opened=opened))
     bench.go_on.clear()
     bench.controller.start(MatchChoice())
     bench.controller.cancel()
     bench.go_on.set()
     assert bench.part.found == found
-
-
-def test_without_a_photo_nothing_is_matched(bench: Bench) -> None:
-    bench.show_photo(None)
-    bench.start()
-    assert bench.events == []
 
 
 def test_applying_puts_what_was_found_into_the_scene_as_one_step(
@@ -266,30 +240,21 @@ def test_applying_puts_what_was_found_into_the_scene_as_one_step(
     assert bench.scenes.scene == small_scene
 
 
-def test_what_the_camera_noted_goes_into_the_scene_as_one_step(
+def test_what_the_camera_noted_goes_into_the_scene_as_one_step_or_is_refused_with_a_sentence(
     bench: Bench, photo: Photo, small_scene: Scene
 ) -> None:
+    bench.controller.use_notes()
+    assert bench.scenes.scene == small_scene, "there are none"
     bench.show_photo(replace(photo, exposure_time=1e-3, iso=800.0))
     bench.controller.use_notes()
     assert bench.scenes.scene == small_scene.replace(exposure_time=1e-3, iso=800.0)
     assert bench.scenes.undo_stack.count() == 1
     assert "stripes.png" in bench.scenes.undo_stack.undoText()
-
-
-def test_a_note_that_cannot_be_is_refused_with_a_sentence(
-    bench: Bench, photo: Photo, small_scene: Scene
-) -> None:
     bench.show_photo(replace(photo, iso=1e12, exposure_time=1e-3))
     bench.controller.use_notes()
     (sentence,) = bench.failures
     assert sentence.startswith("iso is ")
-    assert bench.scenes.scene == small_scene
-
-
-def test_a_photo_without_notes_changes_nothing(bench: Bench, small_scene: Scene) -> None:
-    bench.controller.use_notes()
-    assert bench.scenes.scene == small_scene
-    assert bench.scenes.undo_stack.count() == 0
+    assert bench.scenes.undo_stack.count() == 1
 
 
 @pytest.fixture
@@ -298,9 +263,10 @@ def own(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "own"
 
 
-def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, own: Path) -> None:
-    received: list[str] = []
-    bench.controller.saved.connect(received.append)
+def test_a_saved_match_records_values_photo_date_uncertainty_and_the_inputs_it_was_made_with(
+    bench: Bench, own: Path
+) -> None:
+    received = collect(bench.controller.saved)
     bench.start(sent="square", square_frequency=1000.0)
     bench.choose(certain={"switching_frequency": 2000.0})
     bench.controller.save("my phone", "Measured from stripes.png", DAY)
@@ -314,9 +280,7 @@ def test_a_saved_match_records_values_photo_date_and_uncertainty(bench: Bench, o
         assert part in source
     assert "±300 ns" in preset.sources["exposure_time"]
     assert "pattern" not in preset.sources
-
-
-def test_a_saved_match_records_the_inputs_it_was_made_with(bench: Bench, own: Path) -> None:
+    bench.choose(certain={})
     bench.start(estimate="readout_time")
     bench.refusal = ("No.",)
     bench.start(estimate="switching_frequency")
@@ -329,19 +293,10 @@ def test_a_saved_match_records_the_inputs_it_was_made_with(bench: Bench, own: Pa
 
 
 def test_a_name_that_cannot_be_is_refused_with_a_sentence(bench: Bench, own: Path) -> None:
+    bench.controller.save("mine", "", DAY)
+    assert not own.exists(), "there is no match"
     bench.start()
     for name in ("phone-136us", "a/b"):
         bench.controller.save(name, "", DAY)
         assert repr(name) in bench.failures[-1]
     assert user_presets() == ()
-
-
-def test_without_a_match_nothing_is_saved(bench: Bench, own: Path) -> None:
-    bench.controller.save("mine", "", DAY)
-    assert user_presets() == ()
-    assert not own.exists()
-
-
-def test_the_words_of_the_choice_are_those_of_the_model(bench: Bench) -> None:
-    assert ESTIMATES == ("readout_time", "switching_frequency")
-    assert set(PATTERN_SOURCES) == {"auto", "scene", "read"}

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 from gui.combo_box import choose
+from gui.kinds import collect
 from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
@@ -24,12 +25,8 @@ def test_every_option_of_the_models_match_can_be_chosen(view: LiveView) -> None:
     assert estimates == list(ESTIMATES)
 
 
-def test_the_button_asks_for_a_match_as_it_is_chosen(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
-    asked: list[MatchChoice] = []
-    view.form.asked.connect(asked.append)
+def test_the_button_asks_for_a_match_as_it_is_chosen(view: LiveView, qtbot: QtBot) -> None:
+    asked = collect(view.form.asked)
     qtbot.mouseClick(view.form.start, Qt.MouseButton.LeftButton)
     choose(qtbot, view.form.sent, "square")
     choose(qtbot, view.form.estimate, "switching_frequency")
@@ -40,19 +37,13 @@ def test_the_button_asks_for_a_match_as_it_is_chosen(
     assert asked == [MatchChoice(), MatchChoice("square", 1500.0, "switching_frequency", True)]
 
 
-def test_a_frequency_is_asked_for_only_with_a_square_wave(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
+def test_a_frequency_is_asked_for_only_with_a_square_wave(view: LiveView, qtbot: QtBot) -> None:
     for key in ("scene", "square", "read", "auto"):
         choose(qtbot, view.form.sent, key)
         assert view.form.square.isVisible() == (key == "square")
 
 
-def test_what_is_known_beside_the_estimate_is_shown(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
+def test_what_is_known_beside_the_estimate_is_shown(view: LiveView, qtbot: QtBot) -> None:
     view.show_scene(occ.Scene().replace(switching_frequency=7e3, readout_time=9e-6))
     frequency, readout = (view.form.known[n] for n in ("switching_frequency", "readout_time"))
     assert (frequency.text(), readout.isVisible()) == ("7 kHz", False)
@@ -66,20 +57,20 @@ def test_what_is_known_beside_the_estimate_is_shown(
     )  # fmt: skip
 
 
-def test_who_chooses_a_square_wave_tells_its_frequency(
-    view: LiveView, photo: Photo, qtbot: QtBot
+def test_who_chooses_a_square_wave_tells_its_frequency_until_another_choice(
+    view: LiveView, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     assert not view.form.certain.isChecked()
     choose(qtbot, view.form.sent, "square")
     assert view.form.certain.isChecked()
     assert view.choice.certain == {"switching_frequency": 2e3}
+    view.form.sent.show_key("auto")
+    view.form._take_sent("auto")
+    assert view.form._certain == {}
+    assert not view.form.certain.isChecked()
 
 
-def test_what_is_known_can_be_entered_where_it_is_asked_for(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
+def test_what_is_known_can_be_entered_where_it_is_asked_for(view: LiveView, qtbot: QtBot) -> None:
     view.show_scene(occ.Scene())
     received: list[tuple[str, float]] = []
     view.form.edited.connect(lambda name, value, _: received.append((name, value)))
@@ -92,8 +83,7 @@ def test_what_is_known_can_be_entered_where_it_is_asked_for(
     assert received == [("switching_frequency", 2e3), ("readout_time", pytest.approx(9e-6))]
 
 
-def test_a_match_of_outdated_inputs_is_marked(view: LiveView, photo: Photo, match: Match) -> None:
-    view.open(photo)
+def test_a_match_of_outdated_inputs_is_marked(view: LiveView, match: Match) -> None:
     scene = occ.Scene().replace(switching_frequency=2e3)
     view.show_scene(scene)
     view.show_matched(match)
@@ -112,9 +102,8 @@ def test_a_match_of_outdated_inputs_is_marked(view: LiveView, photo: Photo, matc
 
 
 def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
-    view: LiveView, photo: Photo, match: Match, qtbot: QtBot
+    view: LiveView, match: Match, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     view.activateWindow()
     qtbot.waitActive(view)
     view.form.start.setFocus()
@@ -125,9 +114,8 @@ def test_the_keyboard_stays_at_the_match_while_it_runs_and_after(
 
 
 def test_an_impossible_frequency_is_refused_and_the_last_stays(
-    view: LiveView, photo: Photo, qtbot: QtBot
+    view: LiveView, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     choose(qtbot, view.form.sent, "square")
     view.form.square.selectAll()
     qtbot.keyClicks(view.form.square, "fast")
@@ -136,10 +124,7 @@ def test_an_impossible_frequency_is_refused_and_the_last_stays(
     assert view.form.choice().square_frequency == SQUARE_FREQUENCY.default
 
 
-def test_a_running_match_shows_progress_and_a_cancel_button(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
+def test_a_running_match_shows_progress_and_a_cancel_button(view: LiveView, qtbot: QtBot) -> None:
     form = view.form
     assert (form.start.isVisible(), form.progress.isVisible()) == (True, False)
     view.show_match_begun()
@@ -153,9 +138,8 @@ def test_a_running_match_shows_progress_and_a_cancel_button(
 
 
 def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
-    view: LiveView, photo: Photo, qtbot: QtBot
+    view: LiveView, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     view.show_scene(occ.Scene().replace(switching_frequency=7e3))
     assert not view.form.certain.isChecked()
     qtbot.mouseClick(view.form.certain, Qt.MouseButton.LeftButton)
@@ -176,9 +160,8 @@ def test_a_known_value_is_certain_once_it_is_entered_or_ticked(
 
 
 def test_the_frequency_of_a_square_wave_is_certain_once_entered(
-    view: LiveView, photo: Photo, qtbot: QtBot
+    view: LiveView, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     choose(qtbot, view.form.sent, "square")
     view.form.certain.click()
     assert not view.form.certain.isChecked()
@@ -189,15 +172,13 @@ def test_the_frequency_of_a_square_wave_is_certain_once_entered(
 
 
 def test_a_refused_known_value_says_why_at_its_field_until_mended(
-    view: LiveView, photo: Photo, qtbot: QtBot
+    view: LiveView, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     view.show_scene(occ.Scene())
     view.form.edited.connect(
         lambda name, value, _: view.show_scene(occ.Scene().replace(**{name: value}))
     )
-    refused: list[str] = []
-    view.refused.connect(refused.append)
+    refused = collect(view.refused)
     fields = {"auto": view.form.known["switching_frequency"], "square": view.form.square}
     for sent, field in fields.items():
         choose(qtbot, view.form.sent, sent)
@@ -218,10 +199,7 @@ def test_a_refused_known_value_says_why_at_its_field_until_mended(
     assert len(refused) == 4
 
 
-def test_a_field_that_is_no_longer_asked_for_has_no_sentence(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
+def test_a_field_that_is_no_longer_asked_for_has_no_sentence(view: LiveView, qtbot: QtBot) -> None:
     view.show_scene(occ.Scene())
     field = view.form.known["switching_frequency"]
 
@@ -240,21 +218,10 @@ def test_a_field_that_is_no_longer_asked_for_has_no_sentence(
     assert view.form.notices[field].text() == ""
 
 
-def test_what_was_confirmed_of_a_square_wave_ends_with_it(view: LiveView) -> None:
-    view.form.sent.show_key("square")
-    view.form._take_sent("square")
-    assert view.form.certain.isChecked()
-    view.form.sent.show_key("auto")
-    view.form._take_sent("auto")
-    assert view.form._certain == {}
-    assert not view.form.certain.isChecked()
-
-
 @pytest.mark.parametrize("how", ["another photo", "several photos"])
 def test_what_was_certain_of_one_photo_is_said_to_be_assumed_of_the_next(
     view: LiveView, photo: Photo, qtbot: QtBot, how: str
 ) -> None:
-    view.open(photo)
     choose(qtbot, view.form.sent, "square")
     assert view.form.certain.isChecked()
     assert "assumed" not in view.form.hint.text()

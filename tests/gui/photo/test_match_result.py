@@ -1,16 +1,21 @@
-"""Result of a match: values with their uncertainties, and buttons that use them."""
+"""Result of a match: its verdict, values with their uncertainties, and buttons that use them."""
 
 from dataclasses import replace
 
 import pytest
+from gui.kinds import add_widget
 from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QPalette
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+from occ_gui.photo.verdict_view import SIGNS, VerdictView
+from occ_gui.widgets.contrast import contrast
 from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.reading.load import Photo
-from occ_model.results.match import Match
+from occ_model.results.match import Alternative, Match
+from occ_model.results.photo_table import DOUBTFUL, SURE, VERDICTS
 from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.units import SECOND
@@ -19,10 +24,7 @@ from occ_model.study.bands.cure import cure_of
 READOUT = PARAMETERS["readout_time"]
 
 
-def test_results_stand_with_uncertainty_in_the_screens_units(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
+def test_results_stand_with_uncertainty_in_the_screens_units(view: LiveView, match: Match) -> None:
     view.result.show_certain({"switching_frequency": 2e3})
     view.show_matched(match)
     texts = {name: label.text() for name, label in view.result.values.items()}
@@ -38,9 +40,8 @@ def test_results_stand_with_uncertainty_in_the_screens_units(
 
 
 def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
-    view: LiveView, photo: Photo, match: Match
+    view: LiveView, match: Match
 ) -> None:
-    view.open(photo)
     match = replace(match, scene=match.scene.replace(columns=1000))
     view.show_matched(match)
     paste = view.result.paste
@@ -59,10 +60,7 @@ def test_one_photo_gives_the_frames_readout_and_lines_for_other_programs(
     assert not paste.note.isVisible()
 
 
-def test_an_exposure_that_is_hardly_known_has_an_upper_limit(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
+def test_an_exposure_that_is_hardly_known_has_an_upper_limit(view: LiveView, match: Match) -> None:
     view.result.show_certain({"switching_frequency": 2e3})
     spreads = {**match.uncertainties, "exposure_time": 15e-6}
     view.show_matched(replace(match, exposure_time=6e-6, uncertainties=spreads))
@@ -70,10 +68,7 @@ def test_an_exposure_that_is_hardly_known_has_an_upper_limit(
     assert "one standard deviation" in view.result.values["exposure_time"].toolTip()
 
 
-def test_a_match_says_which_shutter_speeds_show_no_bars(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
+def test_a_match_says_which_shutter_speeds_show_no_bars(view: LiveView, match: Match) -> None:
     scene = match.scene.replace(pattern="10", switching_frequency=3840.0)
     view.result.show_certain({"switching_frequency": 2e3})
     found = replace(match, scene=scene)
@@ -97,17 +92,13 @@ def test_a_match_says_which_shutter_speeds_show_no_bars(
     assert view.result.condition.text() == "What follows holds if f = 2 kHz."
 
 
-def test_a_blinking_led_is_described_by_its_cycles_too(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
+def test_a_blinking_led_is_described_by_its_cycles_too(view: LiveView, match: Match) -> None:
     view.show_matched(replace(match, pattern="10"))
     text = view.result.values["switching_frequency"].text()
     assert text == "2 kHz: blinks at 1 kHz (assumed)"
 
 
-def test_what_was_not_estimated_is_not_shown(view: LiveView, photo: Photo, match: Match) -> None:
-    view.open(photo)
+def test_what_was_not_estimated_is_not_shown(view: LiveView, match: Match) -> None:
     estimated = replace(match, uncertainties={"gamma": 0.05}, other_exposures=(1e-3, 2e-3))
     for shown, there in ((match, False), (estimated, True)):
         view.show_matched(shown)
@@ -138,9 +129,8 @@ def test_a_value_has_the_digits_that_its_uncertainty_allows(
 
 
 def test_without_a_match_there_is_nothing_to_apply(
-    view: LiveView, photo: Photo, match: Match, qtbot: QtBot
+    view: LiveView, match: Match, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     view.show_matched(match)
     for button, signal in (
         (view.result.apply, view.result.apply_asked),
@@ -161,7 +151,6 @@ def estimates(view: LiveView) -> list[str]:
 def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
     view: LiveView, photo: Photo, match: Match, qtbot: QtBot
 ) -> None:
-    view.open(photo)
     view.show_scene(match.scene.replace(switching_frequency=2e3))
     view.show_matched(match)
     assumed = ["14.57770 ± 0.00027 µs", "2 kHz (assumed)", "62.50 ± 0.21 µs"]
@@ -176,10 +165,7 @@ def test_what_rests_on_an_assumed_value_says_so_until_it_is_confirmed(
     assert estimates(view) == assumed
 
 
-def test_a_frequency_that_rests_on_a_readout_time_says_so(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
+def test_a_frequency_that_rests_on_a_readout_time_says_so(view: LiveView, match: Match) -> None:
     spreads = {"switching_frequency": 1.0, "exposure_time": 2e-7, "gamma": 0.05}
     view.show_matched(replace(match, uncertainties=spreads))
     readout, frequency, exposure = estimates(view)
@@ -187,3 +173,104 @@ def test_a_frequency_that_rests_on_a_readout_time_says_so(
     assert frequency.startswith("2.0000 ± 0.0010 kHz")
     assert exposure.endswith("µs")
     assert view.result.condition.text() == "What follows holds if t_r = 14.5777 µs."
+
+
+READABLE = 4.5
+ONLY = "Only the exposure time, and with it the start time, is doubtful."
+REASONS = ("Only 1.2 periods of 21 chips are in view.", "The correlation is 0.85.")
+PLAIN = Alternative("a smooth curve", "", 0.91, 12.34)
+READ = Alternative("chips that were read", "1100", 0.95, -3.21, 7.2e-6, 2e3, 8e-5)
+
+
+@pytest.fixture
+def verdict(qtbot: QtBot) -> VerdictView:
+    return add_widget(qtbot, VerdictView())
+
+
+@pytest.mark.parametrize("word", [SURE, DOUBTFUL])
+def test_a_verdict_is_a_word_with_a_sign_on_a_readable_plate(
+    verdict: VerdictView, word: str
+) -> None:
+    assert len(set(SIGNS.values())) == len(SIGNS) == len(VERDICTS)
+    verdict.show_verdict(word, REASONS)
+    assert verdict.word.text() == f"{SIGNS[word]} {word}"
+    assert verdict.reasons.text().splitlines() == [f"• {reason}" for reason in REASONS]
+    palette = verdict.word.palette()
+    plate = palette.color(QPalette.ColorRole.Window)
+    ink = palette.color(QPalette.ColorRole.WindowText)
+    assert verdict.word.autoFillBackground()
+    assert contrast(plate, ink) > READABLE
+
+
+def test_an_outdated_verdict_is_not_shown_as_the_present_one(verdict: VerdictView) -> None:
+    verdict.show_verdict(SURE, ())
+    verdict.show_outdated(True)
+    assert verdict.word.text() == "Before: sure"
+    assert not verdict.word.autoFillBackground()
+    verdict.show_verdict(DOUBTFUL, REASONS)
+    assert verdict.word.text() == "◐ doubtful"
+
+
+def test_the_verdict_stands_above_the_figures(view: LiveView, match: Match) -> None:
+    view.show_matched(replace(match, reasons=REASONS))
+    result = view.result
+    assert result.verdict.word.text() == "◐ doubtful"
+    assert result.verdict.geometry().bottom() < result.figures.geometry().top()
+    view.show_matched(match)
+    assert result.verdict.word.text() == "● sure"
+    assert result.verdict.reasons.isHidden()
+
+
+def test_a_doubtful_exposure_is_said_beside_what_is_sure(view: LiveView, match: Match) -> None:
+    view.result.show_certain({"switching_frequency": 2e3})
+    view.show_matched(replace(match, exposure_reasons=REASONS))
+    result = view.result
+    assert result.verdict.word.text() == "● sure"
+    assert result.verdict.reasons.text().splitlines() == [
+        f"• {ONLY} {REASONS[0]}", f"• {REASONS[1]}",
+    ]  # fmt: skip
+    assert result.values["exposure_time"].text() == "62.50 ± 0.21 µs (doubtful)"
+    assert result.values["start_time"].text().endswith(" (doubtful)")
+    assert "doubtful" not in result.values["readout_time"].text()
+    view.show_matched(replace(match, reasons=REASONS[:1], exposure_reasons=REASONS[1:]))
+    assert result.verdict.word.text() == "◐ doubtful"
+    assert result.verdict.reasons.text() == "\n".join(f"• {reason}" for reason in REASONS)
+
+
+def test_the_figures_that_a_verdict_rests_on_are_shown(
+    view: LiveView, photo: Photo, match: Match
+) -> None:
+    view.open(replace(photo, exposure_time=1 / 16000))
+    view.show_matched(match)
+    texts = {name: label.text() for name, label in view.result.values.items()}
+    assert texts["periods"] == f"{3 * 2e3 * 14.5777e-6 / 4:.3g}"
+    assert texts["exposed"] == "0.125"
+    assert texts["duty"] == "lit for 50 % of a period (given)"
+    assert texts["exposure_time"] == "62.50 ± 0.21 µs"
+    assert texts["noted"] == "62.5 µs"
+
+
+def test_other_explanations_are_told_with_what_they_rest_on(view: LiveView, match: Match) -> None:
+    view.show_matched(match)
+    assert not view.result.values["alternative"].isVisible()
+    view.show_matched(replace(match, alternatives=(READ, PLAIN)))
+    assert view.result.values["alternative"].text().splitlines() == [
+        "• chips that were read: correlation 0.950, log-likelihood lower by 3.2; "
+        "readout time 7.2 µs, exposed for 80 µs",
+        "• a smooth curve: correlation 0.910, log-likelihood higher by 12.3",
+    ]
+
+
+def test_an_outdated_match_is_covered_at_once_and_not_used(view: LiveView, match: Match) -> None:
+    view.show_matched(match)
+    view.show_match_outdated("of another part of the photo", usable=False)
+    result = view.result
+    assert result.mark.isVisible()
+    assert result.mark.text == "of another part of the photo"
+    assert result.verdict.word.text().startswith("Before")
+    assert not result.apply.isEnabled()
+    assert not result.save.isEnabled()
+    view.show_match_outdated("", usable=True)
+    assert not result.mark.isVisible()
+    assert result.verdict.word.text() == "● sure"
+    assert result.apply.isEnabled()

@@ -1,5 +1,6 @@
 """What of a photo is matched: a lamp chosen by a click or a row, or a rectangle drawn by hand."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -7,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.kinds import not_none
 from gui.photo.photo_bench import PhotoBench
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from occ_gui.files.session_file import SessionFile
-from occ_gui.files.session_record import Kept, kept_in
+from occ_gui.files.session_record import Kept, kept_in, record_of
 from occ_gui.photo.lamp_form import LampForm
 from occ_gui.photo.lamp_outlines import LampOutlines
 from occ_gui.photo.part_edits import PartEdits
@@ -86,8 +87,7 @@ def test_every_lamp_has_an_outline_and_a_row(bench: Bench) -> None:
     assert texts[0] == ["1", "10\u201339", "10.000 ± 0.010", "6.0"]
     assert texts[1][2] == "no stripes"
     assert texts[2][3] == "2.1, doubtful"
-    doubtful = bench.form.table.item(2, 3)
-    assert doubtful is not None
+    doubtful = not_none(bench.form.table.item(2, 3))
     assert (
         doubtful.toolTip() == "Doubtful: only 2.1 periods are in view, which can be a coincidence."
     )
@@ -179,8 +179,7 @@ def test_a_drag_with_the_tool_on_draws_the_rectangle(
     bench.parts.draw(Region(30, 50, 60, 90))
     bench.outlines.show_rectangle(bench.choice.rectangle)
     drag(QPointF(10, 5), QPointF(40, 25))
-    found = bench.choice.rectangle
-    assert found is not None
+    found = not_none(bench.choice.rectangle)
     corners = (found.first_row, found.last_row, found.first_column, found.last_column)
     assert corners == pytest.approx((5, 25, 10, 40), abs=1)
 
@@ -216,55 +215,31 @@ def test_a_region_comes_back_with_its_photo(bench: Bench, photo: Photo) -> None:
 
 
 @pytest.mark.parametrize("region", [None, Region(5, 25, 10, 40)])
-def test_the_session_keeps_the_region(
-    region: Region | None, tmp_path: Path, bench: Bench, photo: Photo
-) -> None:
-    file = SessionFile(tmp_path)
+def test_the_session_keeps_the_region(region: Region | None, bench: Bench, photo: Photo) -> None:
     bench.choose(parts={} if region is None else {PhotoFrame(photo.path): region})
-    file.write(Kept(bench.store.workspace), in_use=False)
-    file.close()
-    again = SessionFile(tmp_path)
-    assert again.last is not None
-    kept = again.last.workspace.photo
+    kept = photo_in(json.loads(json.dumps(record_of(Kept(bench.store.workspace)))))
     assert kept.rectangle == region
-    again.close()
     bench.choose(parts=kept.parts)
     assert bench.parts.part == region
 
 
 def photo_in(record: Mapping[str, object]) -> PhotoChoice:
     """Read what a session that has a scene says of photos."""
-    kept = kept_in({"scene": Scene().to_toml(), **record})
-    assert kept is not None
+    kept = not_none(kept_in({"scene": Scene().to_toml()} | dict(record)))
     return kept.workspace.photo
 
 
 @pytest.mark.parametrize("damaged", ["x", {"first_row": 1}, [1, 2, 3, 4], 7])
 @pytest.mark.parametrize("form", ["former", "present"])
 def test_a_damaged_region_is_left_out(damaged: object, form: str, photo: Photo) -> None:
-    path = str(photo.path)
-    record = {"photo": path, "region": damaged}
-    if form == "present":
-        record = {"photo": {"path": path, "region": damaged}}
-    found = photo_in(record)
-    assert found.path == photo.path
-    assert found.rectangle is None
+    def read(region: object) -> PhotoChoice:
+        path = str(photo.path)
+        former = {"photo": path, "region": region}
+        return photo_in(former if form == "former" else {"photo": {"path": path, "region": region}})
 
-
-def test_a_region_of_the_former_format_is_read(photo: Photo) -> None:
-    record = {"photo": str(photo.path), "region": asdict(Region(1, 2, 3, 4))}
-    found = photo_in(record)
-    assert found.rectangle == Region(1, 2, 3, 4)
-
-
-def test_a_rectangle_that_is_taken_away_is_hidden_and_draws_nothing(bench: Bench) -> None:
-    drawn: list[Region] = []
-    bench.outlines.drawn.connect(drawn.append)
-    bench.outlines.show_rectangle(Region(3, 9, 4, 20))
-    assert bench.outlines.rectangle.isVisible()
-    bench.outlines.show_rectangle(None)
-    assert not bench.outlines.rectangle.isVisible()
-    assert drawn == []
+    found = read(damaged)
+    assert (found.path, found.rectangle) == (photo.path, None)
+    assert read(asdict(Region(1, 2, 3, 4))).rectangle == Region(1, 2, 3, 4)
 
 
 def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
@@ -273,8 +248,7 @@ def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
     """The middle half of the photo, so that all its corners can be taken hold of."""
     rows, columns = photo.image.shape
     bench.parts.set_by_hand(True)
-    middle = bench.choice.rectangle
-    assert middle is not None
+    middle = not_none(bench.choice.rectangle)
     assert (2 * middle.rows, 2 * middle.columns) == (rows, columns)
     assert middle.first_row == rows - middle.last_row
     assert middle.first_column == columns - middle.last_column
@@ -286,14 +260,19 @@ def test_a_rectangle_by_hand_begins_with_the_chosen_lamp_or_in_the_middle(
 
 
 def test_a_rectangle_lies_around_its_pixels_and_each_corner_moves_by_itself(bench: Bench) -> None:
-    region = Region(5, 25, 10, 40)
+    region, drawn = Region(5, 25, 10, 40), list[Region]()
+    bench.outlines.drawn.connect(drawn.append)
     bench.outlines.show_rectangle(region)
+    assert bench.outlines.rectangle.isVisible()
     corner, size = bench.outlines.rectangle.pos(), bench.outlines.rectangle.size()
     # A pixel's centre has a whole number.
     assert (corner.x(), corner.y()) == (9.5, 4.5)
     assert (corner.x() + size.x(), corner.y() + size.y()) == (39.5, 24.5)
     for handle in bench.outlines.rectangle.handles:
         assert handle["pos"] + handle["center"] == pg.Point(1.0, 1.0)
+    bench.outlines.show_rectangle(None)
+    assert not bench.outlines.rectangle.isVisible()
+    assert drawn == []
 
 
 def test_a_lamps_number_stands_above_it_and_hides_nothing_of_it(bench: Bench) -> None:

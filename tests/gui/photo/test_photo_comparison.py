@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, not_none
 from gui.photo.photo_bench import PhotoBench
-from numpy.typing import NDArray
+from matches import match_with
 from PIL import Image
 from pytestqt.qtbot import QtBot
 
@@ -24,10 +25,8 @@ from occ_model.errors import MatchError
 from occ_model.photo.comparison import compare
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import Region
-from occ_model.results.match import Comparison, Match, Stripes
+from occ_model.results.match import Comparison, Stripes
 
-Grey = NDArray[np.uint8]
-SnapshotOf = Callable[..., Snapshot]
 PATIENCE_S = 10.0
 
 SENTENCE = "No stripes at all."
@@ -59,17 +58,21 @@ class Bench(PhotoBench):
         self.searched.append(photo)
         return self.stripes(photo)
 
+    def compare(self, reading: Snapshot, photo: Photo) -> None:
+        self.show_reading(reading)
+        self.show_photo(photo)
+        self.residual()
+
     def residual(self) -> None:
         self.go_on.set()
         self._qtbot.waitUntil(lambda: self.work.task.is_idle)
 
     def move(self, placement: Placement | None) -> None:
-        opened = self.board.results.opened
-        assert opened is not None
+        opened = not_none(self.board.results.opened)
         self.choose(placed=None if placement is None else Placed(opened.source, placement))
 
     def show_match(self, photo: Photo, stripes: Stripes, scene: occ.Scene | None = None) -> None:
-        match = replace(match_with(stripes), scene=scene or occ.Scene())
+        match = match_with(scene=scene or occ.Scene(), stripes=stripes, profile=stripes.profile)
         found = FoundMatch(photo, None, match, 1e4)
         self.board.put(replace(self.board.results, match=found))
 
@@ -82,15 +85,11 @@ class Bench(PhotoBench):
 
     @property
     def last(self) -> PhotoProfile:
-        shown = self.shown
-        assert shown is not None
-        return shown
+        return not_none(self.shown)
 
     @property
     def comparison(self) -> Comparison:
-        comparison = self.last.comparison
-        assert comparison is not None
-        return comparison
+        return not_none(self.last.comparison)
 
 
 @pytest.fixture
@@ -103,11 +102,6 @@ def bench(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
 
 def refuse(_photo: Photo) -> Stripes:
     raise MatchError(SENTENCE)
-
-
-def test_without_a_photo_nothing_is_compared(bench: Bench, snapshot_of: SnapshotOf) -> None:
-    bench.show_reading(snapshot_of())
-    assert bench.shown is None
 
 
 def test_the_photo_is_drawn_as_it_is_until_its_stripes_are_found(
@@ -127,9 +121,7 @@ def test_the_photo_is_compared_flattened_and_from_its_region_on(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.show_reading(snapshot)
-    bench.show_photo(photo)
-    bench.residual()
+    bench.compare(snapshot, photo)
     flattened = stripes_of(photo).flattened
     for placement in (Placement(300.0, 5.0), Placement(200.25, 0.0, 2.5)):
         bench.move(placement)
@@ -160,9 +152,7 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.show_photo(photo)
-    bench.show_reading(snapshot)
-    bench.residual()
+    bench.compare(snapshot, photo)
     for enhanced, profile in ((True, snapshot.frame.signal), (False, snapshot.frame.profile)):
         bench.set_enhanced(enhanced)
         first = bench.comparison.first_column
@@ -173,9 +163,7 @@ def test_where_enhanced_columns_are_looked_at_they_are_compared(
 def test_an_enhanced_photo_is_so_by_its_own_histogram(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.show_photo(photo)
-    bench.show_reading(snapshot_of())
-    bench.residual()
+    bench.compare(snapshot_of(), photo)
     before = bench.comparison
     bench.set_enhanced(True)
     after = bench.comparison
@@ -190,9 +178,7 @@ def test_without_stripes_the_photo_is_drawn_with_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     bench.stripes = refuse
-    bench.show_reading(snapshot_of())
-    bench.show_photo(photo)
-    bench.residual()
+    bench.compare(snapshot_of(), photo)
     assert bench.last.comparison is None
     assert bench.last.sentence == SENTENCE
     assert bench.last.raw is photo.profile
@@ -201,9 +187,7 @@ def test_without_stripes_the_photo_is_drawn_with_a_sentence(
 def test_a_photo_moved_beside_the_picture_gives_a_sentence(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
-    bench.show_reading(snapshot_of())
-    bench.show_photo(photo)
-    bench.residual()
+    bench.compare(snapshot_of(), photo)
     bench.move(Placement(1e5))
     assert bench.last.comparison is None
     assert bench.last.sentence.endswith(".")
@@ -226,9 +210,7 @@ def test_a_match_leaves_the_residual_of_a_scene_as_it_was(
     bench: Bench, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     snapshot = snapshot_of()
-    bench.show_reading(snapshot)
-    bench.show_photo(photo)
-    bench.residual()
+    bench.compare(snapshot, photo)
     before = bench.comparison.residual.tolist()
     found = stripes_of(photo)
     fitted = replace(found, low=found.low + np.linspace(0.0, 90.0, len(found.low)))
@@ -261,14 +243,6 @@ def test_a_simulation_without_stripes_is_not_compared(
     bench.show_reading(snapshot_of())
     assert bench.comparison is not None
     assert bench.last.sentence == ""
-
-
-def match_with(stripes: Stripes) -> Match:
-    return Match(
-        scene=occ.Scene(), stripes=stripes, readout_time=8e-6, switching_frequency=1e4,
-        exposure_time=68e-6, start_time=0.0, gamma=2.22, uncertainties={}, pattern="10",
-        pattern_was_read=False, profile=stripes.profile, correlation=1.0,
-    )  # fmt: skip
 
 
 def test_a_photo_lies_at_the_panels_corner(

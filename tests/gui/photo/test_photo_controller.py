@@ -6,18 +6,16 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.kinds import Grey, not_none
 from gui.stores import store_of
-from numpy.typing import NDArray
 from PIL import Image
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
 from occ_gui.photo.photo_controller import PhotoController
 from occ_gui.shell.results import Board
-from occ_gui.values.photo_choice import PhotoReading
 from occ_model.photo.reading.load import Photo, load_photo
 
-Grey = NDArray[np.uint8]
 PATIENCE_S = 10.0
 
 
@@ -34,9 +32,6 @@ class Bench:
         store = store_of().store
         self.controller = PhotoController(store, Board())
         self.controller.opened.connect(self.shown.append)
-        self.readings: list[PhotoReading] = []
-        reading = self.reading = store.select(lambda workspace: workspace.photo.reading)
-        reading.changed.connect(self.readings.append)
         self.controller.failed.connect(self.failures.append)
         self._load = load_photo
         self._qtbot = qtbot
@@ -65,8 +60,7 @@ class Bench:
 
     @property
     def image(self) -> Grey:
-        photo = self.shown[-1]
-        assert photo is not None
+        photo = not_none(self.shown[-1])
         return photo.image
 
 
@@ -104,12 +98,6 @@ def test_an_unreadable_photo_says_why_and_the_last_stays(
         assert bench.failures[-1].endswith(".")
     assert len(bench.failures) == 3
     assert len(bench.shown) == 1
-
-
-def test_closing_shows_none(bench: Bench, photo_file: Path) -> None:
-    bench.open(photo_file)
-    bench.controller.close()
-    assert bench.shown[-1] is None
 
 
 def test_closing_while_a_photo_is_read_is_not_overtaken_by_it(
@@ -167,7 +155,7 @@ def test_another_scan_axis_turns_the_open_photo(
         assert np.array_equal(bench.image, expected)
 
 
-def test_the_scan_axis_holds_for_the_next_photo(
+def test_the_scan_axis_holds_for_the_next_photo_and_opens_none(
     bench: Bench, photo_file: Path, stripes: Grey
 ) -> None:
     bench.controller.scan_along("lines")
@@ -175,6 +163,10 @@ def test_the_scan_axis_holds_for_the_next_photo(
     assert bench.shown == []
     bench.open(photo_file)
     assert np.array_equal(bench.image, stripes.T)
+    bench.controller.close()
+    bench.controller.scan_along("columns")
+    bench.wait_until_idle()
+    assert bench.shown[-1] is None
 
 
 def test_the_scan_axis_chosen_while_a_photo_is_read_holds_for_it(
@@ -197,14 +189,6 @@ def test_after_a_failure_another_scan_axis_turns_the_kept_photo(
     assert len(bench.failures) == 1
 
 
-def test_after_closing_another_scan_axis_opens_nothing(bench: Bench, photo_file: Path) -> None:
-    bench.open(photo_file)
-    bench.controller.close()
-    bench.controller.scan_along("lines")
-    bench.wait_until_idle()
-    assert bench.shown[-1] is None
-
-
 @pytest.fixture
 def coloured_file(tmp_path: Path) -> Path:
     path = tmp_path / "coloured.png"
@@ -225,12 +209,6 @@ def test_another_channel_applies_to_this_photo_and_the_next(
     bench.open(photo_file)
     bench.open(coloured_file)
     assert bench.image.max() == 20
-
-
-def test_how_photos_are_read_is_told_at_every_change(bench: Bench) -> None:
-    bench.controller.scan_along("lines")
-    bench.controller.take_channel("red")
-    assert bench.readings == [PhotoReading("lines", "brightest"), PhotoReading("lines", "red")]
 
 
 def test_a_file_that_is_opened_again_is_read_again(

@@ -1,14 +1,18 @@
-"""Pane of the photo: its facts, a failed match, and its placement."""
+"""Pane of the photo: its steps, its facts, a failed match, and its placement."""
 
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from gui.combo_box import choose
+from gui.kinds import add_widget, collect, not_none, show_widget
 from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QAccessible
 from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
+from occ_gui.photo.photo_steps import STEPS, PhotoSteps
 from occ_gui.values.placement import Placement
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo
@@ -16,6 +20,7 @@ from occ_model.results.match import Match
 
 
 def test_without_a_photo_all_a_user_can_press_opens_one(view: LiveView, qtbot: QtBot) -> None:
+    view.open(None)
     assert not view.form.isVisible()
     visible = [b for b in view.findChildren(type(view.form.start)) if b.isVisible()]
     able = [button for button in visible if button.isEnabled()]
@@ -38,25 +43,24 @@ def test_a_page_without_a_photo_offers_each_sample(view: LiveView, qtbot: QtBot)
         assert opened.args == [path]
 
 
-def test_what_is_known_of_a_photo_is_shown_with_its_units(view: LiveView, photo: Photo) -> None:
-    noted = replace(
-        photo,
-        exposure_time=1 / 8000,
-        iso=12800.0,
-        f_number=1.8,
-        camera="Maker Model 5",
-        turned=True,
-    )
-    view.open(noted)
+def test_what_is_known_of_a_photo_is_shown_with_its_units(
+    view: LiveView, photo: Photo, qtbot: QtBot
+) -> None:
     facts = view.facts
+    assert facts.size_line.toolTip() == "100 x 60 px, grey"
+    assert not facts.use_settings.isEnabled()
+    view.open(replace(photo, is_linear=True))
+    assert facts.size_line.toolTip() == "100 x 60 px, grey, RAW: gamma 1"
+    noted = replace(photo, exposure_time=1 / 8000, iso=12800.0, f_number=1.8)
+    view.open(replace(noted, camera="Maker Model 5", turned=True))
     assert facts.name.toolTip().endswith("stripes.png")
     assert facts.size_line.toolTip() == "Maker Model 5, 60 x 100 px, grey, turned"
     assert facts.notes.toolTip() == "125 µs, ISO 12800, f/1.8"
-    assert facts.use_settings.isEnabled()
+    with qtbot.waitSignal(facts.settings_asked):
+        qtbot.mouseClick(facts.use_settings, Qt.MouseButton.LeftButton)
 
 
 def test_another_photo_is_shown_from_its_name_on(view: LiveView, photo: Photo) -> None:
-    view.open(photo)
     view.resize(380, 300)
     bar = view._scroll.verticalScrollBar()
     QApplication.processEvents()
@@ -67,31 +71,10 @@ def test_another_photo_is_shown_from_its_name_on(view: LiveView, photo: Photo) -
     assert bar.maximum() > 0
 
 
-def test_a_photo_without_notes_offers_none(view: LiveView, photo: Photo) -> None:
-    view.open(photo)
-    assert view.facts.size_line.toolTip() == "100 x 60 px, grey"
-    assert not view.facts.use_settings.isEnabled()
-
-
-def test_a_raw_photo_says_that_it_has_no_gamma(view: LiveView, photo: Photo) -> None:
-    view.open(replace(photo, is_linear=True))
-    assert view.facts.size_line.toolTip() == "100 x 60 px, grey, RAW: gamma 1"
-
-
-def test_using_the_photos_settings_emits_a_signal(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(replace(photo, iso=400.0))
-    with qtbot.waitSignal(view.facts.settings_asked):
-        qtbot.mouseClick(view.facts.use_settings, Qt.MouseButton.LeftButton)
-
-
 def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
-    view: LiveView, photo: Photo, qtbot: QtBot
+    view: LiveView, qtbot: QtBot
 ) -> None:
-    view.open(photo)
-    received: list[str] = []
-    view.facts.channel_chosen.connect(received.append)
+    received = collect(view.facts.channel_chosen)
     view.facts.scan_axis_chosen.connect(received.append)
     choices = ((view.facts.channel, CHANNELS), (view.facts.scan_axis, SCAN_AXES))
     for control, keys in choices:
@@ -103,26 +86,10 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
     assert len(received) == 2
 
 
-def test_a_failure_is_a_sentence_and_what_was_found_before_stays(
-    view: LiveView, photo: Photo, match: Match
-) -> None:
-    view.open(photo)
-    view.show_matched(match)
-    view.show_match_begun()
-    view.show_match_ended()
-    view.verdict.show_ended(["No scene explains these stripes."])
-    assert "No scene explains these stripes." in view.verdict.accessibleDescription()
-    assert view.result.isVisible()
-    assert view.form.start.isVisible()
-    view.show_match_begun()
-    assert "No scene" not in view.verdict.accessibleDescription()
-
-
 def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
     view: LiveView, photo: Photo
 ) -> None:
-    received: list[Placement] = []
-    view.placement.placed.connect(received.append)
+    received = collect(view.placement.placed)
     view.open(photo)
     view.placement.show_placement(Placement(862.237, 3.5, 1.25), by_hand=True)
     form = view.placement
@@ -136,8 +103,7 @@ def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
 def test_a_changed_field_moves_the_photo_and_keeps_other_digits(
     view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    received: list[Placement] = []
-    view.placement.placed.connect(received.append)
+    received = collect(view.placement.placed)
     view.open(photo)
     view.placement.show_placement(Placement(862.237123, 3.5, 1.0), by_hand=False)
     field = view.placement.row
@@ -147,10 +113,7 @@ def test_a_changed_field_moves_the_photo_and_keeps_other_digits(
     assert received == [Placement(862.237123, 10.0, 1.0)]
 
 
-def test_moving_by_mouse_and_resetting_emit_signals(
-    view: LiveView, photo: Photo, qtbot: QtBot
-) -> None:
-    view.open(photo)
+def test_moving_by_mouse_and_resetting_emit_signals(view: LiveView, qtbot: QtBot) -> None:
     view.placement.show_placement(Placement(), by_hand=True)
     with qtbot.waitSignal(view.placement.moving_chosen) as moving:
         qtbot.mouseClick(view.placement.by_mouse, Qt.MouseButton.LeftButton)
@@ -162,8 +125,7 @@ def test_moving_by_mouse_and_resetting_emit_signals(
 def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
     view: LiveView, photo: Photo, qtbot: QtBot
 ) -> None:
-    placed: list[Placement] = []
-    view.placement.placed.connect(placed.append)
+    placed = collect(view.placement.placed)
     view.open(photo)
     form = view.placement
 
@@ -191,11 +153,85 @@ def test_the_placement_reads_a_decimal_comma_and_refuses_the_rest(
 
 
 def test_nothing_of_the_page_is_cut_off_at_the_panes_least_width(
-    view: LiveView, photo: Photo, match: Match
+    view: LiveView, match: Match
 ) -> None:
-    view.open(photo)
     view.show_matched(match)
     view.resize(view.minimumSizeHint().width(), 700)
     QApplication.processEvents()
     assert view.width() == view.minimumSizeHint().width()
     assert view._scroll.horizontalScrollBar().maximum() == 0
+
+
+@pytest.fixture
+def steps(qtbot: QtBot) -> PhotoSteps:
+    return add_widget(qtbot, PhotoSteps())
+
+
+def spoken(steps: PhotoSteps) -> list[str]:
+    """Return what a screen reader says of the steps."""
+    faces = [QAccessible.queryAccessibleInterface(button) for button in steps.buttons.values()]
+    return [face.text(QAccessible.Text.Name) for face in faces]
+
+
+@pytest.mark.parametrize(
+    ("has_photo", "match", "is_applied", "words"),
+    [
+        (False, "", False, ["Open: next step", "Sent?", "Match", "Apply"]),
+        (True, "", False, ["Open: done", "Sent?: next step", "Match", "Apply"]),
+        (True, "sure", False, ["Open: done", "Sent?: done", "Match: done", "Apply: next step"]),
+        (True, "sure", True, ["Open: done", "Sent?: done", "Match: done", "Apply: done"]),
+        (True, "earlier", True, ["Open: done", "Sent?: done", "Match: next step", "Apply"]),
+        (True, "doubtful", False, ["Open: done", "Sent?: done", "Match: doubtful", "Apply"]),
+    ],
+)  # fmt: skip
+def test_each_step_says_how_far_it_is(
+    steps: PhotoSteps, has_photo: bool, match: str, is_applied: bool, words: list[str]
+) -> None:
+    steps.show_state(has_photo=has_photo, match=match, is_applied=is_applied)
+    assert [said.removesuffix(": next step") for said in spoken(steps)] == [
+        word.removesuffix(": next step") for word in words
+    ]
+    assert ("? Match" in steps.buttons["match"].text()) == (match == "doubtful")
+    enabled = [name for name, button in steps.buttons.items() if button.isEnabled()]
+    assert enabled == list(
+        STEPS[: 1 if not has_photo else 4 if match in {"sure", "doubtful"} else 3]
+    )
+
+
+def test_a_scene_that_differs_by_rounding_is_the_matched_one(
+    view: LiveView, photo: Photo, match: Match
+) -> None:
+    scene = match.scene
+    brighter = scene.replace(luminance=scene.transmitter.luminance * (1.0 + 1e-10))
+    view.open(photo)
+    view.show_matched(match)
+    for shown, word in ((brighter, "done"), (scene.replace(luminance=4e3), "next step")):
+        view.show_scene(shown)
+        assert spoken(view.steps)[3] == f"Apply: {word}"
+        told = {chip.text for chip in view.verdict.chips.chips}
+        assert ("not applied" in told) == (word != "done")
+
+
+def test_a_click_goes_to_its_step(steps: PhotoSteps) -> None:
+    layout = not_none(steps.layout())
+    margins = layout.contentsMargins()
+    assert (margins.top(), margins.left()) == (margins.bottom(), margins.right())
+    told = collect(steps.chosen)
+    steps.show_state(has_photo=True, match="sure", is_applied=False)
+    for button in steps.buttons.values():
+        button.click()
+    assert told == list(STEPS)
+
+
+def test_the_pane_leads_from_step_to_step(qtbot: QtBot, photo: Photo) -> None:
+    view = show_widget(qtbot, LiveView())
+    with qtbot.waitSignal(view.open_asked):
+        view.steps.buttons["open"].click()
+    view.open(photo)
+    assert spoken(view.steps)[1] == "Sent?: next step"
+    view.steps.buttons["sent"].click()
+    assert view.focusWidget() is view.form.sent
+    with qtbot.waitSignal(view.form.asked):
+        view.steps.buttons["match"].click()
+    view.open(None)
+    assert spoken(view.steps)[0] == "Open: next step"

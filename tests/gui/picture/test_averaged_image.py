@@ -7,13 +7,12 @@ import cv2
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.kinds import Grey
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 from pytestqt.qtbot import QtBot
 
 from occ_gui.picture.averaged_image import AveragedImage
-
-Grey = NDArray[np.uint8]
 
 PERIOD = 4
 COLUMNS = 4000
@@ -75,15 +74,12 @@ def test_fine_stripes_shown_small_are_grey_and_no_coarse_stripes(
     assert worst < 0.75 * np.abs(nearest - 127.5).max()
 
 
-def test_the_mean_is_taken_along_rows_too(screen: Screen, fine_stripes: Grey) -> None:
+def test_the_mean_is_taken_along_rows_too_and_along_one_axis_while_the_other_is_enlarged(
+    screen: Screen, fine_stripes: Grey
+) -> None:
     screen.item.set_image(np.ascontiguousarray(fine_stripes.T))
     picture = inner(screen.shown(HEIGHT, 250, QRectF(-0.5, -0.5, HEIGHT, COLUMNS)))
     assert np.abs(picture - 127.5).max() <= 3
-
-
-def test_one_axis_is_averaged_while_the_other_is_enlarged(
-    screen: Screen, fine_stripes: Grey
-) -> None:
     screen.item.set_image(fine_stripes[:2])
     picture = inner(screen.shown(500, 80, QRectF(-0.5, -0.5, COLUMNS, 2)))
     assert np.abs(picture - 127.5).max() <= 3
@@ -110,32 +106,23 @@ def test_enlarged_stripes_have_no_value_between_black_and_white(
     assert set(np.unique(picture).tolist()) == {0, 255}
 
 
-def test_a_single_pixel_zoomed_in_beyond_measure_keeps_its_value(
+def test_an_image_of_one_pixel_is_shown_and_by_default_its_centre_is_the_origin(
     screen: Screen, fine_stripes: Grey
 ) -> None:
-    screen.item.set_image(fine_stripes)
-    picture = screen.shown(200, 100, QRectF(1002.0, 20.0, 1e-6, 1e-6))
-    assert set(np.unique(inner(picture)).tolist()) == {255}
-
-
-def test_an_image_of_one_pixel_is_shown(screen: Screen) -> None:
     screen.item.set_image(np.full((1, 1), 77, dtype=np.uint8))
-    picture = inner(screen.shown(60, 30, QRectF(-0.5, -0.5, 1, 1)))
-    assert set(np.unique(picture).tolist()) == {77}
-
-
-def test_an_image_lies_in_the_rectangle_it_is_given(screen: Screen) -> None:
+    single = inner(screen.shown(60, 30, QRectF(-0.5, -0.5, 1, 1)))
+    assert set(np.unique(single).tolist()) == {77}
+    screen.item.set_image(np.zeros((3, 5), dtype=np.uint8))
+    assert screen.item.boundingRect() == QRectF(-0.5, -0.5, 5, 3)
     screen.item.set_image(np.full((10, 20), 255, dtype=np.uint8), QRectF(30, 10, 40, 20))
     assert screen.item.boundingRect() == QRectF(30, 10, 40, 20)
     picture = screen.shown(100, 50, QRectF(0, 0, 100, 50))
     rows, columns = np.nonzero(picture == 255)
     box = (rows.min(), rows.max(), columns.min(), columns.max())
     assert box == pytest.approx((10, 29, 30, 69), abs=1)
-
-
-def test_by_default_the_first_pixels_centre_is_the_origin(screen: Screen) -> None:
-    screen.item.set_image(np.zeros((3, 5), dtype=np.uint8))
-    assert screen.item.boundingRect() == QRectF(-0.5, -0.5, 5, 3)
+    screen.item.set_image(fine_stripes)
+    picture = screen.shown(200, 100, QRectF(1002.0, 20.0, 1e-6, 1e-6))
+    assert set(np.unique(inner(picture)).tolist()) == {255}
 
 
 @pytest.mark.parametrize("shape", [(0, 0), (0, 5), (5, 0)])

@@ -1,16 +1,15 @@
 """What was there before the latest gesture stays to be compared with what is there now."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from gui.kinds import Grey, GreyPicture, SnapshotOf, show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
-from numpy.typing import NDArray
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.picture.before_controller import BeforeController
@@ -25,8 +24,7 @@ from occ_gui.values.room_choice import RoomChoice
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 
-Grey = NDArray[np.uint8]
-SnapshotOf = Callable[..., Snapshot]
+Begun = tuple[Snapshot, Snapshot]
 
 
 class Pane:
@@ -54,13 +52,20 @@ def before(store: SceneStore, pane: Pane) -> BeforeController:
     return BeforeController(store.store, pane.show_before)
 
 
-def test_a_gesture_keeps_what_was_shown_when_it_began(
-    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
-) -> None:
+@pytest.fixture
+def begun(store: SceneStore, before: BeforeController, snapshot_of: SnapshotOf) -> Begun:
+    """Begin a gesture: what was shown at first, and what is now."""
     first, second = snapshot_of(), snapshot_of(iso=300.0)
     before.show_snapshot(first)
     store.change(1, iso=300.0)
     before.show_snapshot(second)
+    return first, second
+
+
+def test_a_gesture_keeps_what_was_shown_when_it_began(
+    store: SceneStore, before: BeforeController, pane: Pane, begun: Begun
+) -> None:
+    first, second = begun
     store.change(1, iso=400.0)
     store.change(1, iso=500.0)
     assert pane.shown == [first]
@@ -69,12 +74,9 @@ def test_a_gesture_keeps_what_was_shown_when_it_began(
 
 
 def test_a_step_that_leaves_the_picture_as_it_is_leaves_what_was_before(
-    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+    store: SceneStore, before: BeforeController, pane: Pane, begun: Begun
 ) -> None:
-    first, second = snapshot_of(), snapshot_of(iso=300.0)
-    before.show_snapshot(first)
-    store.change(1, iso=300.0)
-    before.show_snapshot(second)
+    first, _ = begun
     workspace = store.store.workspace
     store.store.put(replace(workspace, room=RoomChoice("another")), "room")
     store.undo_stack.undo()
@@ -82,12 +84,9 @@ def test_a_step_that_leaves_the_picture_as_it_is_leaves_what_was_before(
 
 
 def test_undoing_keeps_what_is_undone(
-    store: SceneStore, before: BeforeController, pane: Pane, snapshot_of: SnapshotOf
+    store: SceneStore, before: BeforeController, pane: Pane, begun: Begun
 ) -> None:
-    first, second = snapshot_of(), snapshot_of(iso=300.0)
-    before.show_snapshot(first)
-    store.change(1, iso=300.0)
-    before.show_snapshot(second)
+    first, second = begun
     store.undo_stack.undo()
     assert pane.shown == [first, second]
     before.show_snapshot(first)
@@ -132,10 +131,7 @@ def test_before_the_first_picture_there_is_nothing_before(
 def test_the_profile_before_is_drawn_named_and_in_view(
     qtbot: QtBot, snapshot_of: SnapshotOf
 ) -> None:
-    view = ProfileView()
-    qtbot.addWidget(view)
-    view.resize(900, 300)
-    view.show()
+    view = show_widget(qtbot, ProfileView(), 900, 300)
     brighter, now = snapshot_of(iso=1600.0), snapshot_of()
     view.show_reading(now)
     names = [label for label in view.legend.findChildren(QLabel) if label.text() == "before"]
@@ -172,7 +168,7 @@ def picture(pane: PicturePane) -> Grey:
     return rows[rows.shape[0] // 2, : image.width()].copy()
 
 
-def test_the_old_picture_is_left_of_the_line_the_new_one_right(
+def test_the_old_picture_is_left_of_the_line_in_the_picture_the_new_one_right(
     qtbot: QtBot, pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
 ) -> None:
     pane, wipe = pane_with_wipe
@@ -194,15 +190,10 @@ def test_the_old_picture_is_left_of_the_line_the_new_one_right(
     qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
     assert 50 not in picture(pane)
     assert not wipe.slider.isVisible()
-
-
-def test_a_wipe_that_is_off_draws_and_takes_nothing(
-    pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
-) -> None:
-    _, wipe = pane_with_wipe
-    wipe.show_before(snapshot_of())
-    assert not wipe.picture.isVisible()
-    assert wipe.picture.boundingRect().isEmpty()
+    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
+    for asked, shown in ((1e4, 399.5), (-1e4, -0.5)):
+        wipe.line.setValue(asked)
+        assert wipe.line.value() == shown
 
 
 def test_a_wipe_before_any_change_shows_nothing(
@@ -216,8 +207,17 @@ def test_a_wipe_before_any_change_shows_nothing(
     assert wipe.picture.isVisible()
 
 
+def test_a_wipe_that_is_off_draws_and_takes_nothing(
+    pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
+) -> None:
+    _, wipe = pane_with_wipe
+    wipe.show_before(snapshot_of())
+    assert not wipe.picture.isVisible()
+    assert wipe.picture.boundingRect().isEmpty()
+
+
 def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
-    qtbot: QtBot, small_scene: Scene, grey_picture: Callable[[QWidget], Grey]
+    qtbot: QtBot, small_scene: Scene, grey_picture: GreyPicture
 ) -> None:
     bench = PaneBench(qtbot, small_scene)
     image = bench.add(picture_pane(bench.store, str)).view
@@ -235,16 +235,3 @@ def test_a_drag_leaves_its_start_as_a_line_and_as_a_picture(
     assert image.before.picture.isVisible()
     grey_picture(image)
     assert before.before is not None
-
-
-def test_the_line_stays_in_the_picture(
-    qtbot: QtBot, pane_with_wipe: tuple[PicturePane, BeforeWipe], snapshot_of: SnapshotOf
-) -> None:
-    pane, wipe = pane_with_wipe
-    snapshot = snapshot_of(columns=400)
-    pane.show_picture(snapshot.frame.image)
-    wipe.show_before(snapshot)
-    qtbot.keyClick(wipe.chosen, Qt.Key.Key_Space)
-    for asked, shown in ((1e4, 399.5), (-1e4, -0.5)):
-        wipe.line.setValue(asked)
-        assert wipe.line.value() == shown

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 from amount import amount
+from gui.kinds import Grey, not_none
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PySide6.QtCore import QRectF
 
 from occ_gui.picture.difference_image import cell_means, difference_cells
-
-Grey = NDArray[np.uint8]
 
 
 def noise(rows: int, columns: int) -> Grey:
@@ -88,13 +87,11 @@ def test_a_grid_at_the_very_edge_has_means_too(place: float, width: float) -> No
 def test_cells_of_a_difference_cover_the_overlap_alone() -> None:
     first = (np.full((40, 60), 90, dtype=np.uint8), QRectF(-0.5, -0.5, 60.0, 40.0))
     second = (np.full((40, 60), 65, dtype=np.uint8), QRectF(29.5, 9.5, 60.0, 40.0))
-    found = difference_cells(first, second, 900)
-    assert found is not None
+    found = not_none(difference_cells(first, second, 900))
     levels, grid = found
     assert grid == QRectF(29.5, 9.5, 30.0, 30.0)
     assert levels.shape == (30, 30)
     assert np.allclose(levels, 25.0)
-    few = difference_cells(first, second, 10)
-    assert few is not None
+    few = not_none(difference_cells(first, second, 10))
     assert few[0].shape == (10, 10)
     assert difference_cells(first, (second[0], QRectF(100.0, 0.0, 60.0, 40.0)), 900) is None

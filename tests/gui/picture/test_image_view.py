@@ -1,11 +1,10 @@
 """The picture with the decoder's region, and the photo beside or over it."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
+from gui.kinds import GreyPicture, SnapshotOf, collect, not_none, show_widget
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QWidget
 from pytestqt.qtbot import QtBot
@@ -15,23 +14,15 @@ from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.image_view import ImageView
 from occ_gui.picture.picture_pane import PicturePane
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.placement import MODES, Placement
 from occ_model.photo.reading.load import Photo
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.scene.scene import Scene
 
-Grey = NDArray[np.uint8]
-SnapshotOf = Callable[..., Snapshot]
-
 
 @pytest.fixture
 def view(qtbot: QtBot) -> ImageView:
-    view = ImageView()
-    qtbot.addWidget(view)
-    view.resize(800, 400)
-    view.show()
-    return view
+    return show_widget(qtbot, ImageView(), 800, 400)
 
 
 def pictures(pane: PicturePane) -> list[AveragedImage]:
@@ -47,7 +38,7 @@ def region_of(pane: PicturePane) -> QGraphicsRectItem:
     return found
 
 
-def test_the_region_is_drawn_round_the_pixels_that_were_read(
+def test_each_pixel_is_shown_at_its_row_and_column_and_the_region_round_those_that_were_read(
     view: ImageView, snapshot_of: SnapshotOf
 ) -> None:
     decoded = DecodeResult("threshold", region=Region(10, 60, 1200, 2300))
@@ -57,11 +48,6 @@ def test_the_region_is_drawn_round_the_pixels_that_were_read(
     assert item.rect() == QRectF(1199.5, 9.5, 1100, 50)
     view.show_snapshot(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="No.")))
     assert not item.isVisible()
-
-
-def test_each_pixel_is_shown_at_its_row_and_column(
-    view: ImageView, snapshot_of: SnapshotOf
-) -> None:
     snapshot = snapshot_of()
     view.show_snapshot(snapshot)
     (picture,) = pictures(view.simulation)
@@ -69,7 +55,7 @@ def test_each_pixel_is_shown_at_its_row_and_column(
     assert picture.boundingRect() == QRectF(-0.5, -0.5, columns, rows)
 
 
-def test_a_draft_lies_where_its_picture_will_and_says_so(
+def test_a_draft_lies_where_its_picture_will_says_so_and_gives_the_levels_of_its_rows(
     view: ImageView, small_scene: Scene
 ) -> None:
     whole, draft = (occ.render(small_scene, rows_step=step) for step in (1, 7))
@@ -85,14 +71,9 @@ def test_a_draft_lies_where_its_picture_will_and_says_so(
     view.show_picture(Picture.of(whole, "camera"))
     assert view.simulation.box.viewRect() == seen
     assert view.simulation.caption.text() == caption
-
-
-def test_a_draft_gives_the_levels_of_its_rows(view: ImageView, small_scene: Scene) -> None:
-    draft = occ.render(small_scene, rows_step=7)
     view.show_picture(Picture.of(draft, "camera"))
     for row in (0, 6, 7, small_scene.camera.rows - 1):
-        levels = view.levels_at(1500, row)
-        assert levels is not None
+        levels = not_none(view.levels_at(1500, row))
         assert levels["receiver"] == draft.image[row // 7, 1500]
         assert view.simulation.level_at(1500, row) == levels["camera"]
     assert view.levels_at(1500, small_scene.camera.rows) is None
@@ -105,8 +86,7 @@ def test_a_photo_is_compared_with_all_rows_of_a_draft(
     view.set_mode("difference")
     draft = occ.render(small_scene, rows_step=7)
     view.show_picture(Picture.of(draft, "camera"))
-    simulated = view.overlay._simulated
-    assert simulated is not None
+    simulated = not_none(view.overlay._simulated)
     assert simulated.shape == (small_scene.camera.rows, small_scene.camera.columns)
     assert np.array_equal(simulated[::7], draft.camera_image)
 
@@ -133,7 +113,7 @@ def test_without_a_photo_the_simulation_stands_alone(
     assert len(pictures(view.simulation)) == 1
 
 
-def test_an_open_photo_stands_beside_the_simulation(
+def test_an_open_photo_stands_beside_the_simulation_and_says_when_lines_are_columns(
     view: ImageView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
     view.show_snapshot(snapshot_of())
@@ -144,13 +124,16 @@ def test_an_open_photo_stands_beside_the_simulation(
     assert len(pictures(view.simulation)) == 1
     view.show_photo(None)
     assert not view.photo.isVisible()
-
-
-def test_the_caption_says_when_lines_are_shown_as_columns(view: ImageView, photo: Photo) -> None:
     view.show_photo(photo)
     assert "lines" not in view.photo.caption.toolTip()
     view.show_photo(replace(photo, turned=True))
     assert "its lines shown as columns" in view.photo.caption.toolTip()
+    view.show_photo(None)
+    assert view.simulation.caption.toolTip() == "Camera's picture"
+    view.show_photo(photo)
+    assert view.simulation.caption.toolTip() == "Simulated"
+    view.show_photo(None)
+    assert view.simulation.caption.toolTip() == "Camera's picture"
 
 
 def test_a_photo_over_the_simulation_lies_where_it_is_placed(
@@ -168,14 +151,6 @@ def test_a_photo_over_the_simulation_lies_where_it_is_placed(
         left, top = placement.column - placement.scale / 2, placement.row - placement.scale / 2
         size = (columns * placement.scale, rows * placement.scale)
         assert over.boundingRect() == QRectF(left, top, *size)
-
-
-def test_closing_the_photo_removes_it_from_the_simulation(
-    view: ImageView, snapshot_of: SnapshotOf, photo: Photo
-) -> None:
-    view.show_snapshot(snapshot_of())
-    view.show_photo(photo)
-    view.set_mode("blend")
     assert len(pictures(view.simulation)) == 2
     view.show_photo(None)
     assert len(pictures(view.simulation)) == 1
@@ -183,7 +158,7 @@ def test_closing_the_photo_removes_it_from_the_simulation(
 
 
 def test_the_opacity_slider_fades_from_simulation_to_photo(
-    view: ImageView, snapshot_of: SnapshotOf, photo: Photo, grey_picture: Callable[[QWidget], Grey]
+    view: ImageView, snapshot_of: SnapshotOf, photo: Photo, grey_picture: GreyPicture
 ) -> None:
     view.show_snapshot(snapshot_of())
     view.simulation.box.setRange(QRectF(1210, 1, 40, 40), padding=0)
@@ -225,12 +200,9 @@ def test_fit_shows_both_pictures_whole(
         assert pane.box.viewRect().contains(QRectF(-0.5, -0.5, columns, rows))
 
 
-def test_fit_without_any_picture_does_not_raise(view: ImageView) -> None:
+def test_without_any_picture_both_are_named_and_fit_does_not_raise(view: ImageView) -> None:
     view.fit()
     assert pictures(view.simulation) == []
-
-
-def test_both_pictures_are_named_for_who_cannot_see_them(view: ImageView) -> None:
     names = [child.accessibleName() for child in view.findChildren(QWidget)]
     assert {"Simulated picture", "Photo"} <= set(names)
 
@@ -256,8 +228,7 @@ def test_what_a_mode_does_not_need_is_not_there(
 def test_choosing_a_mode_tells_it_and_shows_nothing_by_itself(
     view: ImageView, photo: Photo, qtbot: QtBot
 ) -> None:
-    received: list[str] = []
-    view.mode_chosen.connect(received.append)
+    received = collect(view.mode_chosen)
     view.show_photo(photo)
     view.mode.setFocus()
     qtbot.keyClick(view.mode, Qt.Key.Key_Down)
@@ -265,26 +236,12 @@ def test_choosing_a_mode_tells_it_and_shows_nothing_by_itself(
     assert view.photo.isVisible()
 
 
-def test_beside_a_photo_the_other_picture_is_called_simulated(
-    view: ImageView, photo: Photo, snapshot_of: Callable[..., Snapshot]
+def test_the_factor_of_the_difference_is_whole_in_its_box_and_in_the_caption(
+    view: ImageView, photo: Photo, qtbot: QtBot
 ) -> None:
-    view.show_snapshot(snapshot_of())
-    assert view.simulation.caption.toolTip() == "Camera's picture"
-    view.show_photo(photo)
-    assert view.simulation.caption.toolTip() == "Simulated"
-    view.show_photo(None)
-    assert view.simulation.caption.toolTip() == "Camera's picture"
-
-
-def test_the_factor_of_the_difference_is_whole_in_its_box(view: ImageView) -> None:
     words = [view.gain.itemText(place) for place in range(view.gain.count())]
     widest = max(map(view.gain.fontMetrics().horizontalAdvance, words))
     assert view.gain.minimumSizeHint().width() >= widest + 16  # with the arrow
-
-
-def test_the_caption_says_how_many_times_the_difference_is_drawn(
-    view: ImageView, photo: Photo, qtbot: QtBot
-) -> None:
     view.show_photo(photo)
     view.set_mode("difference")
     for times in ("4", "8"):

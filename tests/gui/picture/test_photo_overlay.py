@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.kinds import Grey, collect
 from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QPointF, QRectF, Qt
 from PySide6.QtGui import QMouseEvent
@@ -13,9 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.picture.averaged_image import AveragedImage
 from occ_gui.picture.photo_overlay import PhotoOverlay, rect_of
-from occ_gui.values.placement import Placement
+from occ_gui.values.placement import LARGEST_SCALE, LEAST_SCALE, Placement
 
-Grey = NDArray[np.uint8]
 SIDE = 200
 
 
@@ -158,8 +158,7 @@ def test_the_frame_lies_round_the_photo_while_it_can_be_moved(screen: Screen) ->
 
 
 def test_dragging_the_frame_reports_the_photos_new_place(screen: Screen) -> None:
-    received: list[Placement] = []
-    screen.overlay.placed.connect(received.append)
+    received = collect(screen.overlay.placed)
     screen.overlay.set_photo(even(200, 50, 80))
     screen.overlay.set_mode("blend")
     screen.overlay.set_movable(True)
@@ -199,14 +198,15 @@ def unhurried(screen: Screen, monkeypatch: pytest.MonkeyPatch) -> Screen:
     return screen
 
 
-def test_the_mouse_moves_the_photo_by_its_frame_and_not_the_view(unhurried: Screen) -> None:
-    overlay = unhurried.overlay
+def test_the_mouse_moves_the_photo_by_its_frame_not_the_view_and_scales_it_by_a_corner(
+    unhurried: Screen,
+) -> None:
+    overlay, received = unhurried.overlay, list[Placement]()
     overlay.placed.connect(overlay.set_placement)
     overlay.set_photo(even(200, 50, 80))
     overlay.set_placement(Placement(20.0, 20.0))
     overlay.set_mode("blend")
     overlay.set_movable(True)
-    received: list[Placement] = []
     overlay.placed.connect(received.append)
     before = unhurried.box.viewRect()
     drag(unhurried, (60, 45), (90, 65))
@@ -214,17 +214,7 @@ def test_the_mouse_moves_the_photo_by_its_frame_and_not_the_view(unhurried: Scre
     assert received[-1].row == pytest.approx(40.0, abs=1.5)
     assert received[-1].scale == pytest.approx(1.0)
     assert unhurried.box.viewRect() == before
-
-
-def test_the_mouse_scales_the_photo_by_a_corner_of_its_frame(unhurried: Screen) -> None:
-    overlay = unhurried.overlay
-    overlay.placed.connect(overlay.set_placement)
-    overlay.set_photo(even(200, 50, 80))
     overlay.set_placement(Placement(20.0, 20.0))
-    overlay.set_mode("blend")
-    overlay.set_movable(True)
-    received: list[Placement] = []
-    overlay.placed.connect(received.append)
     drag(unhurried, (100, 70), (140, 95))
     assert received[-1].scale == pytest.approx(1.5, abs=0.05)
     rect = rect_of(even(200, 50, 80), received[-1])
@@ -240,3 +230,8 @@ def test_the_mouse_drags_the_line(unhurried: Screen) -> None:
     shown = unhurried.shown()
     assert (shown[5:150, 5:-5] == 60).all()
     assert (shown[170:-5, 5:-5] == 200).all()
+
+
+@pytest.mark.parametrize(("scale", "kept"), [(0.0, LEAST_SCALE), (1e9, LARGEST_SCALE)])
+def test_the_scale_stays_within_its_limits(scale: float, kept: float) -> None:
+    assert Placement(1.0, 2.0, scale).within_limits() == Placement(1.0, 2.0, kept)

@@ -1,11 +1,11 @@
 """The camera's picture and the receiver's are two, and each place says which it has."""
 
 import csv
-from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, collect, not_none, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
@@ -21,22 +21,15 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.feature import profile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.preview import Picture
-from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.window.cursor_readout import follow_pictures
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES
 from occ_model.scene.scene import Scene
 
-SnapshotOf = Callable[..., Snapshot]
-
 
 @pytest.fixture
 def view(qtbot: QtBot) -> ImageView:
-    view = ImageView()
-    qtbot.addWidget(view)
-    view.resize(800, 400)
-    view.show()
-    return view
+    return show_widget(qtbot, ImageView(), 800, 400)
 
 
 def shown_in(view: ImageView) -> AveragedImage:
@@ -45,8 +38,8 @@ def shown_in(view: ImageView) -> AveragedImage:
     return next(item for item in items if isinstance(item, AveragedImage))
 
 
-def test_the_camera_s_picture_is_shown_first_and_named(
-    view: ImageView, snapshot_of: SnapshotOf
+def test_the_camera_s_picture_is_shown_first_and_the_switch_shows_the_receiver_s_both_named(
+    view: ImageView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
     frame = snapshot_of().frame
     view.show_picture(Picture.of(frame, "camera"))
@@ -54,15 +47,7 @@ def test_the_camera_s_picture_is_shown_first_and_named(
     assert view.simulation.caption.text() == "Camera's picture"
     assert view.switch.key() == "camera"
     assert not np.array_equal(frame.camera_image, frame.image)
-
-
-def test_the_switch_shows_the_receiver_s_picture_and_says_so(
-    view: ImageView, snapshot_of: SnapshotOf, qtbot: QtBot
-) -> None:
-    frame = snapshot_of().frame
-    view.show_picture(Picture.of(frame, "camera"))
-    chosen: list[str] = []
-    view.picture_chosen.connect(chosen.append)
+    chosen = collect(view.picture_chosen)
     qtbot.keyClick(view.switch, Qt.Key.Key_Down)
     assert chosen == ["receiver"]
     assert shown_in(view)._image is frame.image
@@ -123,10 +108,8 @@ class Bench(PaneBench):
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[Bench]:
-    bench = Bench(qtbot, small_scene)
-    yield bench
-    bench.shell.stop()
+def bench(qtbot: QtBot, small_scene: Scene) -> Bench:
+    return Bench(qtbot, small_scene)
 
 
 def test_the_pointer_reads_the_levels_of_both_pictures(bench: Bench) -> None:
@@ -192,6 +175,5 @@ def test_the_decoders_read_the_receiver_s_picture_whichever_is_shown(bench: Benc
         bench.picture.picture_chosen.emit(whose)
         frame = bench.simulate(iso=200.0 if whose == "camera" else 300.0).frame
         signal = bench.decoding.signal.signal.getOriginalDataset()[1]
-        read = occ.decode(frame.image, frame.scene).signal
-        assert read is not None
+        read = not_none(occ.decode(frame.image, frame.scene).signal)
         assert np.array_equal(signal, read)

@@ -1,10 +1,10 @@
 """Two pinned states: what differs is listed, both are drawn, and either can be gone back to."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, collect, show_widget
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PySide6.QtWidgets import QLabel, QTableWidget
@@ -18,8 +18,6 @@ from occ_gui.simulation.jobs import snapshot_of as snapshot_of_frame
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.widgets.first_periods import PACKETS_IN_VIEW
 from occ_model.scene.scene import Scene
-
-SnapshotOf = Callable[..., Snapshot]
 
 
 @pytest.fixture
@@ -41,7 +39,7 @@ def outputs(pinned: Pinned) -> dict[str, tuple[str, str]]:
     return {row.what: (row.a, row.b) for row in pinned.outputs}
 
 
-def test_only_inputs_that_differ_are_listed_in_units_of_display(
+def test_only_inputs_that_differ_are_listed_in_units_of_display_and_alike_ones_with_all_digits(
     pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(exposure_time=136e-6, distance=1.5))
@@ -50,11 +48,6 @@ def test_only_inputs_that_differ_are_listed_in_units_of_display(
         "Distance": ("1.2 m", "1.5 m"),
     }
     assert all("Allowed" in row.meaning for row in pins.pinned.inputs)
-
-
-def test_values_that_look_alike_are_written_with_all_digits(
-    pins: PinController, bare_snapshot_of: SnapshotOf
-) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(distance=1.2000000001))
     a, b = inputs(pins.pinned)["Distance"]
     assert a != b
@@ -108,16 +101,12 @@ def test_a_decoder_that_read_only_one_of_them_is_compared_with_none(
         assert "Decoder “threshold”" not in found  # the same in both
 
 
-def test_the_same_state_twice_has_no_differing_inputs(
+def test_the_same_state_twice_has_no_differing_inputs_and_a_pin_no_picture(
     pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     snapshot = bare_snapshot_of()
     pin_two(pins, snapshot, snapshot)
     assert (pins.pinned.inputs, pins.pinned.outputs) == ((), ())
-
-
-def test_a_pin_holds_no_picture(pins: PinController, bare_snapshot_of: SnapshotOf) -> None:
-    pin_two(pins, bare_snapshot_of(), bare_snapshot_of())
     assert pins.pinned.a is not None
     assert not any(
         isinstance(value, np.ndarray) and value.ndim > 1
@@ -126,8 +115,7 @@ def test_a_pin_holds_no_picture(pins: PinController, bare_snapshot_of: SnapshotO
 
 
 def test_what_cannot_be_done_is_answered_in_a_sentence(pins: PinController) -> None:
-    messages: list[str] = []
-    pins.status_message.connect(messages.append)
+    messages = collect(pins.status_message)
     pins.pin("A")
     pins.go_to("B")
     assert len(messages) == 2
@@ -136,10 +124,7 @@ def test_what_cannot_be_done_is_answered_in_a_sentence(pins: PinController) -> N
 
 @pytest.fixture
 def view(qtbot: QtBot) -> CompareView:
-    view = CompareView()
-    qtbot.addWidget(view)
-    view.resize(660, 260)
-    view.show()
+    view = show_widget(qtbot, CompareView(), 660, 260)
     view.set_seen(True)
     return view
 
@@ -225,7 +210,7 @@ def test_one_state_alone_is_named_and_the_other_asked_for(
     assert view.hint.text().startswith("Compare two scenes")
 
 
-def test_a_row_tells_its_meaning_and_a_cell_its_whole_text(
+def test_a_row_tells_its_meaning_a_cell_its_whole_text_and_both_states_are_as_wide(
     view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
 ) -> None:
     pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
@@ -234,13 +219,6 @@ def test_a_row_tells_its_meaning_and_a_cell_its_whole_text(
     what, a, b = (item.toolTip() if item is not None else "" for item in tips)
     assert "Allowed" in what
     assert (a, b) == ("100", "200")
-
-
-def test_both_states_have_columns_of_one_width(
-    view: CompareView, pins: PinController, bare_snapshot_of: SnapshotOf
-) -> None:
-    pin_two(pins, bare_snapshot_of(), bare_snapshot_of(iso=200.0))
-    view.show_pinned(pins.pinned)
     assert view.table.columnWidth(1) == pytest.approx(view.table.columnWidth(2), abs=1)
 
 
@@ -310,7 +288,7 @@ def test_effects_forced_by_hand_are_compared_and_returned_to(bench: Bench) -> No
     assert bench.settings.settings.force == {"vignetting": False}
 
 
-def test_a_pin_waits_for_the_results_of_the_present_scene(bench: Bench) -> None:
+def test_a_pin_waits_for_the_results_of_the_present_scene_if_it_has_a_picture(bench: Bench) -> None:
     bench.scenes.change(iso=200.0)
     bench.choose("pin_a")
     assert bench.pins.pinned.a is None
@@ -318,9 +296,7 @@ def test_a_pin_waits_for_the_results_of_the_present_scene(bench: Bench) -> None:
     bench.simulate()
     assert bench.pins.pinned.a is not None
     assert bench.pins.pinned.a.scene.camera.iso == 200.0
-
-
-def test_a_scene_without_a_picture_is_not_pinned(bench: Bench) -> None:
+    bench.pins.clear()
     bench.scenes.change(distance=0.1, yaw=1.2)
     bench.choose("pin_a")
     bench.pins.give_up()

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from gui.kinds import collect, show_widget
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
 from pytestqt.qtbot import QtBot
@@ -20,10 +21,7 @@ def reading(confidence: float = 0.99) -> ChipReading:
 
 @pytest.fixture
 def view(qtbot: QtBot) -> ProfileView:
-    view = ProfileView()
-    qtbot.addWidget(view)
-    view.resize(700, 400)
-    view.show()
+    view = show_widget(qtbot, ProfileView(), 700, 400)
     view.chips.show_chips(reading())
     view.plot.setXRange(0.0, 100.0, padding=0.0)
     qtbot.waitExposed(view)
@@ -46,12 +44,9 @@ def test_no_strip_is_seen_without_chips(view: ProfileView) -> None:
     assert not view.chips.isVisible()
 
 
-def test_each_chip_lies_under_its_columns(view: ProfileView) -> None:
+def test_each_chip_lies_under_its_columns_also_where_the_photo_is_moved(view: ProfileView) -> None:
     assert [chip for chip, _ in view.chips.cells.rectangles()] == CHIPS.tolist()
     assert edges(view) == pytest.approx([5, 15, 25, 35, 45, 55], abs=0.5)
-
-
-def test_chips_follow_the_photo_where_it_is_moved(view: ProfileView) -> None:
     view.show_photo_profile(PhotoProfile(None, np.full(60, 50.0), 20.0, 0.5))
     view.plot.setXRange(0.0, 100.0, padding=0.0)
     assert edges(view) == pytest.approx([22.5, 27.5, 32.5, 37.5, 42.5, 47.5], abs=0.5)
@@ -63,8 +58,7 @@ def test_only_chips_in_view_are_drawn(view: ProfileView) -> None:
 
 
 def test_chips_are_copied_as_text_and_told_in_words(view: ProfileView, qtbot: QtBot) -> None:
-    said: list[str] = []
-    view.chips.copied.connect(said.append)
+    said = collect(view.chips.copied)
     qtbot.mouseClick(view.chips.copy, Qt.MouseButton.LeftButton)
     assert QGuiApplication.clipboard().text() == "10110"
     assert said == ["Copied: 10110"]

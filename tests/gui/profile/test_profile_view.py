@@ -1,12 +1,12 @@
 """The column profile beside the band model's and a photo's, and what part of it is in view."""
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.kinds import SnapshotOf, add_widget, not_none, show_widget
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFont, QFontMetrics
 from PySide6.QtWidgets import QApplication, QLabel, QPushButton
@@ -25,15 +25,16 @@ from occ_model.results.match import Comparison
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 
-SnapshotOf = Callable[..., Snapshot]
+
+@pytest.fixture
+def snapshot(snapshot_of: SnapshotOf) -> Snapshot:
+    return snapshot_of()
 
 
 @pytest.fixture
-def view(qtbot: QtBot) -> ProfileView:
-    view = ProfileView()
-    qtbot.addWidget(view)
-    view.resize(900, 300)
-    view.show()
+def view(qtbot: QtBot, snapshot: Snapshot) -> ProfileView:
+    view = show_widget(qtbot, ProfileView(), 900, 300)
+    view.show_reading(snapshot)
     return view
 
 
@@ -59,10 +60,8 @@ def columns_in_view(view: ProfileView) -> tuple[float, float]:
 
 
 def test_the_simulated_profile_is_drawn_column_by_column(
-    view: ProfileView, snapshot_of: SnapshotOf
+    view: ProfileView, snapshot: Snapshot
 ) -> None:
-    snapshot = snapshot_of()
-    view.show_reading(snapshot)
     x, y = drawn(view.simulation)
     assert x == list(range(len(snapshot.frame.profile)))
     assert y == snapshot.frame.profile.tolist()
@@ -113,7 +112,6 @@ def test_the_enhanced_band_model_is_so_by_its_own_histogram(
 def test_where_the_band_model_is_undefined_a_sentence_says_so(
     view: ProfileView, snapshot_of: SnapshotOf
 ) -> None:
-    view.show_reading(snapshot_of())
     view.show_reading(snapshot_of(exposure_time=136e-6, switching_frequency=10e3))
     assert drawn(view.band) == ([], [])
     assert view.reason.isVisible()
@@ -123,9 +121,8 @@ def test_where_the_band_model_is_undefined_a_sentence_says_so(
 
 
 def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+    view: ProfileView, photo: Photo
 ) -> None:
-    view.show_reading(snapshot_of())
     view.show_photo_profile(PhotoProfile(None, photo.profile, 12.5, 2.0, "No stripes."))
     x, y = drawn(view.photo)
     assert x[:3] == [12.5, 14.5, 16.5]
@@ -139,10 +136,7 @@ def test_an_incomparable_photo_is_drawn_as_it_is_with_the_reason(
     assert "photo" not in legend_texts(view)
 
 
-def test_a_compared_photo_is_drawn_in_simulated_levels(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
-) -> None:
-    view.show_reading(snapshot_of())
+def test_a_compared_photo_is_drawn_in_simulated_levels(view: ProfileView, photo: Photo) -> None:
     seen, simulated = np.array([1.0, 5.0, 9.0]), np.array([2.0, 5.0, 6.0])
     comparison = Comparison(900, seen, simulated, 0.91234)
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
@@ -156,12 +150,17 @@ def test_a_compared_photo_is_drawn_in_simulated_levels(
     low, high = view.residual.plot.getViewBox().viewRange()[1]
     assert low < -3.0
     assert high > 3.0
+    before = view.plot.viewRange()[0]
+    view.show_photo_profile(PhotoProfile(Comparison(0, np.ones(5), np.ones(5), 0.0), photo.profile))
+    view.resize(view.width() + 50, view.height() + 50)
+    QApplication.processEvents()
+    for plot in (view.plot, view.residual.plot):
+        assert plot.viewRange()[0] == pytest.approx(before)
 
 
-def test_one_edge_does_not_set_the_axis_of_the_residual(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+def test_neither_one_edge_nor_the_scene_before_sets_the_axis_of_the_residual(
+    view: ProfileView, photo: Photo
 ) -> None:
-    view.show_reading(snapshot_of())
     seen = 100.0 + 4.0 * np.sin(np.arange(300.0))
     edge = seen.copy()
     edge[:6] += 90.0
@@ -172,12 +171,20 @@ def test_one_edge_does_not_set_the_axis_of_the_residual(
         text = view.residual.numbers.toolTip()
         assert ("beyond the axis" in text) == said
     assert f"at most {comparison.largest_residual:.0f}, beyond" in text
+    ends = []
+    for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
+        comparison = Comparison(0, np.full(300, 100.0 + height), np.full(300, 100.0), 0.9)
+        profile = PhotoProfile(
+            comparison, photo.profile, photo=photo, is_outdated=is_outdated
+        )  # fmt: skip
+        view.show_photo_profile(profile)
+        ends.append(view.residual.plot.getViewBox().viewRange()[1][1])
+    assert ends == pytest.approx([1.4 * 200.0, 1.4 * 5.0, 1.4 * 50.0, 1.4 * 50.0])
 
 
 def test_the_residual_follows_the_profiles_columns_when_moved(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
+    view: ProfileView, photo: Photo
 ) -> None:
-    view.show_reading(snapshot_of())
     comparison = Comparison(0, np.ones(5), np.ones(5), 0.0)
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
     boxes = [plot.getViewBox() for plot in (view.plot, view.residual.plot)]
@@ -191,23 +198,9 @@ def test_the_residual_follows_the_profiles_columns_when_moved(
     assert lefts[0] == lefts[1]
 
 
-def test_a_first_photo_does_not_move_the_columns_in_view(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
-) -> None:
-    view.show_reading(snapshot_of())
-    before = view.plot.viewRange()[0]
-    view.show_photo_profile(PhotoProfile(Comparison(0, np.ones(5), np.ones(5), 0.0), photo.profile))
-    view.resize(view.width() + 50, view.height() + 50)
-    QApplication.processEvents()
-    for plot in (view.plot, view.residual.plot):
-        assert plot.viewRange()[0] == pytest.approx(before)
-
-
 def test_after_enhancement_shows_picture_levels_and_threshold(
-    view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
+    view: ProfileView, qtbot: QtBot, snapshot: Snapshot, snapshot_of: SnapshotOf
 ) -> None:
-    snapshot = snapshot_of()
-    view.show_reading(snapshot)
     assert not view.threshold.isVisible()
     assert "threshold" not in legend_texts(view)
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
@@ -218,6 +211,10 @@ def test_after_enhancement_shows_picture_levels_and_threshold(
     qtbot.keyClick(view.enhanced, Qt.Key.Key_Space)
     assert drawn(view.simulation)[1] == snapshot.frame.profile.tolist()
     assert not view.threshold.isVisible()
+    view.enhanced.setChecked(True)
+    view.show_reading(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="None.")))
+    assert not view.threshold.isVisible()
+    assert "threshold" not in legend_texts(view)
 
 
 @pytest.mark.parametrize("tolerance", [0.0, math.inf])
@@ -239,13 +236,6 @@ def test_what_is_drawn_enhanced_is_what_the_decoder_reads(
     assert np.abs(shown - read)[1:-1].max() <= 1.0
 
 
-def test_without_a_threshold_none_is_shown(view: ProfileView, snapshot_of: SnapshotOf) -> None:
-    view.enhanced.setChecked(True)
-    view.show_reading(replace(snapshot_of(), decoded=DecodeResult("threshold", failure="None.")))
-    assert not view.threshold.isVisible()
-    assert "threshold" not in legend_texts(view)
-
-
 def test_whatever_is_drawn_lies_within_the_levels_in_view(
     view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
 ) -> None:
@@ -260,13 +250,11 @@ def test_whatever_is_drawn_lies_within_the_levels_in_view(
 
 
 def test_the_packets_that_the_button_names_are_those_in_view(
-    snapshot_of: SnapshotOf, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, snapshot: Snapshot
 ) -> None:
     for module in (profile_view, first_periods):
         monkeypatch.setattr(module, "PACKETS_IN_VIEW", 1)
-    view = ProfileView()
-    qtbot.addWidget(view)
-    snapshot = snapshot_of()
+    view = add_widget(qtbot, ProfileView())
     view.show_reading(snapshot)
     assert button(view, "1 packets").isChecked()
     first, last = columns_in_view(view)
@@ -274,10 +262,8 @@ def test_the_packets_that_the_button_names_are_those_in_view(
 
 
 def test_two_packets_are_in_view_until_the_panel_is_chosen(
-    view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
+    view: ProfileView, qtbot: QtBot, snapshot: Snapshot
 ) -> None:
-    snapshot = snapshot_of()
-    view.show_reading(snapshot)
     panel = snapshot.frame.corners[:, 0]
     first, last = columns_in_view(view)
     assert last - first == pytest.approx(2 * snapshot.packet_columns, rel=0.05)
@@ -290,7 +276,6 @@ def test_two_packets_are_in_view_until_the_panel_is_chosen(
 def test_moving_the_plot_ends_following_and_a_click_resumes_it(
     view: ProfileView, snapshot_of: SnapshotOf, qtbot: QtBot
 ) -> None:
-    view.show_reading(snapshot_of())
     followed = columns_in_view(view)
     box = view.plot.getViewBox()
     box.setXRange(10, 20, padding=0)
@@ -312,6 +297,9 @@ def test_with_no_panel_in_the_picture_all_columns_are_in_view(
     last_column = len(snapshot.frame.profile) - 1
     button(view, "Panel").click()
     assert columns_in_view(view) == pytest.approx((0, last_column), abs=0.02 * last_column)
+    for pattern, text in (("10", "2 cycles"), ("", "2 packets")):
+        view.show_reading(snapshot_of(pattern=pattern))
+        assert view._packets.text() == text
 
 
 @pytest.mark.parametrize("changes", [{"offset_x": 50.0}, {"columns": 1}, {"distance": 900.0}])
@@ -326,10 +314,8 @@ def test_a_panel_at_the_pictures_rim_leaves_a_range_to_look_at(
 
 @pytest.mark.parametrize("seen", [(-40.0, 12.4), (20.5, 31.7), (590.0, 2000.0), (5000.0, 5100.0)])
 def test_the_columns_in_view_are_some_of_the_picture(
-    view: ProfileView, snapshot_of: SnapshotOf, seen: tuple[float, float]
+    view: ProfileView, seen: tuple[float, float], snapshot: Snapshot
 ) -> None:
-    snapshot = snapshot_of()
-    view.show_reading(snapshot)
     view.plot.getViewBox().setLimits(xMin=None, xMax=None)
     view.plot.setXRange(*seen, padding=0.0)
     columns = len(snapshot.frame.profile)
@@ -346,8 +332,7 @@ def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     snapshot = snapshot_of()
     before, after = view._outside
     view.show_reading(snapshot)
-    read = snapshot.decoded.region
-    assert read is not None
+    read = not_none(snapshot.decoded.region)
     assert before.isVisible()
     assert after.isVisible()
     assert before.getRegion()[0] <= 0 < before.getRegion()[1] == read.first_column
@@ -358,14 +343,11 @@ def test_the_columns_that_are_not_read_are_shaded_where_there_is_a_region(
     assert not after.isVisible()
 
 
-def test_before_any_result_the_legend_is_empty_but_for_its_lines(view: ProfileView) -> None:
-    assert set(legend_texts(view)) <= {"simulation"}
+def test_before_any_result_the_legend_is_empty_but_for_its_lines(qtbot: QtBot) -> None:
+    assert set(legend_texts(show_widget(qtbot, ProfileView()))) <= {"simulation"}
 
 
-def test_levels_are_in_view_up_to_the_next_step_above_all_that_is_drawn(
-    view: ProfileView, snapshot_of: SnapshotOf
-) -> None:
-    view.show_reading(snapshot_of())
+def test_levels_are_in_view_up_to_the_next_step_above_all_that_is_drawn(view: ProfileView) -> None:
     largest = max(max(drawn(curve)[1]) for curve in (view.simulation, view.band))
     _, high = view.plot.getViewBox().viewRange()[1]
     step = 20.0 * math.ceil(largest / 20.0)
@@ -373,10 +355,7 @@ def test_levels_are_in_view_up_to_the_next_step_above_all_that_is_drawn(
 
 
 @pytest.mark.parametrize("largest", [-60.0, 3.0, 45.0])
-def test_the_whole_residual_is_in_view(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo, largest: float
-) -> None:
-    view.show_reading(snapshot_of())
+def test_the_whole_residual_is_in_view(view: ProfileView, photo: Photo, largest: float) -> None:
     seen = np.array([100.0, 100.0 + largest, 101.0])
     comparison = Comparison(900, seen, np.full(3, 100.0), 0.9)
     view.show_photo_profile(PhotoProfile(comparison, photo.profile))
@@ -389,34 +368,10 @@ def test_the_whole_residual_is_in_view(
 def test_the_axes_hold_the_longest_level_in_any_font(qtbot: QtBot, points: float) -> None:
     font = QFont()
     font.setPointSizeF(points)
-    view = ProfileView()
-    qtbot.addWidget(view)
+    view = add_widget(qtbot, ProfileView())
     axes = [plot.getAxis("left") for plot in (view.plot, view.residual.plot)]
     view.setFont(font)
     metrics = QFontMetrics(font)
     needed = metrics.height() + metrics.horizontalAdvance("-200")
     assert [axis.minimumWidth() > needed for axis in axes] == [True, True]
     assert view.chips.copy.minimumWidth() == axes[0].minimumWidth(), "its chips lie under the plot"
-
-
-def test_the_button_of_the_first_periods_names_what_is_sent(
-    view: ProfileView, snapshot_of: SnapshotOf
-) -> None:
-    for pattern, text in (("10", "2 cycles"), ("", "2 packets")):
-        view.show_reading(snapshot_of(pattern=pattern))
-        assert view._packets.text() == text
-
-
-def test_the_residuals_axis_is_not_set_by_the_scene_before(
-    view: ProfileView, snapshot_of: SnapshotOf, photo: Photo
-) -> None:
-    view.show_reading(snapshot_of())
-    ends = []
-    for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
-        comparison = Comparison(0, np.full(300, 100.0 + height), np.full(300, 100.0), 0.9)
-        profile = PhotoProfile(
-            comparison, photo.profile, photo=photo, is_outdated=is_outdated
-        )  # fmt: skip
-        view.show_photo_profile(profile)
-        ends.append(view.residual.plot.getViewBox().viewRange()[1][1])
-    assert ends == pytest.approx([1.4 * 200.0, 1.4 * 5.0, 1.4 * 50.0, 1.4 * 50.0])

@@ -1,12 +1,12 @@
 """The pane of the room shows the place that a picture tells, and follows what is dragged."""
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from gui.kinds import not_none
 from gui.pane_bench import PaneBench
 from PIL import Image
 from pyqtgraph import PlotWidget, TargetItem
@@ -17,7 +17,7 @@ from small_rooms import small_room
 import occ_model as occ
 from occ_gui.room import jobs
 from occ_gui.room.feature import room
-from occ_gui.room.jobs import map_room, plan_of
+from occ_gui.room.jobs import ShownRoom, map_room, plan_of
 from occ_gui.room.pane import RoomPane
 from occ_gui.values.room_choice import FIRST_ROOM, RoomChoice
 from occ_model.figures.drawing import house_style
@@ -32,21 +32,26 @@ ROOM = small_room(turned=0.0, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
 
 
 @pytest.fixture
-def bench(qtbot: QtBot, small_scene: Scene) -> Iterator[PaneBench]:
+def bench(qtbot: QtBot, small_scene: Scene) -> PaneBench:
     bench = PaneBench(qtbot, small_scene)
     workspace = replace(bench.store.workspace, room=RoomChoice("mine", ROOM))
     bench.store.put(workspace)
     bench.store.undo_stack.clear()
     bench.window.resize(900, 600)
-    yield bench
-    bench.shell.stop()
+    return bench
 
 
 @pytest.fixture
 def pane(bench: PaneBench, qtbot: QtBot) -> RoomPane:
     pane: RoomPane = bench.add(room(bench.store))
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     return pane
+
+
+def looked(qtbot: QtBot, pane: RoomPane) -> ShownRoom:
+    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    assert pane.shown is not None
+    return pane.shown
 
 
 def drag(
@@ -86,9 +91,7 @@ def test_a_drag_is_one_step_and_undo_looks_from_the_former_place(
         stack.undo()
     assert bench.store.workspace.room == RoomChoice("mine", aside)
     assert (plan.camera.pos().x(), plan.camera.pos().y()) == (0.6, 0.6)
-    qtbot.waitUntil(lambda: pane.shown is not None)
-    assert pane.shown is not None
-    assert pane.shown.room == aside
+    assert looked(qtbot, pane).room == aside
     for _ in range(3):
         stack.redo()
     assert pane.room.camera == turned
@@ -118,9 +121,7 @@ def test_what_is_undone_while_the_pane_is_hidden_is_no_figure_any_more(
     bench.see("room", seen=False)
     bench.store.undo_stack.undo()
     assert pane.shown is None
-    qtbot.waitUntil(lambda: pane.shown is not None)
-    assert pane.shown is not None
-    assert pane.shown.room == ROOM
+    assert looked(qtbot, pane).room == ROOM
 
 
 def test_rooms_files_and_photos_are_steps(
@@ -130,7 +131,7 @@ def test_rooms_files_and_photos_are_steps(
     path.write_text(ROOM.with_sent(code=900).to_toml(), encoding="utf-8")
     pane.open(path)
     pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     for value in (26.25, 26.5):  # as by the arrows of the field
         pane.view.focal_length.setValue(value)
     stack = bench.store.undo_stack
@@ -145,14 +146,15 @@ def test_rooms_files_and_photos_are_steps(
     assert pane.view.rooms.placeholderText() == "mine"
 
 
-def test_the_place_is_told_with_its_errors_and_the_lamps_have_names(pane: RoomPane) -> None:
+def test_the_place_is_told_with_its_errors_and_the_lamps_have_names(
+    pane: RoomPane, qtbot: QtBot
+) -> None:
     assert pane.view.headline.text().startswith("I am here: x 0.")
     assert "4 of 4 lamps named" in pane.view.sentences.text()
     assert "times larger" in pane.view.sentences.text()
-    assert pane.shown is not None
-    assert pane.shown.reading is not None
-    located = pane.shown.reading.located
-    assert located is not None
+    shown = looked(qtbot, pane)
+    assert shown.reading is not None
+    located = not_none(shown.reading.located)
     # The ellipse is that of the covariance, enlarged as is said, about the place that was found.
     x, _ = pane.view.plan.ellipse.getData()
     enlarged = float(pane.view.sentences.text().split("drawn ")[1].split(" times")[0])
@@ -170,9 +172,7 @@ def test_a_dragged_camera_is_looked_from_and_the_old_place_goes(
     assert pane.view.plan.ellipse.getData()[0] is None or not len(
         pane.view.plan.ellipse.getData()[0]
     )
-    qtbot.waitUntil(lambda: pane.shown is not None)
-    assert pane.shown is not None
-    assert pane.shown.room.camera.x == 0.3
+    assert looked(qtbot, pane).room.camera.x == 0.3
     pane.view.plan.aim.setPos(0.9, 0.9)
     assert aim_of(pane.room.camera, plan_of(pane.room).height) == pytest.approx((0.9, 0.9))
     assert pane.room.camera.roll == 0.4
@@ -226,9 +226,8 @@ def test_the_map_is_that_of_the_study(
     assert len(pane.view.plan.floor.points()) == 4
 
 
-def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane) -> None:
-    shown = pane.shown
-    assert shown is not None
+def test_the_figure_has_the_true_place_and_the_one_found(pane: RoomPane, qtbot: QtBot) -> None:
+    shown = looked(qtbot, pane)
     assert shown.reading is not None
     drawing = room_drawing(shown.room, shown.image, shown.reading)
     rows = {row[0]: row for row in drawing.rows()}
@@ -254,7 +253,7 @@ def test_a_map_goes_with_the_turn_that_it_is_of(
         aim.setPos(aim.pos().x() + 0.1, aim.pos().y())
         assert view.floor.text() == ""
         assert len(view.plan.floor.points()) == 0
-        qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+        looked(qtbot, pane)
         assert view.floor.text() == ""
 
 
@@ -273,7 +272,7 @@ def test_a_photo_is_located_and_what_is_assumed_of_its_lens_can_be_given(
     view = pane.view
     assert not view.focal_length.isVisible()
     pane.open_photo(_photo(tmp_path / "room.jpg", focal_length=26))
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     assert view.headline.text().startswith("I am here: x 0.")
     assert "as the EXIF data say" in view.sentences.text()
     assert "true place" not in view.sentences.text()
@@ -281,16 +280,15 @@ def test_a_photo_is_located_and_what_is_assumed_of_its_lens_can_be_given(
     assert view.focal_length.isVisible()
     assert view.focal_length.value() == 26.0
     view.focal_length.setValue(26.5)
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     assert "26.5 mm equivalent, as given" in view.sentences.text()
-    shown = pane.shown
-    assert shown is not None
+    shown = looked(qtbot, pane)
     assert shown.reading is not None
     drawn = room_drawing(shown.room, shown.image, shown.reading, is_photo=True)
     rows = {row[0]: row for row in drawn.rows()}
     assert rows["x"][1] is None
     view.close_photo.click()
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     assert "from the true place" in view.sentences.text()
     assert not view.focal_length.isVisible()
 
@@ -299,10 +297,10 @@ def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
     pane: RoomPane, qtbot: QtBot, tmp_path: Path
 ) -> None:
     pane.open_photo(_photo(tmp_path / "room.jpg"))
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     assert "the photo has no EXIF data of it" in pane.view.sentences.text()
     pane.take("other", ROOM.with_sent(code=900))
-    qtbot.waitUntil(lambda: pane.is_idle and pane.shown is not None)
+    looked(qtbot, pane)
     assert pane.view.headline.text() == "The place is not told"
     pane.view.plan.camera.setPos(0.3, 0.5)
     assert pane.look is not None

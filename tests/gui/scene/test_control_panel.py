@@ -4,6 +4,7 @@ from collections import Counter
 from typing import Any
 
 import pytest
+from gui.kinds import add_widget, collect
 from gui.stores import store_of
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QAbstractSpinBox, QComboBox, QLabel, QLineEdit, QSlider, QWidget
@@ -35,27 +36,13 @@ def entry_controls(panel: QWidget) -> list[QWidget]:
     return [c for c in found if not isinstance(c.parentWidget(), QAbstractSpinBox)]
 
 
-def test_every_parameter_but_the_code_has_exactly_one_row(panel: ControlPanel) -> None:
+def test_every_parameter_but_the_code_has_exactly_one_row_on_its_page(panel: ControlPanel) -> None:
     rows = Counter(name for page in panel.panels.values() for name in page.rows)
     assert rows == Counter(name for name in PARAMETERS if name != "code")
-
-
-def test_the_main_sliders_stand_on_the_first_page(panel: ControlPanel) -> None:
     first = next(iter(panel.panels.values()))
     assert tuple(first.rows) == MAIN
     assert all(isinstance(row, QuantityRow) for row in first.rows.values())
-
-
-def test_effects_parameters_have_a_page_of_their_own_in_order(panel: ControlPanel) -> None:
     assert tuple(panel.panels["Effects"].rows) == EFFECTS
-
-
-def test_every_control_has_a_name_and_a_tooltip(panel: ControlPanel) -> None:
-    assert panel.panels  # all are made
-    controls = entry_controls(panel)
-    assert len(controls) > len(PARAMETERS)
-    nameless = [c for c in controls if not c.accessibleName() or not c.toolTip()]
-    assert nameless == []
 
 
 def test_every_row_names_its_parameter_and_its_allowed_range(panel: ControlPanel) -> None:
@@ -111,8 +98,7 @@ def test_edits_and_refusals_of_every_part_are_passed_on(
 
 
 def test_choosing_a_preset_tells_its_name(panel: ControlPanel, qtbot: QtBot) -> None:
-    told: list[str] = []
-    panel.preset_chosen.connect(told.append)
+    told = collect(panel.preset_chosen)
     panel.show_preset("small")
     assert told == []
     panel.show()
@@ -120,33 +106,12 @@ def test_choosing_a_preset_tells_its_name(panel: ControlPanel, qtbot: QtBot) -> 
     assert told == ["large"]
 
 
-def test_the_preset_shown_is_the_scenes_or_none(panel: ControlPanel) -> None:
+def test_the_preset_shown_is_the_scenes_or_named_as_changed_or_none(panel: ControlPanel) -> None:
     panel.show_preset("large")
     assert panel.preset.currentData() == "large"
     panel.show_preset("")
     assert panel.preset.currentIndex() == -1
     assert panel.preset.placeholderText()
-
-
-def test_other_presets_replace_the_last_ones_without_a_signal(panel: ControlPanel) -> None:
-    told: list[str] = []
-    panel.preset_chosen.connect(told.append)
-    panel.list_presets([("mine", "My own"), *PRESETS])
-    texts = [panel.preset.itemData(place) for place in range(panel.preset.count())]
-    assert texts == ["mine", "small", "large"]
-    assert panel.preset.currentIndex() == -1
-    assert told == []
-
-
-def test_presets_of_the_program_are_listed_by_their_titles(panel: ControlPanel) -> None:
-    panel.list_presets([("phone-68us", "Phone, 68 µs"), ("mine", "Measured")], own=["mine"])
-    texts = [panel.preset.itemText(place) for place in range(2)]
-    tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
-    assert texts == ["Phone, 68 µs", "mine"]
-    assert tips == ["phone-68us", "Measured"]
-
-
-def test_a_preset_that_was_changed_is_named_so(panel: ControlPanel) -> None:
     panel.list_presets([("phone-68us", "Phone, 68 µs")])
     panel.show_preset("", "phone-68us")
     assert panel.preset.currentIndex() == -1
@@ -155,10 +120,25 @@ def test_a_preset_that_was_changed_is_named_so(panel: ControlPanel) -> None:
     assert panel.preset.placeholderText() == "Choose a preset"
 
 
+def test_other_presets_replace_the_last_ones_without_a_signal_by_their_titles(
+    panel: ControlPanel,
+) -> None:
+    told = collect(panel.preset_chosen)
+    panel.list_presets([("mine", "My own"), *PRESETS])
+    texts = [panel.preset.itemData(place) for place in range(panel.preset.count())]
+    assert texts == ["mine", "small", "large"]
+    assert panel.preset.currentIndex() == -1
+    assert told == []
+    panel.list_presets([("phone-68us", "Phone, 68 µs"), ("mine", "Measured")], own=["mine"])
+    texts = [panel.preset.itemText(place) for place in range(2)]
+    tips = [panel.preset.itemData(place, Qt.ItemDataRole.ToolTipRole) for place in range(2)]
+    assert texts == ["Phone, 68 µs", "mine"]
+    assert tips == ["phone-68us", "Measured"]
+
+
 def test_effects_have_a_heading_for_each_stage_of_the_light(qtbot: QtBot) -> None:
     stages = {"edge_time": "light", "flicker_depth": "light", "full_well": "sensor"}
-    panel = ControlPanel([], list(stages), stages)
-    qtbot.addWidget(panel)
+    panel = add_widget(qtbot, ControlPanel([], list(stages), stages))
     page = panel.panels["Effects"]
     bold = [label for label in page.findChildren(QLabel) if label.font().bold()]
     assert [label.text() for label in bold] == ["Light: LED and room", "Sensor"]

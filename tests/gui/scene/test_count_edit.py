@@ -1,6 +1,7 @@
 """A whole number is read as typed, and nothing is made of what is none."""
 
 import pytest
+from gui.kinds import add_widget, collect
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -25,12 +26,10 @@ def test_what_is_no_allowed_count_is_refused_once(qtbot: QtBot, text: str) -> No
 
 def typed(qtbot: QtBot, text: str) -> tuple[int, list[str], list[int]]:
     """Type a text over the number 640 and leave the field."""
-    field = CountEdit(count("columns"))
-    qtbot.addWidget(field)
+    field = add_widget(qtbot, CountEdit(count("columns")))
     field.setValue(640)
-    refused: list[str] = []
     changes: list[int] = []
-    field.refused.connect(refused.append)
+    refused = collect(field.refused)
     field.valueChanged.connect(changes.append)
     field.show()
     field.selectAll()

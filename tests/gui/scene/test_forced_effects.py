@@ -16,7 +16,6 @@ def forced(application: Application) -> dict[str, bool]:
 
 @pytest.fixture
 def by_hand(application: Application, user: User) -> Application:
-    """Switch two effects by hand."""
     application.store.force("jpeg", False)
     application.store.force("vignetting", True)
     user.wait_until_idle()
@@ -60,18 +59,14 @@ def test_another_preset_ends_the_forced_effects(by_hand: Application, user: User
     assert forced(by_hand) == {"jpeg": False, "vignetting": True}
 
 
-def test_reset_ends_the_forced_effects(by_hand: Application, user: User) -> None:
-    user.choose("Reset &scene")
-    assert forced(by_hand) == {}
-
-
-def test_reset_of_the_scene_it_already_is_ends_them_too(
-    application: Application, user: User
+def test_reset_ends_the_forced_effects_also_of_the_scene_it_already_is(
+    by_hand: Application, user: User
 ) -> None:
     user.choose("Reset &scene")
-    application.store.force("jpeg", True)
+    assert forced(by_hand) == {}
+    by_hand.store.force("jpeg", True)
     user.choose("Reset &scene")
-    assert forced(application) == {}
+    assert forced(by_hand) == {}
 
 
 def test_a_preset_is_simulated_once_without_the_forced_effects(

@@ -1,6 +1,7 @@
 """A form of parameter rows."""
 
 import pytest
+from gui.kinds import add_widget
 from gui.stores import store_of
 from PySide6.QtGui import QTextDocumentFragment
 from PySide6.QtWidgets import QLabel
@@ -17,13 +18,10 @@ NAMES = ("distance", "bits", "readout_time")
 
 @pytest.fixture
 def panel(qtbot: QtBot) -> ParameterPanel:
-    panel = ParameterPanel(NAMES)
-    qtbot.addWidget(panel)
-    return panel
+    return add_widget(qtbot, ParameterPanel(NAMES))
 
 
 def labels_of(panel: ParameterPanel) -> list[QLabel]:
-    """Find the labels of the rows, in their order."""
     labels = panel.findChildren(QLabel)
     return [label for label in labels if not isinstance(label, RefusalNotice)]
 
@@ -42,13 +40,12 @@ def test_rows_stand_in_the_order_asked_for_under_their_labels(panel: ParameterPa
     assert tops == sorted(tops)
 
 
-def test_a_label_sets_the_symbol_in_italics_and_its_index_low(panel: ParameterPanel) -> None:
+def test_a_label_sets_the_symbol_in_italics_and_explains_as_its_control_does(
+    panel: ParameterPanel,
+) -> None:
     texts = [label.text() for label in labels_of(panel)]
     assert texts[0].endswith("<i>d</i>")
     assert texts[2].endswith("<i>t</i><sub>r</sub>")
-
-
-def test_a_label_explains_as_its_control_does(panel: ParameterPanel) -> None:
     for label, row in zip(labels_of(panel), panel.rows.values(), strict=True):
         assert isinstance(row, QuantityRow | CountRow)
         assert label.toolTip() == row.field.toolTip()
@@ -67,6 +64,13 @@ def test_showing_a_scene_shows_its_values_and_tells_nothing(
     assert isinstance(readout, QuantityRow)
     assert (distance.field.value(), bits.field.value(), readout.field.value()) == (0.7, 16, 13e-6)
     assert told == []
+    scene = Scene().replace(distance=0.7)
+    panel.show_scene(scene)
+    distance = panel.rows["distance"]
+    assert isinstance(distance, QuantityRow)
+    distance.slider.setValue(300)
+    panel.show_scene(scene)
+    assert distance.field.value() == 0.7
 
 
 def test_a_row_does_not_receive_the_value_that_it_sent(
@@ -87,16 +91,6 @@ def test_a_row_does_not_receive_the_value_that_it_sent(
     assert received == []
     store.undo_stack.undo()
     assert received == ["distance"]
-
-
-def test_a_row_whose_value_was_refused_shows_that_of_the_scene(panel: ParameterPanel) -> None:
-    scene = Scene().replace(distance=0.7)
-    panel.show_scene(scene)
-    distance = panel.rows["distance"]
-    assert isinstance(distance, QuantityRow)
-    distance.slider.setValue(300)
-    panel.show_scene(scene)
-    assert distance.field.value() == 0.7
 
 
 def test_below_the_last_slider_is_room_for_the_foot_and_for_nothing_else(qtbot: QtBot) -> None:

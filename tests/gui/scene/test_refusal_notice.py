@@ -1,6 +1,7 @@
 """A refused value has its sentence at its field, until it is mended."""
 
 import pytest
+from gui.kinds import not_none
 from gui.stores import store_of
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
@@ -54,7 +55,9 @@ def test_a_refused_number_says_why_at_its_field_until_mended(
     assert application.store.scene.value(name) == PARAMETERS[name].parse(good)
 
 
-def test_a_value_typed_as_it_was_mends_its_field(user: User) -> None:
+def test_a_value_typed_as_it_was_mends_its_field_and_any_change_of_the_scene(
+    user: User, application: Application
+) -> None:
     for name in ("distance", "bits"):
         row = user.row(name)
         shown = row.field.text()
@@ -62,9 +65,7 @@ def test_a_value_typed_as_it_was_mends_its_field(user: User) -> None:
         assert row.notice.text()
         user.enter(name, shown)
         assert row.notice.text() == ""
-
-
-def test_any_change_of_the_scene_ends_the_sentence(application: Application, user: User) -> None:
+        assert name != "distance" or user.message == ""
     row = user.row("distance")
     user.enter("distance", "0 m")
     application.store.change(iso=250.0)
@@ -72,9 +73,10 @@ def test_any_change_of_the_scene_ends_the_sentence(application: Application, use
     user.enter("distance", "0 m")
     user.choose("&Undo")
     assert row.notice.text() == ""
+    assert user.message == "Undone: change of iso speed."
     user.enter("distance", "0 m")
     user.choose_next_preset()
-    assert row.notice.text() == ""
+    assert row.notice.text() == user.message == ""
 
 
 def test_a_row_by_itself_ends_its_sentence_when_mended(qtbot: QtBot) -> None:
@@ -89,7 +91,6 @@ def test_a_row_by_itself_ends_its_sentence_when_mended(qtbot: QtBot) -> None:
 
 
 def type_in(row: QuantityRow, text: str) -> None:
-    """Type a text into the field of a row."""
     row.field.selectAll()
     QTest.keyClicks(row.field, text)
     QTest.keyClick(row.field, Qt.Key.Key_Return)
@@ -207,8 +208,7 @@ def test_a_sentence_moves_nothing_and_lies_beside_its_field_within_the_page(
     QApplication.processEvents()
     assert [row.geometry() for row in panel.rows.values()] == before
     notice = row.notice
-    page = notice.parentWidget()
-    assert page is not None
+    page = not_none(notice.parentWidget())
     field = QRect(row.field.mapTo(page, QPoint()), row.field.size())
     assert page.rect().contains(notice.geometry())
     assert not notice.geometry().intersects(field)

@@ -3,13 +3,16 @@
 from typing import Any
 
 import pytest
+from gui.kinds import collect
 from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
 from occ_gui.core.store import NO_GESTURE
-from occ_gui.scene.gesture import new_gesture
+from occ_gui.scene import gesture
+from occ_gui.scene.gesture import Gestures, new_gesture
 from occ_gui.scene.scene_store import SceneStore
 from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
 
 
 @pytest.fixture
@@ -19,10 +22,7 @@ def store(qapp: object, small_scene: Scene) -> SceneStore:
 
 @pytest.fixture
 def told(store: SceneStore) -> list[Scene]:
-    """Record the scenes that the store tells of."""
-    scenes: list[Scene] = []
-    store.changed.connect(scenes.append)
-    return scenes
+    return collect(store.changed)
 
 
 def test_a_change_is_emitted_with_the_new_scene(
@@ -111,7 +111,7 @@ def test_different_gestures_are_steps_of_their_own(
     assert store.scene == small_scene
 
 
-def test_a_gesture_that_ends_where_it_began_leaves_no_step(
+def test_a_gesture_that_ends_where_it_began_leaves_no_step_and_goes_on_after(
     store: SceneStore, small_scene: Scene
 ) -> None:
     gesture = new_gesture()
@@ -119,12 +119,6 @@ def test_a_gesture_that_ends_where_it_began_leaves_no_step(
     store.change(gesture, iso=small_scene.camera.iso)
     assert store.scene == small_scene
     assert not store.undo_stack.canUndo()
-
-
-def test_a_gesture_goes_on_after_passing_where_it_began(
-    store: SceneStore, small_scene: Scene
-) -> None:
-    gesture = new_gesture()
     for iso in (110.0, small_scene.camera.iso, 90.0):
         store.change(gesture, iso=iso)
     assert store.scene == small_scene.replace(iso=90.0)
@@ -206,20 +200,105 @@ def test_one_step_changes_scene_and_forced_effects_together(
     assert states == [(other, {})] * 2 + [(small_scene, {"jpeg": False})] * 2
 
 
-def test_releasing_all_effects_is_one_step(store: SceneStore) -> None:
+def test_a_change_of_the_scene_keeps_the_forced_effects_and_releasing_all_is_one_step(
+    store: SceneStore,
+) -> None:
     store.force("jpeg", False)
     store.force("vignetting", True)
     store.release_effects()
     assert store.settings.settings.force == {}
     store.undo_stack.undo()
     assert store.settings.settings.force == {"jpeg": False, "vignetting": True}
-
-
-def test_a_change_of_the_scene_keeps_the_forced_effects(store: SceneStore) -> None:
-    store.force("jpeg", False)
     gesture = new_gesture()
     store.change(gesture, iso=200.0)
     store.change(gesture, iso=300.0)
-    assert store.settings.settings.force == {"jpeg": False}
+    assert store.settings.settings.force == {"jpeg": False, "vignetting": True}
     store.undo_stack.undo()
-    assert store.settings.settings.force == {"jpeg": False}
+    assert store.settings.settings.force == {"jpeg": False, "vignetting": True}
+
+
+def test_changes_without_a_pause_are_one_gesture_and_no_others() -> None:
+    one, other = Gestures(), Gestures()
+    assert one.of_change() == one.of_change() == one.of_change()
+    assert len({one.of_change(), other.of_change(), new_gesture()}) == 3
+
+
+def test_a_pause_ends_a_gesture_unless_it_is_held(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gesture, "_PAUSE_MS", 1)
+    gestures = Gestures()
+    first = gestures.of_change()
+    qtbot.wait(10)
+    held = gestures.of_change(held=True)
+    qtbot.wait(10)
+    last = gestures.of_change()
+    assert held == first
+    assert last != first
+
+
+def test_a_gesture_that_has_ended_takes_nothing_more() -> None:
+    gestures = Gestures()
+    first = gestures.of_change()
+    gestures.end()
+    assert gestures.of_change(held=True) != first
+
+
+class Told:
+    def __init__(self) -> None:
+        self.scenes = store_of()
+        self.store = self.scenes.settings
+        self.changes: list[SimulationSettings] = []
+        self.refusals: list[str] = []
+        self.store.changed.connect(self.changes.append)
+        self.store.refused.connect(self.refusals.append)
+
+    def switch(self, force: dict[str, bool]) -> None:
+        self.scenes.put(self.scenes.scene, "switch", force=force)
+
+
+@pytest.fixture
+def heard() -> Told:
+    return Told()
+
+
+def test_noise_is_reused_at_first_and_a_setting_that_holds_already_is_not_emitted(
+    heard: Told,
+) -> None:
+    assert heard.store.settings == SimulationSettings(noise="reused")
+    heard.store.set_tolerance(heard.store.settings.tolerance)
+    heard.store.set_observable("image")
+    heard.store.set_noise("reused")
+    heard.switch({})
+    assert heard.changes == []
+
+
+def test_each_change_is_emitted_once_and_leaves_the_rest(heard: Told) -> None:
+    heard.store.set_tolerance(2.0)
+    heard.store.set_observable("profile")
+    heard.store.set_noise("exact")
+    heard.switch({"jpeg": True})
+    heard.switch({"jpeg": True, "flicker": False})
+    heard.switch({"flicker": False})
+    assert heard.store.settings == SimulationSettings(2.0, "profile", {"flicker": False}, "exact")
+    assert heard.changes[-1] == heard.store.settings
+    assert len(heard.changes) == 6
+
+
+def test_settings_once_emitted_never_change(heard: Told) -> None:
+    force = {"jpeg": True}
+    heard.switch(force)
+    before = heard.changes[0]
+    force["jpeg"] = False
+    assert before.force == {"jpeg": True}
+
+
+@pytest.mark.parametrize("tolerance", [-1.0, float("nan")])
+def test_a_tolerance_that_cannot_be_is_refused_with_a_sentence(
+    heard: Told, tolerance: float
+) -> None:
+    heard.store.set_tolerance(tolerance)
+    (sentence,) = heard.refusals
+    assert sentence.startswith("Tolerance cannot be ")
+    assert sentence.endswith(".")
+    assert heard.changes == []

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import add_widget
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QFontMetricsF
 from PySide6.QtWidgets import QSlider, QWidget
@@ -20,8 +21,7 @@ GAMMA = quantity("gamma")
 
 def scale_of(qtbot: QtBot, width: int) -> tuple[QWidget, SliderScale]:
     """Make a scale as wide as its slider, and the widget that keeps both alive."""
-    whole = QWidget()
-    qtbot.addWidget(whole)
+    whole = add_widget(qtbot, QWidget())
     slider = QSlider(Qt.Orientation.Horizontal, whole)
     scale = SliderScale(slider, GAMMA, whole)
     for part in (slider, scale):

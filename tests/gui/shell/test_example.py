@@ -1,17 +1,16 @@
 """The pane that the manual shows as an example is one, and shows what a picture's reading has."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 from documents import FOLDER, blocks, text_of
+from gui.kinds import SnapshotOf
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
 from occ_gui.shell.feature import Feature
 from occ_gui.shell.results import of_snapshot
-from occ_gui.simulation.snapshot import Snapshot
 
 
 @pytest.fixture
@@ -25,7 +24,7 @@ def example() -> Feature[Any]:
 
 
 def test_the_pane_of_the_manual_shows_the_stripes_of_each_picture(
-    qtbot: QtBot, example: Feature[Any], snapshot_of: Callable[..., Snapshot]
+    qtbot: QtBot, example: Feature[Any], snapshot_of: SnapshotOf
 ) -> None:
     found = snapshot_of()
     bench = PaneBench(qtbot, found.scene)

@@ -1,9 +1,10 @@
 """A declaration is all that the window needs of a pane: it is made when first seen, and asked."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
+from gui.kinds import SnapshotOf
 from gui.pane_bench import PlainWindow
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
@@ -13,7 +14,6 @@ from occ_gui.core.workspace import Workspace
 from occ_gui.shell.feature import Feature, Pane
 from occ_gui.shell.results import Board
 from occ_gui.shell.shell import Shell
-from occ_gui.simulation.snapshot import Snapshot
 from occ_model.scene.scene import Scene
 
 
@@ -93,9 +93,7 @@ def test_a_pane_is_made_when_it_is_first_seen(bench: Bench) -> None:
     assert bench.shell.pane("iso") is pane
 
 
-def test_a_seen_pane_follows_its_part_alone(
-    bench: Bench, snapshot_of: Callable[..., Snapshot]
-) -> None:
+def test_a_seen_pane_follows_its_part_alone(bench: Bench, snapshot_of: SnapshotOf) -> None:
     bench.see(True)
     bench.put(200.0)
     bench.store.put(replace(bench.store.workspace, frame_rate=24.0))

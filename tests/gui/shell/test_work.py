@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from gui.kinds import collect
 from gui.stores import store_of
 from pytestqt.qtbot import QtBot
 
@@ -91,8 +92,7 @@ def test_work_that_is_not_wanted_any_more_gives_nothing(bench: Bench, qtbot: QtB
 
 
 def test_a_failure_is_told_in_a_sentence(bench: Bench) -> None:
-    failures: list[str] = []
-    bench.work.failed.connect(failures.append)
+    failures = collect(bench.work.failed)
     bench.choose("bad")
     bench.wait()
     assert failures == ["The work failed: ValueError: no result."]
@@ -112,8 +112,7 @@ def test_the_last_result_stays_until_the_next_one_where_it_is_to(qtbot: QtBot, s
 
 def test_the_last_results_come_back_at_once(qtbot: QtBot) -> None:
     bench = Bench(qtbot, keep=2)
-    found: list[str] = []
-    bench.work.found.connect(found.append)
+    found = collect(bench.work.found)
     for name in ("threshold", "b", "c"):
         bench.choose(name)
         bench.wait()

@@ -1,12 +1,12 @@
 """The panes end with the results of the latest scene; one without a picture keeps the last."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from itertools import count
 from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, collect, not_none
 from gui.simulation.bench import Bench
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -14,15 +14,10 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.simulation import controller, jobs
 from occ_gui.simulation.controller import simulate
-from occ_gui.simulation.snapshot import Snapshot
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
 
 BEHIND_THE_CAMERA: dict[str, Any] = {"distance": 0.1, "yaw": 1.2}
-
-
-def test_the_first_scene_is_shown_without_being_asked_for(bench: Bench) -> None:
-    assert bench.scenes == [bench.store.scene]
 
 
 def test_every_changed_scene_ends_with_results_equal_to_it(bench: Bench) -> None:
@@ -47,14 +42,6 @@ def test_every_change_of_settings_ends_with_a_picture_of_them(bench: Bench) -> N
     assert bench.views[0].shown[-1].frame.plan.included == ()
 
 
-def test_undo_shows_the_scene_before(bench: Bench, small_scene: Scene) -> None:
-    bench.store.change(iso=200.0)
-    bench.wait_until_idle()
-    bench.store.undo_stack.undo()
-    bench.wait_until_idle()
-    assert bench.scenes[-1] == small_scene
-
-
 def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: QtBot) -> None:
     counts: list[int] = []
     bench.controller.snapshot_shown.connect(lambda _: counts.append(len(bench.views[1].shown)))
@@ -64,7 +51,7 @@ def test_all_views_show_one_result_before_it_is_announced(bench: Bench, qtbot: Q
     assert counts == [2]
 
 
-def test_a_scene_without_a_picture_says_why_and_views_stay(
+def test_a_scene_without_a_picture_says_why_views_stay_and_the_next_one_is_shown(
     bench: Bench, small_scene: Scene
 ) -> None:
     bench.store.change(**BEHIND_THE_CAMERA)
@@ -73,6 +60,13 @@ def test_a_scene_without_a_picture_says_why_and_views_stay(
     assert "behind the camera" in sentence
     assert sentence.endswith(".")
     assert bench.scenes == [small_scene]
+    bench.store.change(distance=1.0, yaw=0.2)
+    bench.wait_until_idle()
+    assert bench.scenes[-1] == bench.store.scene
+    assert len(bench.failures) == 1
+    bench.store.change(rows=100_000, columns=1_000_000)
+    bench.wait_until_idle()
+    assert "million pixels" in bench.failures[-1]
 
 
 def test_after_an_unexpected_failure_the_next_one_is_shown(
@@ -91,25 +85,7 @@ def test_after_an_unexpected_failure_the_next_one_is_shown(
     assert bench.scenes[-1] == bench.store.scene
 
 
-def test_after_a_scene_without_a_picture_the_next_one_is_shown(bench: Bench) -> None:
-    bench.store.change(**BEHIND_THE_CAMERA)
-    bench.wait_until_idle()
-    bench.store.change(distance=1.0, yaw=0.2)
-    bench.wait_until_idle()
-    assert bench.scenes[-1] == bench.store.scene
-    assert len(bench.failures) == 1
-
-
-def test_an_image_too_large_to_make_is_refused_with_a_sentence(bench: Bench) -> None:
-    bench.store.change(rows=100_000, columns=1_000_000)
-    bench.wait_until_idle()
-    (sentence,) = bench.failures
-    assert "million pixels" in sentence
-
-
-def test_the_snapshot_holds_what_the_model_says_of_the_scene(
-    snapshot_of: Callable[..., Snapshot],
-) -> None:
+def test_the_snapshot_holds_what_the_model_says_of_the_scene(snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(code=0b1011001110)
     scene = snapshot.frame.scene
     assert np.array_equal(snapshot.frame.image, occ.render(scene, noise="reused").image)
@@ -120,6 +96,12 @@ def test_the_snapshot_holds_what_the_model_says_of_the_scene(
     assert snapshot.band_undefined == ""
     # 24 chips of 100 us, 8 us a column
     assert snapshot.packet_columns == pytest.approx(24 * 100 / 8)
+    snapshot = snapshot_of(pattern="01011")
+    assert snapshot.sent == ()
+    assert snapshot.packet_columns == pytest.approx(5 * 100 / 8)
+    snapshot = snapshot_of(exposure_time=200e-6)
+    assert snapshot.band is None
+    assert "200 µs" in snapshot.band_undefined
 
 
 def test_simulation_and_reading_are_timed_apart(
@@ -136,7 +118,7 @@ def test_simulation_and_reading_are_timed_apart(
 
 
 def test_the_snapshot_holds_each_decoders_result_of_one_picture(
-    snapshot_of: Callable[..., Snapshot],
+    snapshot_of: SnapshotOf,
 ) -> None:
     snapshot = snapshot_of(exposure_time=136e-6, switching_frequency=20e3)
     results = (snapshot.decoded, *snapshot.others)
@@ -149,8 +131,7 @@ def test_the_snapshot_holds_each_decoders_result_of_one_picture(
 
 def test_a_decoder_asked_for_reads_this_scene_and_later_ones(bench: Bench) -> None:
     def read() -> list[str]:
-        shown = bench.controller._read
-        assert shown is not None
+        shown = not_none(bench.controller._read)
         return [result.decoder for result in shown.results]
 
     bench.wait_until_idle()
@@ -168,27 +149,13 @@ def test_a_decoder_asked_for_reads_this_scene_and_later_ones(bench: Bench) -> No
 
 
 def test_where_no_panel_is_found_every_decoder_says_so(
-    bare_snapshot_of: Callable[..., Snapshot],
+    bare_snapshot_of: SnapshotOf,
 ) -> None:
     snapshot = bare_snapshot_of(offset_x=50.0)  # of noise a decoder finds some brightest pixels
     assert snapshot.decoded.signal is None
     failures = {result.failure for result in (snapshot.decoded, *snapshot.others)}
     assert len(failures) == 1
     assert None not in failures
-
-
-def test_a_raw_pattern_sends_no_bits(snapshot_of: Callable[..., Snapshot]) -> None:
-    snapshot = snapshot_of(pattern="01011")
-    assert snapshot.sent == ()
-    assert snapshot.packet_columns == pytest.approx(5 * 100 / 8)
-
-
-def test_where_the_band_model_is_undefined_the_snapshot_says_why(
-    snapshot_of: Callable[..., Snapshot],
-) -> None:
-    snapshot = snapshot_of(exposure_time=200e-6)
-    assert snapshot.band is None
-    assert "200 µs" in snapshot.band_undefined
 
 
 def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
@@ -200,8 +167,7 @@ def test_the_panels_origin_stays_in_the_picture(small_scene: Scene) -> None:
 
 
 def test_stopping_during_a_simulation_returns_without_a_result(bench: Bench) -> None:
-    pictures: list[object] = []
-    bench.controller.picture_ready.connect(pictures.append)
+    pictures = collect(bench.controller.picture_ready)
     bench.store.change(iso=200.0)
     bench.controller.stop()
     QApplication.processEvents()

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from gui.kinds import collect
 from gui.simulation.bench import Bench
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QApplication
@@ -64,9 +65,7 @@ def test_no_reading_is_replaced_by_one_of_an_earlier_scene(
 def pictures(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[Picture]:
     """Draft pictures of any size, and keep all that are delivered."""
     monkeypatch.setattr(jobs, "SMALL", 0)
-    pictures: list[Picture] = []
-    bench.controller.picture_ready.connect(pictures.append)
-    return pictures
+    return collect(bench.controller.picture_ready)
 
 
 def test_a_draft_of_the_scene_comes_before_its_exact_picture(

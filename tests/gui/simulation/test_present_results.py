@@ -5,6 +5,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from gui.kinds import not_none
 from gui.simulation.bench import Bench
 
 import occ_model as occ
@@ -18,7 +19,6 @@ from occ_gui.simulation.snapshot import Snapshot
 
 @pytest.fixture
 def said() -> list[str]:
-    """List what is said."""
     return []
 
 
@@ -76,8 +76,7 @@ def test_a_picture_is_saved_of_the_scene_just_chosen_or_not_at_all(
     assert given == []
     assert said[-1] == "Saved picture.png: the camera's picture"
     expected = occ.render(store.scene, noise=bench.settings.settings.noise).camera_image
-    written = cv2.imread(str(path), cv2.IMREAD_UNCHANGED)
-    assert written is not None
+    written = not_none(cv2.imread(str(path), cv2.IMREAD_UNCHANGED))
     assert np.array_equal(written, expected)
     present.ask(given.append)
     assert len(given) == 1

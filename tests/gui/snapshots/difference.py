@@ -51,18 +51,7 @@ def tile_means(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def difference(found: Colours, expected: Colours) -> Difference:
-    """Compare two pictures of one size.
-
-    Parameters
-    ----------
-    found, expected
-        Shape (height, width, 3).
-
-    Raises
-    ------
-    ValueError
-        The pictures differ in size.
-    """
+    """Compare two pictures of one size, shape (height, width, 3)."""
     if found.shape != expected.shape:
         raise ValueError(f"the picture is {found.shape}, not {expected.shape}")
     _, similarity = structural_similarity(

@@ -10,7 +10,6 @@ _ROUNDS = 50
 
 
 def show(qtbot: QtBot, widget: QWidget, width: int, height: int) -> None:
-    """Show a widget in one size."""
     qtbot.addWidget(widget)
     widget.resize(width, height)
     widget.show()

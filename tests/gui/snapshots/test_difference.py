@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 import pyqtgraph as pg
 import pytest
+from gui.kinds import SnapshotOf
 from gui.snapshots.difference import Colours, difference
 from gui.snapshots.drawing import settled, show
 from PySide6.QtGui import QFont
@@ -13,11 +14,10 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.decoding.decode_view import DecodeView
 from occ_gui.profile.profile_view import ProfileView
-from occ_gui.simulation.snapshot import Snapshot
 
 
 @pytest.fixture
-def profile(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> ProfileView:
+def profile(qtbot: QtBot, snapshot_of: SnapshotOf) -> ProfileView:
     view = ProfileView()
     show(qtbot, view, 560, 260)
     view.show_reading(snapshot_of())
@@ -25,7 +25,7 @@ def profile(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> ProfileView:
 
 
 @pytest.fixture
-def decode(qtbot: QtBot, snapshot_of: Callable[..., Snapshot]) -> DecodeView:
+def decode(qtbot: QtBot, snapshot_of: SnapshotOf) -> DecodeView:
     view = DecodeView()
     show(qtbot, view, 380, 560)
     view.show_reading(snapshot_of())

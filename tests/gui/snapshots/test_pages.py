@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from gui.kinds import SnapshotOf, show_widget
 from gui.snapshots.drawing import show
 from PIL import Image
 from PySide6.QtWidgets import QWidget
@@ -11,7 +12,6 @@ from pytestqt.qtbot import QtBot
 from occ_gui.explanation.pane import ExplanationView
 from occ_gui.help.help_window import HelpWindow
 from occ_gui.photo.photo_view import PhotoView
-from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.welcome.welcome_dialog import WelcomeDialog
 from occ_model.photo.reading.load import Photo
 from occ_model.scene.scene import Scene
@@ -44,9 +44,7 @@ The last words.
 
 
 def test_the_three_doors_look_as_stored(qtbot: QtBot, matches_its_picture: Matches) -> None:
-    dialog = WelcomeDialog()
-    qtbot.addWidget(dialog)
-    dialog.show()
+    dialog = show_widget(qtbot, WelcomeDialog())
     matches_its_picture(dialog, "welcome")
 
 
@@ -63,7 +61,7 @@ def test_a_page_of_the_manual_looks_as_stored(
 
 
 def test_the_explanation_looks_as_stored(
-    qtbot: QtBot, matches_its_picture: Matches, snapshot_of: Callable[..., Snapshot]
+    qtbot: QtBot, matches_its_picture: Matches, snapshot_of: SnapshotOf
 ) -> None:
     view = ExplanationView()
     show(qtbot, view, 400, 360)

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 from accuracy_points import EACH_WAY
+from gui.kinds import SnapshotOf
 from gui.snapshots.drawing import show
 from matches import match_with
 from PySide6.QtWidgets import QWidget
@@ -29,7 +30,6 @@ from occ_gui.detection_map.rate_map import LINES, RateMap, TheoryFields, lattice
 from occ_gui.photo.match_result import MatchResult
 from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.profile_view import ProfileView
-from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.bench import BenchPoint
 from occ_model.results.bit_errors import BitErrors
 from occ_model.results.effect_costs import Forecast
@@ -39,7 +39,6 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.study.effect_differences import CompleteSimulation
 
-SnapshotOf = Callable[..., Snapshot]
 Matches = Callable[[QWidget, str], None]
 
 

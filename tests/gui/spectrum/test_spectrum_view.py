@@ -1,9 +1,8 @@
 """The pane of the spectrum shows the profile's frequencies and warns of lost light."""
 
-from collections.abc import Callable
-
 import numpy as np
 import pytest
+from gui.kinds import SnapshotOf, show_widget
 from gui.pane_bench import PaneBench
 from pytestqt.qtbot import QtBot
 
@@ -16,11 +15,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def view(qtbot: QtBot) -> SpectrumView:
-    view = SpectrumView()
-    qtbot.addWidget(view)
-    view.resize(500, 400)
-    view.show()
-    return view
+    return show_widget(qtbot, SpectrumView(), 500, 400)
 
 
 def measured(view: SpectrumView, snapshot: Snapshot) -> None:
@@ -28,7 +23,7 @@ def measured(view: SpectrumView, snapshot: Snapshot) -> None:
 
 
 def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
-    view: SpectrumView, snapshot_of: Callable[..., Snapshot]
+    view: SpectrumView, snapshot_of: SnapshotOf
 ) -> None:
     measured(view, snapshot_of(pattern="10", switching_frequency=8e3, exposure_time=50e-6))
     frequencies, amplitudes = view.amplitudes.getData()
@@ -37,14 +32,17 @@ def test_the_strongest_line_of_an_alternating_pattern_is_half_its_frequency(
     assert len(view._zeros) == 3
 
 
-def test_a_bright_panel_is_told_to_lose_light(
-    view: SpectrumView, snapshot_of: Callable[..., Snapshot]
+def test_a_bright_panel_is_told_to_lose_light_and_every_grey_level_is_in_view(
+    view: SpectrumView, snapshot_of: SnapshotOf
 ) -> None:
     measured(view, snapshot_of(iso=100.0))
     assert "0.0 % are white" in view.sentence.text()
     measured(view, snapshot_of(iso=6400.0, f_number=1.0))
     assert view.sentence.text().startswith("⚠")
     assert np.sum(view.bars.opts["height"]) == pytest.approx(100.0)
+    low, high = view.histogram.viewRange()[0]
+    assert low <= -0.5
+    assert high >= 255.5
 
 
 def test_the_pane_follows_the_simulation_while_it_is_seen(qtbot: QtBot, small_scene: Scene) -> None:
@@ -60,15 +58,7 @@ def test_the_pane_follows_the_simulation_while_it_is_seen(qtbot: QtBot, small_sc
     assert curve.accessibleDescription() == shown
 
 
-def test_every_grey_level_is_in_view(view: SpectrumView) -> None:
-    low, high = view.histogram.viewRange()[0]
-    assert low <= -0.5
-    assert high >= 255.5
-
-
-def test_only_the_panels_pixels_are_counted(
-    view: SpectrumView, snapshot_of: Callable[..., Snapshot]
-) -> None:
+def test_only_the_panels_pixels_are_counted(view: SpectrumView, snapshot_of: SnapshotOf) -> None:
     snapshot = snapshot_of(rows=800, distance=3.0)
     (left, top), (right, bottom) = snapshot.corners.min(axis=0), snapshot.corners.max(axis=0)
     image = snapshot.frame.camera_image

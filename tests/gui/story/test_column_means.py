@@ -7,7 +7,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from occ_gui.story.column_means import envelope, resampled, shrunk
-from occ_gui.story.curve_lines import lines_of
 
 COLUMNS = 40
 
@@ -31,14 +30,11 @@ def test_a_cell_is_the_mean_of_what_lies_under_it(first: float, span: float, cel
         assert found[:, cell] == pytest.approx(mean, abs=0.8)
 
 
-def test_fine_stripes_become_grey_and_not_coarser_ones() -> None:
+def test_fine_stripes_become_grey_and_not_coarser_ones_along_rows_too() -> None:
     stripes = np.tile(np.array([0, 200], dtype=np.uint8), (8, 500))
     edges = np.linspace(0.0, 1000.0, 97)
     assert np.ptp(resampled(stripes, edges, 8).astype(int)) < 25
     assert np.ptp(stripes[:, edges[:-1].astype(int)].astype(int)) == 200
-
-
-def test_rows_are_averaged_too() -> None:
     fine = np.tile(np.array([[0], [200]], dtype=np.uint8), (30, 10))
     np.testing.assert_array_equal(resampled(fine, np.arange(11.0), 10), 100)
 
@@ -67,18 +63,6 @@ def test_only_what_is_in_view_is_kept() -> None:
     positions = np.arange(3000.0)
     x, _ = envelope(positions, positions, 1000.5, 1010.5, 800)
     np.testing.assert_array_equal(x, np.arange(1000.0, 1012.0))
-
-
-def test_dashes_follow_the_curve_for_their_share_of_it() -> None:
-    xs = np.linspace(0.0, 400.0, 90)
-    ys = 40.0 * np.sin(xs / 15.0)
-    whole = sum(line.length() for line in lines_of(xs, ys))
-    assert whole == pytest.approx(np.hypot(np.diff(xs), np.diff(ys)).sum())
-    dashes = lines_of(xs, ys, (7.0, 5.0))
-    assert sum(line.length() for line in dashes) == pytest.approx(whole * 7 / 12, rel=0.02)
-    for line in dashes:
-        middle = (line.x1() + line.x2()) / 2
-        assert (line.y1() + line.y2()) / 2 == pytest.approx(np.interp(middle, xs, ys), abs=1e-6)
 
 
 @pytest.mark.parametrize("size", [(419, 3456), (4608, 3456), (64, 80), (30, 1000)])

@@ -1,6 +1,7 @@
 """Two cursors measure columns, time, levels and chips between them."""
 
 import pytest
+from gui.kinds import not_none, show_widget
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -14,10 +15,7 @@ from occ_gui.story.story_view import StoryView
 @pytest.fixture
 def story(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
     """Show the story of a scene, and measure in it."""
-    story = StoryView(QWidget())
-    qtbot.addWidget(story)
-    story.resize(900, 700)
-    story.show()
+    story = show_widget(qtbot, StoryView(QWidget()), 900, 700)
     story.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
     story.show_reading(snapshot)
     QApplication.processEvents()
@@ -30,8 +28,7 @@ def test_the_difference_is_that_of_the_model(story: StoryView, snapshot: Snapsho
     cursors = rows.crosshair.cursors
     cursors.move(0, 100.0, rows.crosshair.columns)
     cursors.move(1, 225.0, rows.crosshair.columns)
-    found = measure(cursors, scene, rows.profile.levels)
-    assert found is not None
+    found = not_none(measure(cursors, scene, rows.profile.levels))
     assert found.columns == 125.0
     assert found.time == pytest.approx(125 * scene.camera.readout_time)
     assert found.chips == pytest.approx(found.time * scene.transmitter.switching_frequency)
@@ -56,9 +53,6 @@ def test_a_cursor_is_dragged_in_any_row_and_stays_in_the_picture(
     assert rows.crosshair.column == chosen
     cursors.move(0, -50.0, rows.crosshair.columns)
     assert cursors.columns[0] == 0.0
-
-
-def test_without_measuring_there_are_no_cursors(story: StoryView) -> None:
     story.switch_measuring(False)
     assert story.rows.crosshair.cursors.columns == []
     assert not story.measured.isVisible()

@@ -1,22 +1,13 @@
 """The scales' ticks stand at the columns and times that they name."""
 
-from collections.abc import Callable
-from typing import Any
-
-import numpy as np
 import pytest
-from PySide6.QtWidgets import QWidget
+from gui.kinds import GreyPicture, SnapshotOf
 
-from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.story.scales import round_step
 from occ_gui.story.story_rows import StoryRows
 
-Grey = np.ndarray[Any, np.dtype[np.uint8]]
 
-
-def test_each_time_is_that_of_its_column(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
-) -> None:
+def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: SnapshotOf) -> None:
     snapshot = bare_snapshot_of(start_time=2.5e-3, readout_time=11e-6)
     rows.show_reading(snapshot)
     ticks = rows.time.ticks()
@@ -30,7 +21,7 @@ def test_each_time_is_that_of_its_column(
 
 @pytest.mark.parametrize("zoom", [1.0, 0.1, 3.0])
 def test_a_tick_is_drawn_where_the_rows_have_its_column(
-    rows: StoryRows, grey_picture: Callable[[QWidget], Grey], zoom: float
+    rows: StoryRows, grey_picture: GreyPicture, zoom: float
 ) -> None:
     rows.axis.zoom(zoom, 1500.0)
     for scale, line in ((rows.columns, 2), (rows.time, -3)):

@@ -1,6 +1,5 @@
 """All rows share one axis and one crosshair, and what they say there is the model's."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from math import floor
@@ -9,9 +8,11 @@ from unittest.mock import Mock
 
 import numpy as np
 import pytest
+from gui.kinds import Grey, GreyPicture, SnapshotOf, not_none
+from gui.wheel import turn_wheel_at
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPalette, QWheelEvent
-from PySide6.QtWidgets import QApplication, QWidget
+from PySide6.QtGui import QFont, QFontMetrics, QImage, QPainter, QPalette
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 import occ_model as occ
@@ -21,12 +22,10 @@ from occ_gui.story import code_row, stripes_row
 from occ_gui.story.bit_cells import draw_field, have_room_for_bits, have_room_for_marks
 from occ_gui.story.column_axis import GUTTER, Crosshair
 from occ_gui.story.column_means import resampled
-from occ_gui.story.column_values import in_words
+from occ_gui.story.column_values import ColumnValues, in_words
 from occ_gui.story.story_row import StoryRow
 from occ_gui.story.story_rows import StoryRows
 from occ_gui.widgets.state_look import State
-
-Grey = np.ndarray[Any, np.dtype[np.uint8]]
 
 
 def all_rows(rows: StoryRows) -> list[StoryRow]:
@@ -37,14 +36,8 @@ def place_of(row: StoryRow, column: float) -> QPoint:
     return QPointF(row.x_of(column), row.height() / 2).toPoint()
 
 
-def zoom_in(row: StoryRow, place: QPoint) -> None:
-    """Turn the wheel by a notch, away from its user."""
-    event = QWheelEvent(
-        QPointF(place), QPointF(row.mapToGlobal(place)), QPoint(), QPoint(0, 120),
-        Qt.MouseButton.NoButton, Qt.KeyboardModifier.NoModifier,
-        Qt.ScrollPhase.NoScrollPhase, False,
-    )  # fmt: skip
-    QApplication.sendEvent(row, event)
+def read_out(rows: StoryRows) -> ColumnValues:
+    return not_none(rows.values())
 
 
 @pytest.mark.parametrize("width", [520, 900, 1573])
@@ -80,7 +73,7 @@ def test_a_column_lies_at_the_same_pixel_in_every_row(
     ids=lambda changes: "".join(changes),
 )
 def test_what_is_kept_of_an_earlier_scene_looks_as_if_drawn_anew(
-    rows: StoryRows, snapshot_of: Callable[..., Snapshot], changes: dict[str, float]
+    rows: StoryRows, snapshot_of: SnapshotOf, changes: dict[str, float]
 ) -> None:
     for snapshot in (snapshot_of(), snapshot_of(**changes)):
         rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
@@ -92,7 +85,7 @@ def test_what_is_kept_of_an_earlier_scene_looks_as_if_drawn_anew(
 
 
 def test_the_stripes_show_each_column_at_its_place(
-    rows: StoryRows, snapshot: Snapshot, grey_picture: Callable[[QWidget], Grey]
+    rows: StoryRows, snapshot: Snapshot, grey_picture: GreyPicture
 ) -> None:
     rows.axis.zoom(0.2, 1400.0)
     drawn = grey_picture(rows.stripes)[rows.stripes.height() // 2]
@@ -106,7 +99,7 @@ def test_the_stripes_show_each_column_at_its_place(
 
 
 def test_a_draft_shows_the_stripes_at_the_same_place(
-    rows: StoryRows, snapshot: Snapshot, grey_picture: Callable[[QWidget], Grey]
+    rows: StoryRows, snapshot: Snapshot, grey_picture: GreyPicture
 ) -> None:
     exact, view = grey_picture(rows.stripes), rows.stripes.thumbnail._view
     draft = occ.render(snapshot.frame.scene, tolerance=np.inf, rows_step=7)
@@ -120,7 +113,7 @@ def test_a_draft_shows_the_stripes_at_the_same_place(
 @pytest.mark.parametrize("step", [1, 2, 7, 11, 22])
 @pytest.mark.parametrize("changes", [{}, {"distance": 0.4}, {"pitch": 0.2}])
 def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot], step: int, changes: dict[str, Any]
+    rows: StoryRows, bare_snapshot_of: SnapshotOf, step: int, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
     rows.show_picture(Picture.of(snapshot.frame, "camera"))
@@ -138,7 +131,7 @@ def test_of_a_draft_the_rows_that_show_the_panel_are_seen(
     "changes", [{}, {"exposure_time": 136e-6}, {"start_time": 3.3e-3, "readout_time": 11e-6}]
 )
 def test_the_values_at_the_crosshair_are_the_models(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot], changes: dict[str, Any]
+    rows: StoryRows, bare_snapshot_of: SnapshotOf, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
     scene, frame = snapshot.frame.scene, snapshot.frame
@@ -147,8 +140,7 @@ def test_the_values_at_the_crosshair_are_the_models(
     chips, frequency = occ.packet(scene), scene.transmitter.switching_frequency
     for column in (1, 1213, 1344, 1501):
         rows.crosshair.point_at(column + 0.2)
-        values = rows.values()
-        assert values is not None
+        values = read_out(rows)
         time = scene.model.start_time + column * scene.camera.readout_time
         assert (values.column, values.time) == (column, time)
         exact = Fraction(scene.model.start_time) + column * Fraction(scene.camera.readout_time)
@@ -159,49 +151,43 @@ def test_the_values_at_the_crosshair_are_the_models(
         assert f"column {column}" in words
         assert ("light on" in words) == bool(values.light)
         rows.choose_picture("receiver")
-        values = rows.values()
-        assert values is not None
+        values = read_out(rows)
         assert values.level == frame.signal[column]
         rows.choose_picture("camera")
 
 
-def test_the_bits_at_the_crosshair_are_those_read(rows: StoryRows, snapshot: Snapshot) -> None:
+def test_the_bits_at_the_crosshair_are_those_read_and_outside_the_picture_nothing_is_pointed_at(
+    rows: StoryRows, snapshot: Snapshot
+) -> None:
     code, result = rows.code, snapshot.decoded
     assert code.edges is not None
     read: dict[int | None, int | None] = {}
     for field in code.fields:
         rows.crosshair.point_at((code.edges[field.first] + code.edges[field.last]) / 2)
-        values = rows.values()
-        assert values is not None
+        values = read_out(rows)
         read[values.bit] = values.value
         assert values.state is (State.NEUTRAL if field.bit is None else State.GOOD)
     assert read.pop(None) is None
     assert read == dict(enumerate(result.bits.tolist()))
     assert code.accessibleDescription() == "sent 1011001110, received 1011001110, 0 wrong"
-
-
-def test_outside_the_picture_nothing_is_pointed_at(rows: StoryRows, snapshot: Snapshot) -> None:
     chosen = rows.crosshair.column
     for column in (-3.0, len(snapshot.profile) + 2.0):
         rows.crosshair.point_at(column)
         assert rows.crosshair.pointed is None
-        values = rows.values()
-        assert values is not None
+        values = read_out(rows)
         assert values.column == chosen
 
 
 def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qtbot: QtBot) -> None:
     light = rows.light
-    window = light.exposure_window()
-    assert window is not None
+    window = not_none(light.exposure_window())
     grabbed = (window[0] + window[1]) / 2
     button = Qt.MouseButton.LeftButton
     qtbot.mousePress(light, button, pos=place_of(light, grabbed))
     for moved in (20, 60, 100):
         qtbot.mouseMove(light, place_of(light, grabbed + moved))
     qtbot.mouseRelease(light, button, pos=place_of(light, grabbed + 100))
-    moved_window = light.exposure_window()
-    assert moved_window is not None
+    moved_window = not_none(light.exposure_window())
     assert rows.crosshair.column == moved_window[0]
     # A pixel of the mouse is less than one column here.
     assert moved_window[0] - window[0] == pytest.approx(100.0, abs=1.0)
@@ -209,19 +195,41 @@ def test_dragging_the_window_chooses_the_column_it_begins_at(rows: StoryRows, qt
     assert rows.axis.is_following
 
 
-def test_a_click_on_any_row_chooses_a_column(rows: StoryRows, qtbot: QtBot) -> None:
+def test_a_click_on_any_row_or_a_key_chooses_a_column_and_keys_zoom_and_fit(
+    rows: StoryRows, qtbot: QtBot
+) -> None:
     for row, column in zip(all_rows(rows), (1250, 1300, 1500, 1700), strict=True):
         qtbot.mouseClick(row, Qt.MouseButton.LeftButton, pos=place_of(row, column))
         assert rows.crosshair.column == pytest.approx(column, abs=1)
+    chosen, home = not_none(rows.crosshair.column), rows.axis.span
+    for key, moved in ((Qt.Key.Key_Right, 1), (Qt.Key.Key_PageUp, 11), (Qt.Key.Key_Left, 10)):
+        qtbot.keyClick(rows.light, key)
+        assert rows.crosshair.column == chosen + moved
+    qtbot.keyClick(rows.light, Qt.Key.Key_Plus)
+    assert rows.axis.span < home
+    qtbot.keyClick(rows.light, Qt.Key.Key_Home)
+    assert rows.axis.span == home
 
 
-def test_the_wheel_zooms_all_rows_about_the_mouse(rows: StoryRows) -> None:
+def test_the_wheel_zooms_all_rows_about_the_mouse_and_the_picture_is_never_out_of_view(
+    rows: StoryRows,
+) -> None:
     for row in all_rows(rows):
         before, span = row.x_of(1400.0), rows.axis.span
-        zoom_in(row, place_of(row, 1400.0))
+        turn_wheel_at(row, place_of(row, 1400.0))
         assert rows.axis.span < span
         assert all(each.x_of(1400.0) == pytest.approx(before, abs=1.5) for each in all_rows(rows))
     assert not rows.axis.is_following
+    for columns in (-1e5, 1e5):
+        rows.axis.pan(columns)
+        assert rows.axis.first < 3455.5
+        assert rows.axis.last > -0.5
+    for _ in range(60):
+        rows.axis.zoom(1.5, 1000.0)
+    assert rows.axis.span < 2.0 * 3456
+    for _ in range(60):
+        rows.axis.zoom(0.5, 1000.0)
+    assert rows.axis.span == 4.0
 
 
 def test_a_drag_moves_all_rows_and_a_double_click_fits(rows: StoryRows, qtbot: QtBot) -> None:
@@ -236,22 +244,15 @@ def test_a_drag_moves_all_rows_and_a_double_click_fits(rows: StoryRows, qtbot: Q
     assert rows.crosshair.column == chosen
     qtbot.mouseDClick(row, button, pos=start)
     assert (rows.axis.first, rows.axis.last) == home
-
-
-def test_the_keys_choose_zoom_and_fit(rows: StoryRows, qtbot: QtBot) -> None:
-    column, home = rows.crosshair.column, rows.axis.span
-    assert column is not None
-    for key, moved in ((Qt.Key.Key_Right, 1), (Qt.Key.Key_PageUp, 11), (Qt.Key.Key_Left, 10)):
-        qtbot.keyClick(rows.light, key)
-        assert rows.crosshair.column == column + moved
-    qtbot.keyClick(rows.light, Qt.Key.Key_Plus)
-    assert rows.axis.span < home
-    qtbot.keyClick(rows.light, Qt.Key.Key_Home)
-    assert rows.axis.span == home
+    row, place = rows.profile, place_of(rows.profile, 1400.0)
+    qtbot.mousePress(row, Qt.MouseButton.LeftButton, pos=place)
+    row.setCursor(Qt.CursorShape.ClosedHandCursor)
+    qtbot.mouseRelease(row, Qt.MouseButton.LeftButton, pos=place + QPoint(40, 0))
+    assert row.cursor().shape() != Qt.CursorShape.ClosedHandCursor
 
 
 def test_new_results_keep_a_range_that_the_user_chose(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
+    rows: StoryRows, bare_snapshot_of: SnapshotOf
 ) -> None:
     rows.axis.zoom(0.3, 1400.0)
     chosen = (rows.axis.first, rows.axis.last)
@@ -261,20 +262,9 @@ def test_new_results_keep_a_range_that_the_user_chose(
     assert rows.axis.span == pytest.approx(2.0 * 24 / 7e3 / 8e-6, rel=0.03)
 
 
-def test_the_picture_is_never_panned_out_of_view(rows: StoryRows) -> None:
-    for columns in (-1e5, 1e5):
-        rows.axis.pan(columns)
-        assert rows.axis.first < 3455.5
-        assert rows.axis.last > -0.5
-    for _ in range(60):
-        rows.axis.zoom(1.5, 1000.0)
-    assert rows.axis.span < 2.0 * 3456
-    for _ in range(60):
-        rows.axis.zoom(0.5, 1000.0)
-    assert rows.axis.span == 4.0
-
-
-def test_wrong_bits_are_marked_by_a_cross_and_in_words(rows: StoryRows, snapshot: Snapshot) -> None:
+def test_wrong_bits_are_marked_bits_without_columns_listed_and_refused_ones_not_ticked(
+    rows: StoryRows, snapshot: Snapshot
+) -> None:
     bits = snapshot.decoded.bits.copy()
     bits[3] ^= 1
     wrong = replace(snapshot, decoded=replace(snapshot.decoded, bits=bits, code=700))
@@ -284,20 +274,6 @@ def test_wrong_bits_are_marked_by_a_cross_and_in_words(rows: StoryRows, snapshot
     assert [rows.code.state_of(bit) for bit in (0, 1, 2, 4)] == [State.GOOD] * 4
     assert rows.code.accessibleDescription().endswith("1 wrong")
     assert rows.code.grab().toImage() != before
-
-
-def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:
-    rows.choose_decoder("matched")
-    assert rows.code.edges is None
-    assert rows.code.value_of(0) == 1
-    assert rows.profile.threshold is None
-    rows.choose_decoder("threshold")
-    assert rows.code.edges is not None
-
-
-def test_bits_without_columns_say_so_and_refused_ones_are_not_ticked(
-    rows: StoryRows, snapshot: Snapshot
-) -> None:
     decoded = replace(snapshot.decoded, headers=())
     assert decoded.failure is None
     assert decoded.bits.size
@@ -309,18 +285,22 @@ def test_bits_without_columns_say_so_and_refused_ones_are_not_ticked(
     assert {rows.code.state_of(bit) for bit in range(decoded.bits.size)} == {State.NEUTRAL}
 
 
-def test_the_legend_names_what_is_drawn(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
+def test_a_decoder_without_chips_lists_its_bits(rows: StoryRows) -> None:
+    rows.choose_decoder("matched")
+    assert rows.code.edges is None
+    assert rows.code.value_of(0) == 1
+    assert rows.profile.threshold is None
+    rows.choose_decoder("threshold")
+    assert rows.code.edges is not None
+
+
+def test_the_legend_names_what_is_drawn_and_why_the_band_model_drifts_or_ends(
+    rows: StoryRows, bare_snapshot_of: SnapshotOf
 ) -> None:
     assert rows.legend.shown == ("simulation", "threshold", "band")
     rows.show_reading(bare_snapshot_of(exposure_time=136e-6))
     assert rows.legend.shown == ("simulation", "threshold")
     assert rows.legend.note == "no band model here"
-
-
-def test_the_legend_says_why_the_band_model_drifts_or_ends(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot]
-) -> None:
     rows.show_reading(bare_snapshot_of(band_reading="literal"))
     assert "whole columns" in rows.legend.toolTip()
     assert "drift" in rows.legend.toolTip()
@@ -351,7 +331,7 @@ def test_the_legend_says_why_the_band_model_drifts_or_ends(
     ],
 )
 def test_extreme_scenes_are_drawn(
-    rows: StoryRows, bare_snapshot_of: Callable[..., Snapshot], changes: dict[str, Any]
+    rows: StoryRows, bare_snapshot_of: SnapshotOf, changes: dict[str, Any]
 ) -> None:
     snapshot = bare_snapshot_of(**changes)
     rows.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
@@ -360,28 +340,8 @@ def test_extreme_scenes_are_drawn(
         rows.choose_range(name)
         for row in all_rows(rows):
             assert not row.grab().isNull()
-    values = rows.values()
-    assert values is not None
+    values = read_out(rows)
     assert in_words(values, snapshot.frame.scene)
-
-
-def test_where_a_picture_has_fewer_columns_the_mouse_points_at_none_beyond_it() -> None:
-    crosshair = Crosshair()
-    crosshair.set_columns(100, 10)
-    crosshair.point_at(90.0)
-    assert crosshair.pointed == 90
-    crosshair.set_columns(50, 10)
-    assert crosshair.pointed is None
-
-
-def test_a_hand_that_holds_a_row_opens_as_the_button_is_released(
-    rows: StoryRows, qtbot: QtBot
-) -> None:
-    row, place = rows.profile, place_of(rows.profile, 1400.0)
-    qtbot.mousePress(row, Qt.MouseButton.LeftButton, pos=place)
-    row.setCursor(Qt.CursorShape.ClosedHandCursor)
-    qtbot.mouseRelease(row, Qt.MouseButton.LeftButton, pos=place + QPoint(40, 0))
-    assert row.cursor().shape() != Qt.CursorShape.ClosedHandCursor
 
 
 def test_the_chips_drawn_are_those_in_view(
@@ -425,11 +385,19 @@ def test_all_bits_of_a_row_have_their_mark_or_none(widths: tuple[float, ...], ma
     assert have_room_for_marks(metrics, widths) is marked
 
 
-def test_before_any_reading_the_profile_is_empty(qtbot: QtBot) -> None:
+def test_before_any_reading_the_profile_is_empty_and_no_column_beyond_the_picture_pointed_at(
+    qtbot: QtBot,
+) -> None:
     rows, painter = StoryRows(), Mock()
     qtbot.addWidget(rows)
     rows.profile.draw(painter, QRectF(100.0, 0.0, 700.0, 100.0))
     assert painter.mock_calls == []
+    crosshair = Crosshair()
+    crosshair.set_columns(100, 10)
+    crosshair.point_at(90.0)
+    assert crosshair.pointed == 90
+    crosshair.set_columns(50, 10)
+    assert crosshair.pointed is None
 
 
 @pytest.mark.parametrize("ratio", [1.0, 2.0])
@@ -457,7 +425,7 @@ def test_the_names_of_rows_do_not_touch_what_stands_beside_them(
 ) -> None:
     font = QFont()
     font.setPointSizeF(points)
-    for row in (rows.light, rows.stripes, rows.profile, rows.code):
+    for row in all_rows(rows):
         row.setFont(font)
         found = row._gutter_font()
         assert found.pointSizeF() <= points
@@ -471,7 +439,7 @@ def test_larger_text_has_the_room_that_it_needs(rows: StoryRows, points: float) 
     font = QFont()
     font.setPointSizeF(points)
     rows.setFont(font)
-    for row in (rows.light, rows.stripes, rows.profile, rows.code):
+    for row in all_rows(rows):
         assert row._gutter_font().pointSizeF() == points
         assert row.plot_area().left() == rows.axis.gutter >= GUTTER
     height = QFontMetrics(font).height()
@@ -484,7 +452,7 @@ def test_larger_text_has_the_room_that_it_needs(rows: StoryRows, points: float) 
 
 
 def test_a_chosen_column_that_the_panel_leaves_is_chosen_anew(
-    rows: StoryRows, snapshot_of: Callable[..., Snapshot]
+    rows: StoryRows, snapshot_of: SnapshotOf
 ) -> None:
     def panel() -> tuple[float, float]:
         columns = shown.corners[:, 0]

@@ -1,6 +1,7 @@
 """The pane of the story: its pages, its ranges, and the space that it needs."""
 
 import pytest
+from gui.kinds import show_widget
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
@@ -12,10 +13,7 @@ from occ_gui.story.story_view import StoryView
 @pytest.fixture
 def view(qtbot: QtBot, snapshot: Snapshot) -> StoryView:
     """Show the pane, with an empty widget for the whole picture."""
-    view = StoryView(QWidget(), ("threshold", "matched"))
-    qtbot.addWidget(view)
-    view.resize(900, 640)
-    view.show()
+    view = show_widget(qtbot, StoryView(QWidget(), ("threshold", "matched")), 900, 640)
     view.show_picture(Picture.of(snapshot.frame, "camera", snapshot.request))
     view.show_reading(snapshot)
     QApplication.processEvents()
@@ -57,9 +55,6 @@ def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     assert checked(view) == []
     view.rows.fit()
     assert checked(view) == ["panel"]
-
-
-def test_the_decoder_of_the_list_is_the_one_shown(view: StoryView) -> None:
     view.choose_decoder("matched")
     assert view.decoder.key() == "matched"
     assert view.rows.decoded is not None

@@ -5,6 +5,7 @@ from io import BytesIO
 from pathlib import Path
 
 import pytest
+from gui.kinds import add_widget, collect, not_none
 from gui.pane_bench import PaneBench
 from gui.stores import store_of
 from PIL import Image
@@ -38,7 +39,6 @@ def undrawn(monkeypatch: pytest.MonkeyPatch, png_of: Callable[[str], bytes]) -> 
 
 @pytest.fixture
 def png_of() -> Callable[[str], bytes]:
-    """Give a small picture for each board."""
 
     def png(name: str) -> bytes:
         buffer = BytesIO()
@@ -55,8 +55,7 @@ def store() -> SceneStore:
 
 @pytest.fixture
 def transmitter(qtbot: QtBot, store: SceneStore) -> Iterator[TransmitterController]:
-    window = QWidget()
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, QWidget())
     controller = TransmitterController(window, store, Preferences())
     yield controller
     controller.stop()
@@ -91,14 +90,17 @@ def test_its_entry_opens_it_on_the_scene_at_hand(qtbot: QtBot, small_scene: Scen
     bench.scenes.change(switching_frequency=14.7e3)
     bench.wait_until_idle()
     assert opened.take.isEnabled()
-    bench.shell.stop()
 
 
-def test_it_states_the_frequency_that_is_sent_and_its_error(dialog: TransmitterDialog) -> None:
+def test_it_states_the_frequency_that_is_sent_and_its_error_and_each_control_what_it_does(
+    dialog: TransmitterDialog,
+) -> None:
     assert "14.7058824 kHz, +400 ppm from the 14.7 kHz asked" in dialog.facts.text()
     assert "5,000 ppm" in dialog.facts.text()
     assert dialog.wiring.accessibleDescription() == "Arduino Uno"
     assert not dialog.wiring.pixmap().isNull()
+    assert dialog.board.accessibleName() == "Board"
+    assert all(control.toolTip() for control in (dialog.save, dialog.take, dialog.board))
 
 
 def test_another_board_sends_another_frequency_and_is_there_again(
@@ -110,8 +112,7 @@ def test_another_board_sends_another_frequency_and_is_there_again(
     assert dialog.wiring.accessibleDescription() == "ESP32"
     dialog.reject()
     transmitter.show()
-    again = transmitter.dialog
-    assert again is not None
+    again = not_none(transmitter.dialog)
     assert again is not dialog
     assert again.board.key() == "esp32"
     wait(qtbot, transmitter)
@@ -137,12 +138,10 @@ def test_a_drawing_that_fails_is_told_where_the_dialog_is_open_still(
         raise OutputError("It cannot be drawn.")
 
     monkeypatch.setattr(transmitter_controller, "draw_wiring", fail)
-    window = QWidget()
-    qtbot.addWidget(window)
+    window = add_widget(qtbot, QWidget())
     transmitter = TransmitterController(window, store, Preferences())
     transmitter.show()
-    dialog = transmitter.dialog
-    assert dialog is not None
+    dialog = not_none(transmitter.dialog)
     if not is_open:
         dialog.reject()
     wait(qtbot, transmitter)
@@ -189,29 +188,18 @@ def test_saving_makes_a_new_folder_each_time(
     assert len(list(tmp_path.iterdir())) == 2
 
 
-def test_what_cannot_be_saved_is_said_in_the_dialog(
+def test_what_cannot_be_saved_is_said_in_the_dialog_and_when_closed_in_the_status_line(
     transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot, tmp_path: Path
 ) -> None:
     (tmp_path / "file").touch()
     transmitter.save(tmp_path / "file")
     wait(qtbot, transmitter)
     assert "cannot be made" in dialog.note.text()
-
-
-def test_a_closed_dialog_tells_of_saving_in_the_status_line(
-    transmitter: TransmitterController, dialog: TransmitterDialog, qtbot: QtBot, tmp_path: Path
-) -> None:
-    said: list[str] = []
-    transmitter.status_message.connect(said.append)
+    said = collect(transmitter.status_message)
     transmitter.save(tmp_path)
     dialog.reject()
     qtbot.waitUntil(lambda: bool(said))
     assert said[-1].startswith("Saved 8 files")
-
-
-def test_each_control_has_a_name_and_says_what_it_does(dialog: TransmitterDialog) -> None:
-    assert dialog.board.accessibleName() == "Board"
-    assert all(control.toolTip() for control in (dialog.save, dialog.take, dialog.board))
 
 
 def test_folders_of_one_name_are_numbered_up_to_a_limit(

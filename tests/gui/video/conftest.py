@@ -48,13 +48,11 @@ def film_scene() -> Scene:
 
 @pytest.fixture
 def film(film_scene: Scene) -> Video:
-    """Simulate a film of six frames."""
     return occ.render_video(film_scene, 6, occ.Recording(frame_rate=30.0))
 
 
 @pytest.fixture
 def film_file(film: Video, tmp_path: Path) -> Path:
-    """Write the film to a file."""
     path = tmp_path / "stripes.avi"
     rows, columns = film.shape
     writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 30.0, (columns, rows))

@@ -5,6 +5,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from gui.kinds import not_none
 
 from occ_gui.video import camera
 from occ_gui.video.camera import CameraDevice, CameraSource, find_cameras
@@ -88,8 +89,7 @@ def test_a_camera_that_is_not_there_is_a_sentence() -> None:
 def test_a_camera_gives_pictures_until_it_is_unplugged(capture: FakeCapture) -> None:
     source = CameraSource(CameraDevice(0, "Webcam"))
     source.open()
-    picture = source.read()
-    assert picture is not None
+    picture = not_none(source.read())
     assert picture.pixels.shape == (2, 3, 3)
     assert picture.time >= 0.0
     assert source.read() is None

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from gui.kinds import show_widget
 from PySide6.QtGui import QTextCursor
 from pytestqt.qtbot import QtBot
 
@@ -12,10 +13,7 @@ from occ_model.results.fact import Fact
 
 @pytest.fixture
 def view(qtbot: QtBot) -> DataView:
-    view = DataView()
-    qtbot.addWidget(view)
-    view.show()
-    return view
+    return show_widget(qtbot, DataView())
 
 
 def reading(text: str = "", *figures: str, sentences: tuple[str, ...] = ()) -> FilmReading:
@@ -24,7 +22,9 @@ def reading(text: str = "", *figures: str, sentences: tuple[str, ...] = ()) -> F
     return FilmReading(np.zeros(0), states, text=text, facts=shown, sentences=sentences)
 
 
-def test_text_that_grows_keeps_what_is_selected(view: DataView) -> None:
+def test_text_that_grows_keeps_what_is_selected_and_is_followed_where_its_end_is_in_view(
+    view: DataView,
+) -> None:
     view.show_reading(reading("HEL"))
     cursor = view.text.textCursor()
     cursor.setPosition(0)
@@ -35,11 +35,18 @@ def test_text_that_grows_keeps_what_is_selected(view: DataView) -> None:
     assert view.text.textCursor().selectedText() == "HE"
     view.show_reading(reading("J.LLO"))
     assert view.text.toPlainText() == "J.LLO"
+    text = "\n".join(map(str, range(200)))
+    view.show_reading(reading(text))
+    bar = view.text.verticalScrollBar()
+    bar.setValue(bar.maximum())
+    view.show_reading(reading(text := text + "\nmore" * 50))
+    assert bar.value() == bar.maximum()
+    bar.setValue(7)
+    view.show_reading(reading(text + "\nmore" * 50))
+    assert bar.value() == 7
 
 
-def test_figures_stand_in_their_order_and_go_when_they_are_not_given(
-    view: DataView, qtbot: QtBot
-) -> None:
+def test_figures_stand_in_their_order_above_what_is_not_sure(view: DataView, qtbot: QtBot) -> None:
     view.show_reading(reading("", "b", "d"))
     view.show_reading(reading("", "a", "b", "c", "d"))
 
@@ -52,22 +59,7 @@ def test_figures_stand_in_their_order_and_go_when_they_are_not_given(
     assert view.labels["c"].toolTip() == "What c is."
     view.show_reading(reading("", "d", "a"))
     assert [view.labels[name].isVisible() for name in "abcd"] == [True, False, False, True]
-
-
-def test_what_is_not_sure_is_said_below(view: DataView) -> None:
     view.show_reading(reading(sentences=("One.", "Two.")))
     assert view.sentences.text() == "One.\nTwo."
     view.show_reading(reading())
     assert not view.sentences.isVisible()
-
-
-def test_text_that_grows_is_followed_only_where_its_end_is_in_view(view: DataView) -> None:
-    text = "\n".join(map(str, range(200)))
-    view.show_reading(reading(text))
-    bar = view.text.verticalScrollBar()
-    bar.setValue(bar.maximum())
-    view.show_reading(reading(text := text + "\nmore" * 50))
-    assert bar.value() == bar.maximum()
-    bar.setValue(7)
-    view.show_reading(reading(text + "\nmore" * 50))
-    assert bar.value() == 7

@@ -69,7 +69,7 @@ def test_a_draft_lies_where_the_whole_picture_does(request_of: FrameRequest) -> 
     assert abs(draft.region.last_row - whole.region.last_row) <= 8
 
 
-def test_a_scene_that_cannot_be_filmed_is_a_sentence_beside_the_film(
+def test_a_scene_that_cannot_be_filmed_is_a_sentence_and_a_frame_that_is_not_there_refused(
     request_of: FrameRequest, film: Video
 ) -> None:
     fast = occ.Recording(frame_rate=1000.0)
@@ -79,9 +79,6 @@ def test_a_scene_that_cannot_be_filmed_is_a_sentence_beside_the_film(
     assert shown.film is not None
     alone = shown_frame(replace(request_of, recording=fast))
     assert (alone.story, alone.time) == (None, None)
-
-
-def test_a_frame_that_the_film_has_not_is_refused(request_of: FrameRequest, film: Video) -> None:
     with pytest.raises(OccError):
         shown_frame(replace(request_of, film=film, index=99))
 

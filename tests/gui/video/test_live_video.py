@@ -59,16 +59,13 @@ def test_the_newest_picture_wins_and_none_comes_twice() -> None:
     video.stop()
 
 
-def test_lines_become_columns() -> None:
+def test_lines_become_columns_and_colours_their_luma() -> None:
     pixels = np.arange(6, dtype=np.uint8).reshape(2, 3)
     for axis, expected in (("columns", pixels), ("lines", pixels.T)):
         video = LiveVideo(ListedSource([pixels]), axis)
         video.start()
         assert next(iter(video)).image.tolist() == expected.tolist()
         video.stop()
-
-
-def test_a_coloured_picture_gives_its_luma() -> None:
     pixels = np.zeros((2, 3, 3), dtype=np.uint8)
     pixels[..., 1] = 200  # green
     video = LiveVideo(ListedSource([pixels]), "columns")
@@ -77,7 +74,7 @@ def test_a_coloured_picture_gives_its_luma() -> None:
     video.stop()
 
 
-def test_what_ends_without_being_asked_to_says_so_and_is_released() -> None:
+def test_what_ends_without_being_asked_to_says_so_and_what_is_stopped_has_no_problem() -> None:
     source = ListedSource(numbered(1))
     video = LiveVideo(source, "columns")
     video.start()
@@ -85,9 +82,6 @@ def test_what_ends_without_being_asked_to_says_so_and_is_released() -> None:
     video._thread.join(60)
     assert video.problem == "Listed gives no more pictures: it has ended or is unplugged."
     assert not source.is_open
-
-
-def test_what_is_stopped_has_no_problem_and_is_released() -> None:
     source = StepwiseSource(numbered(2))
     video = LiveVideo(source, "columns")
     video.start()

@@ -1,6 +1,7 @@
 """Player: the film runs at its own speed, and stands at its ends."""
 
 import pytest
+from gui.kinds import collect
 
 from occ_gui.video.player import FilmPlayer
 
@@ -35,8 +36,7 @@ def pass_time(player: FilmPlayer, milliseconds: int) -> None:
 
 
 def test_a_film_runs_at_its_own_speed_and_leaves_late_frames_out(player: FilmPlayer) -> None:
-    shown: list[int] = []
-    player.wanted.connect(shown.append)
+    shown = collect(player.wanted)
     player.play()
     for milliseconds in (50, 60, 10, 500):
         pass_time(player, milliseconds)
@@ -46,13 +46,21 @@ def test_a_film_runs_at_its_own_speed_and_leaves_late_frames_out(player: FilmPla
     assert not player.is_playing
 
 
-def test_it_plays_on_from_the_frame_that_was_sought(player: FilmPlayer) -> None:
+def test_it_plays_on_from_the_frame_that_was_sought_and_a_step_stops_it(player: FilmPlayer) -> None:
     player.play()
     pass_time(player, 300)
     player.seek(20)
     pass_time(player, 200)
     assert player.index == 22
     assert player.is_playing
+    player.step(1)
+    assert not player.is_playing
+    assert player.index == 23
+    player.seek(1)
+    player.step(-5)
+    assert player.index == 0
+    player.step(100)
+    assert player.index == 29
 
 
 def test_at_the_end_it_begins_anew(player: FilmPlayer) -> None:
@@ -62,34 +70,17 @@ def test_at_the_end_it_begins_anew(player: FilmPlayer) -> None:
     assert player.is_playing
     player.toggle()
     assert not player.is_playing
-
-
-def test_a_step_stops_and_stays_within_the_film(player: FilmPlayer) -> None:
-    player.play()
-    player.step(1)
-    assert not player.is_playing
-    assert player.index == 1
-    player.step(-5)
-    assert player.index == 0
-    player.step(100)
-    assert player.index == 29
-
-
-def test_a_film_that_is_shorter_than_it_says_ends_earlier(player: FilmPlayer) -> None:
     player.seek(29)
     player.set_count(12)
     assert player.index == 11
 
 
-def test_a_single_frame_does_not_play(player: FilmPlayer) -> None:
-    player.set_film(1, None)
-    player.play()
-    assert not player.is_playing
-
-
-def test_another_film_does_not_play_by_itself(player: FilmPlayer) -> None:
+def test_another_film_does_not_play_by_itself_and_a_single_frame_never(player: FilmPlayer) -> None:
     player.play()
     assert player.is_playing
     player.set_film(10, 5.0)
     assert not player.is_playing
     assert (player.index, player.count) == (0, 10)
+    player.set_film(1, None)
+    player.play()
+    assert not player.is_playing

@@ -27,7 +27,9 @@ def packet(number: int, bits: list[int] | None, wrong: int | None) -> PacketRead
     return PacketReading(number, 0, 0.002 * number, 0, 1.0, read, wrong)
 
 
-def test_a_packet_is_read_only_if_it_is_as_the_others() -> None:
+def test_a_packet_is_read_only_if_it_is_as_the_others_and_a_frame_where_its_place_is_known() -> (
+    None
+):
     found = [
         packet(0, [1, 0], 0),
         packet(1, [1, 1], 1),
@@ -40,6 +42,10 @@ def test_a_packet_is_read_only_if_it_is_as_the_others() -> None:
     assert marks.states.tolist() == expected
     assert marks.ends.tolist() == pytest.approx([0.002, 0.004, 0.006, 0.008])
     assert not len(marks_of_packets(SentPackets()))
+    chips = np.array([1, 0], dtype=np.uint8)
+    assert state_of_frame(FrameReading(0, 0.0, chips=chips, place=3)) is MarkState.READ
+    assert state_of_frame(FrameReading(0, 0.0, chips=chips)) is MarkState.UNCHECKED
+    assert state_of_frame(FrameReading(0, 0.0, failure="Dark.")) is MarkState.LOST
 
 
 def test_millions_of_packets_have_a_few_marks_that_cover_the_film() -> None:
@@ -52,13 +58,6 @@ def test_millions_of_packets_have_a_few_marks_that_cover_the_film() -> None:
     assert marks.ends.tolist() == pytest.approx(
         [5.15, 5.2, 100_005.0, 3e5 + 0.4, 3e5 + 0.5, 3e5 + 1]
     )
-
-
-def test_a_frame_is_read_where_its_place_is_known() -> None:
-    chips = np.array([1, 0], dtype=np.uint8)
-    assert state_of_frame(FrameReading(0, 0.0, chips=chips, place=3)) is MarkState.READ
-    assert state_of_frame(FrameReading(0, 0.0, chips=chips)) is MarkState.UNCHECKED
-    assert state_of_frame(FrameReading(0, 0.0, failure="Dark.")) is MarkState.LOST
 
 
 def test_the_end_is_what_the_model_reads_of_the_whole_film(film: Video, film_scene: Scene) -> None:

@@ -1,6 +1,7 @@
 """Form of the recording: values as people write them, and what the gap between frames is."""
 
 import pytest
+from gui.kinds import collect, show_widget
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -12,10 +13,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def form(qtbot: QtBot) -> RecordingForm:
-    form = RecordingForm()
-    qtbot.addWidget(form)
-    form.show()
-    return form
+    return show_widget(qtbot, RecordingForm())
 
 
 def enter(qtbot: QtBot, form: RecordingForm, name: str, text: str) -> None:
@@ -31,7 +29,9 @@ def test_each_declared_quantity_has_a_named_field(form: RecordingForm) -> None:
         assert declared.meaning in form.fields[declared.name].toolTip()
 
 
-def test_values_are_taken_as_people_write_them(form: RecordingForm, qtbot: QtBot) -> None:
+def test_values_are_taken_as_people_write_them_and_refused_out_of_range(
+    form: RecordingForm, qtbot: QtBot
+) -> None:
     changes: list[None] = []
     form.changed.connect(lambda: changes.append(None))
     enter(qtbot, form, "frame_rate", "120")
@@ -41,13 +41,9 @@ def test_values_are_taken_as_people_write_them(form: RecordingForm, qtbot: QtBot
     assert (recording.frame_rate, recording.frame_jitter) == (120.0, pytest.approx(20e-6))
     assert recording.camera_drift == pytest.approx(-50e-6)
     assert len(changes) == 3
-
-
-def test_a_value_out_of_range_is_refused_with_a_sentence(form: RecordingForm, qtbot: QtBot) -> None:
-    refusals: list[str] = []
-    form.refused.connect(refusals.append)
+    refusals = collect(form.refused)
     enter(qtbot, form, "frame_rate", "-3")
-    assert form.recording == occ.Recording()
+    assert form.recording == recording
     assert len(refusals) == 1
     assert "Frame rate cannot be " in refusals[0]
 

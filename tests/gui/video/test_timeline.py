@@ -2,13 +2,16 @@
 
 import numpy as np
 import pytest
+from gui.kinds import add_widget, collect, show_widget
+from hypothesis import given
+from hypothesis import strategies as st
 from PySide6.QtCore import QPoint, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
 from occ_gui.video.mark_look import draw_mark
 from occ_gui.video.marks import Marks, MarkState, frame_marks
-from occ_gui.video.timeline import Timeline
+from occ_gui.video.timeline import Timeline, TimelineScale, tick_step
 from occ_gui.window.theme import palette_of
 
 LEFT = Qt.MouseButton.LeftButton
@@ -16,8 +19,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 @pytest.fixture
 def timeline(qtbot: QtBot) -> Timeline:
-    timeline = Timeline()
-    qtbot.addWidget(timeline)
+    timeline = add_widget(qtbot, Timeline())
     timeline.resize(700, timeline.sizeHint().height())
     states = np.array([1, 1, 3, 2, 0, 0, 0, 0, 0, 0, 0, 0], dtype=np.uint8)
     timeline.show_frames(frame_marks(np.arange(12) / 30.0, states, 1 / 30.0))
@@ -26,15 +28,16 @@ def timeline(qtbot: QtBot) -> Timeline:
 
 
 def test_a_click_shows_the_frame_that_it_hits(timeline: Timeline, qtbot: QtBot) -> None:
-    sought: list[int] = []
-    timeline.sought.connect(sought.append)
+    sought = collect(timeline.sought)
     for index in (5, 11, 0):
         middle = timeline.x_of((index + 0.5) / 30.0)
         qtbot.mouseClick(timeline, LEFT, pos=QPoint(round(middle), 20))
     assert sought == [5, 11, 0]
 
 
-def test_keys_step_to_the_ends_and_not_beyond(timeline: Timeline, qtbot: QtBot) -> None:
+def test_keys_step_to_the_ends_and_not_beyond_and_the_space_bar_asks_to_play(
+    timeline: Timeline, qtbot: QtBot
+) -> None:
     keys = Qt.Key
     for key, index in (
         (keys.Key_Left, 0), (keys.Key_Right, 1), (keys.Key_PageDown, 11), (keys.Key_Right, 11),
@@ -42,9 +45,6 @@ def test_keys_step_to_the_ends_and_not_beyond(timeline: Timeline, qtbot: QtBot) 
     ):  # fmt: skip
         qtbot.keyClick(timeline, key)
         assert timeline.index == index
-
-
-def test_the_space_bar_asks_to_play(timeline: Timeline, qtbot: QtBot) -> None:
     with qtbot.waitSignal(timeline.play_asked):
         qtbot.keyClick(timeline, Qt.Key.Key_Space)
 
@@ -99,9 +99,7 @@ def test_frames_whose_times_jump_are_shown_for_their_own_time_only(
 
 
 def test_no_film_is_no_trouble(qtbot: QtBot) -> None:
-    timeline = Timeline()
-    qtbot.addWidget(timeline)
-    timeline.show()
+    timeline = show_widget(qtbot, Timeline())
     qtbot.keyClick(timeline, Qt.Key.Key_End)
     qtbot.mouseClick(timeline, LEFT)
     assert timeline.index == 0
@@ -114,3 +112,33 @@ def test_the_names_of_the_rows_fit_beside_them_in_any_font(timeline: Timeline, p
     timeline.setFont(font)
     room = timeline.x_of(0.0)
     assert room > timeline.fontMetrics().horizontalAdvance("packets")
+
+
+@given(st.lists(st.sampled_from(list(MarkState)), min_size=1, max_size=300), st.integers(1, 40))
+def test_bins_hold_each_mark_once(states: list[MarkState], bins: int) -> None:
+    times = np.arange(len(states)) / 30.0
+    marks = frame_marks(times, np.array(states, dtype=np.uint8), 1.0 / 30.0)
+    scale = TimelineScale.of(marks)
+    counts = marks.counted(np.linspace(scale.first, scale.last, bins + 1))
+    assert counts.shape == (bins, len(MarkState))
+    assert counts.sum(axis=0).tolist() == [states.count(state) for state in MarkState]
+
+
+def test_each_frame_lasts_until_the_next_one() -> None:
+    marks = frame_marks([0.0, 0.03, 0.07], np.zeros(3, dtype=np.uint8), 0.04)
+    assert marks.ends.tolist() == pytest.approx([0.03, 0.07, 0.11])
+    assert not len(frame_marks([], np.zeros(0, dtype=np.uint8), 0.04))
+    assert not len(Marks())
+    scale = TimelineScale(1.0, 3.0)
+    assert scale.share(2.0) == 0.5
+    assert scale.time(scale.share(2.7)) == pytest.approx(2.7)
+
+
+@given(st.floats(1e-4, 1e5), st.integers(100, 4000))
+def test_ticks_are_apart_and_their_numbers_differ(span: float, width: int) -> None:
+    step, digits = tick_step(span, width)
+    assert step / span * width >= 79.0
+    assert step / span * width <= 250.0
+    first, second = f"{step:.{digits}f}", f"{2 * step:.{digits}f}"
+    assert float(first) == pytest.approx(step)
+    assert first != second

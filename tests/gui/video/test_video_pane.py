@@ -7,9 +7,8 @@ from pathlib import Path
 
 import pytest
 from film_source import FilmSource
+from gui.kinds import not_none
 from gui.user import User
-from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
@@ -50,10 +49,10 @@ def test_nothing_of_films_is_loaded_before_the_mode_is_shown(application: Applic
     assert application.shell.is_idle
 
 
-def test_a_film_is_opened_read_and_seen_beside_the_simulation(
+def test_a_film_is_opened_read_and_seen_beside_the_simulation_along_either_axis(
     application: Application, user: User, film_file: Path
 ) -> None:
-    application.files.open_file(film_file)
+    application.window.dropped.emit([film_file])
     user.wait_until_idle()
     pane = application.video.wiring
     user.wait_until_idle()
@@ -64,14 +63,6 @@ def test_a_film_is_opened_read_and_seen_beside_the_simulation(
     assert MarkState.PENDING not in states(pane)
     assert film_file in application.preferences.files
     assert pane.view.form.recording.frame_rate == 30.0
-
-
-def test_the_axis_that_was_scanned_can_be_chosen(
-    application: Application, user: User, film_file: Path
-) -> None:
-    application.video.open(film_file)
-    user.wait_until_idle()
-    pane = application.video.wiring
     axis = pane.view.bar.axis
     assert axis.isVisible()
     assert axis.key() == "columns"
@@ -80,18 +71,6 @@ def test_the_axis_that_was_scanned_can_be_chosen(
     user.wait_until_idle()
     assert pane.view.bar.title.toolTip().startswith("stripes.avi, 60 x 1600")
     assert axis.key() == "lines"
-
-
-def test_a_film_that_is_dropped_is_opened(
-    application: Application, user: User, film_file: Path
-) -> None:
-    data = QMimeData()
-    data.setUrls([QUrl.fromLocalFile(str(film_file))])
-    buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
-    event = QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys)
-    application.window.dropEvent(event)
-    user.wait_until_idle()
-    assert application.video.path == film_file
 
 
 def test_the_menu_opens_and_closes_a_film(
@@ -145,8 +124,7 @@ def test_the_session_keeps_the_film(
     record = json.loads((tmp_path / "state" / "session-1.json").read_text())
     assert record["film"]["path"] == str(film_file)
     application.session.end()
-    last = SessionFile(tmp_path / "state").last
-    assert last is not None
+    last = not_none(SessionFile(tmp_path / "state").last)
     assert last.workspace.film.path == film_file
 
 
@@ -192,8 +170,7 @@ def test_a_camera_is_read_live_and_released_with_the_mode(
     source = FilmSource([*film] * 200, "Stand-in")
     pane.live.start(source)
     qtbot.waitUntil(lambda: pane.view.pictures.shown[0] and len(states(pane)) > 0)
-    video = pane.live.video
-    assert video is not None
+    video = not_none(pane.live.video)
     assert pane.view.bar.axis.key() == "columns"
     assert pane.view.bar.title.toolTip() == "Stand-in, live"
     assert not pane.view.transport.play.isEnabled()

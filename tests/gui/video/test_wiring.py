@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 import pytest
+from gui.kinds import collect
 from gui.stores import store_of
 from gui.video.conftest import ListedSource
 from PySide6.QtCore import Qt
@@ -24,13 +25,11 @@ Wait: TypeAlias = Callable[[], None]
 
 @pytest.fixture
 def scenes(film_scene: Scene) -> SceneStore:
-    """Store the scene of the films."""
     return store_of(film_scene)
 
 
 @pytest.fixture
 def pane(qtbot: QtBot, scenes: SceneStore) -> Iterator[VideoWiring]:
-    """Show the pane with a simulated film of six frames."""
     wiring = VideoWiring(scenes, Board())
     wiring.view.form.count.setValue(6)
     qtbot.addWidget(wiring.view)
@@ -44,7 +43,6 @@ def pane(qtbot: QtBot, scenes: SceneStore) -> Iterator[VideoWiring]:
 
 @pytest.fixture
 def wait(qtbot: QtBot, pane: VideoWiring) -> Wait:
-    """Wait until all that was asked for is shown."""
     return lambda: qtbot.waitUntil(lambda: pane.is_idle)
 
 
@@ -160,8 +158,7 @@ def test_cameras_are_looked_for_when_their_menu_opens(
 def test_the_simulated_film_is_saved_and_given_up(
     pane: VideoWiring, wait: Wait, tmp_path: Path, film_scene: Scene
 ) -> None:
-    said: list[str] = []
-    pane.status_message.connect(said.append)
+    said = collect(pane.status_message)
     pane.save(tmp_path / "film.gif")
     wait()
     assert said == ["Saved film.gif"]

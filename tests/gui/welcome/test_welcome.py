@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any, cast
 
 import pytest
+from gui.kinds import add_widget, show_widget
 from gui.pane_bench import PaneBench
 from PySide6.QtGui import QColor, QFont, QPalette
 from PySide6.QtWidgets import QApplication
@@ -23,10 +24,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def doors(qtbot: QtBot) -> WelcomeDialog:
-    dialog = WelcomeDialog()
-    qtbot.addWidget(dialog)
-    dialog.show()
-    return dialog
+    return show_widget(qtbot, WelcomeDialog())
 
 
 def test_the_page_comes_by_itself_only_once(qtbot: QtBot, small_scene: Scene) -> None:
@@ -53,14 +51,11 @@ def test_a_start_that_names_a_scene_is_no_first_one(asked: bool, tmp_path: Path)
     again.close()
 
 
-def test_each_door_says_what_is_behind_it(doors: WelcomeDialog) -> None:
+def test_each_door_says_what_is_behind_it_and_its_title_stands_out(doors: WelcomeDialog) -> None:
     for door in doors.doors.values():
         assert door.accessibleName()
         assert door.accessibleDescription().endswith(".")
         assert not door.grab().isNull()
-
-
-def test_the_title_of_a_door_stands_out_and_its_texts_fit(doors: WelcomeDialog) -> None:
     for door in doors.findChildren(Door):
         title, sentence = door._title.font(), door._sentence.font()
         assert title.bold()
@@ -73,8 +68,7 @@ def test_the_title_of_a_door_stands_out_and_its_texts_fit(doors: WelcomeDialog) 
 
 
 def test_the_picture_of_a_door_follows_the_theme(qtbot: QtBot) -> None:
-    door = Door("door-photo", "Title", "Sentence.")
-    qtbot.addWidget(door)
+    door = add_widget(qtbot, Door("door-photo", "Title", "Sentence."))
     pictures = []
     for colour in ("black", "white"):
         palette = door.palette()

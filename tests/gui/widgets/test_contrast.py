@@ -25,15 +25,13 @@ def test_the_contrast_is_that_of_published_examples(one: str, other: str, ratio:
 
 
 @pytest.mark.parametrize("colour", CURVES)
-def test_every_curve_can_be_seen_in_the_dark_and_keeps_its_hue(colour: str) -> None:
+def test_every_curve_can_be_seen_in_the_dark_and_is_that_of_print_in_the_light(
+    colour: str,
+) -> None:
     dark = palette_of("dark")
     ink = seen_on(dark, QColor(colour))
     assert contrast(ink, dark.color(QPalette.ColorRole.Base)) >= 4.5
     assert ink.hslHue() == pytest.approx(QColor(colour).hslHue(), abs=2)
-
-
-@pytest.mark.parametrize("colour", CURVES)
-def test_in_the_light_colours_are_those_of_print(colour: str) -> None:
     assert seen_on(palette_of("light"), QColor(colour)) == QColor(colour)
 
 

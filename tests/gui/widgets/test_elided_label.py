@@ -1,6 +1,7 @@
 """A text that is too long is shortened by dots, and whole in the tooltip."""
 
 import pytest
+from gui.kinds import show_widget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -11,10 +12,7 @@ LONG = "Photo a_name_that_goes_on_and_on_<b>and</b>_on_until_it_ends.png"
 
 @pytest.fixture
 def label(qtbot: QtBot) -> ElidedLabel:
-    label = ElidedLabel(LONG)
-    qtbot.addWidget(label)
-    label.show()
-    return label
+    return show_widget(qtbot, ElidedLabel(LONG))
 
 
 @pytest.mark.parametrize("width", [40, 120, 300])
@@ -32,12 +30,9 @@ def test_a_text_that_fits_is_shown_whole_and_literally(label: ElidedLabel) -> No
     assert label.sizeHint().width() > label.fontMetrics().horizontalAdvance(LONG[:-5])
 
 
-def test_the_tooltip_tells_the_whole_text(label: ElidedLabel) -> None:
+def test_the_tooltip_tells_the_whole_text_which_asks_for_no_width(label: ElidedLabel) -> None:
     label.resize(40, 20)
     assert label.toolTip() == in_tool_tip(LONG)
+    assert label.minimumSizeHint().width() == 0
     label.set_full_text("short")
     assert (label.text(), label.toolTip()) == ("short", "short")
-
-
-def test_a_long_text_asks_for_no_width(label: ElidedLabel) -> None:
-    assert label.minimumSizeHint().width() == 0

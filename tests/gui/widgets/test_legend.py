@@ -1,13 +1,10 @@
 """A legend tells lines apart by their kind as well as their colour."""
 
-from collections.abc import Callable
-
-import numpy as np
 import pytest
-from numpy.typing import NDArray
+from gui.kinds import GreyPicture, add_widget
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPen
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from occ_gui.widgets.legend import LineLegend, Sample
@@ -15,8 +12,7 @@ from occ_gui.widgets.legend import LineLegend, Sample
 
 @pytest.fixture
 def legend(qtbot: QtBot) -> LineLegend:
-    legend = LineLegend()
-    qtbot.addWidget(legend)
+    legend = add_widget(qtbot, LineLegend())
     legend.add_line("solid", QPen(QColor("black")), "a solid line")
     legend.add_line("dashed", QPen(QColor("black"), 1, Qt.PenStyle.DashLine), "a dashed line")
     legend.show()
@@ -37,7 +33,7 @@ def test_an_entry_is_shown_or_hidden_by_its_key(legend: LineLegend) -> None:
 
 
 def test_samples_of_one_colour_differ_by_their_dashes(
-    legend: LineLegend, grey_picture: Callable[[QWidget], NDArray[np.uint8]]
+    legend: LineLegend, grey_picture: GreyPicture
 ) -> None:
     for key in ("solid", "dashed"):
         legend.show_line(key, True)

@@ -1,6 +1,7 @@
 """The mark of an outdated result appears after a moment, and lets all input through."""
 
 import pytest
+from gui.kinds import add_widget, not_none
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QPalette
 from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
@@ -11,8 +12,7 @@ from occ_gui.widgets.outdated_mark import DELAY, OutdatedMark
 
 @pytest.fixture
 def pane(qtbot: QtBot) -> QWidget:
-    pane = QWidget()
-    qtbot.addWidget(pane)
+    pane = add_widget(qtbot, QWidget())
     QVBoxLayout(pane).addWidget(QPushButton("press"))
     pane.resize(200, 100)
     pane.show()
@@ -24,15 +24,17 @@ def mark(pane: QWidget) -> OutdatedMark:
     return OutdatedMark(pane)
 
 
-def test_a_result_that_is_a_moment_old_is_not_marked(mark: OutdatedMark) -> None:
+def test_a_result_that_stays_outdated_is_marked_and_one_that_is_a_moment_old_not(
+    mark: OutdatedMark, qtbot: QtBot
+) -> None:
     for age in (0.01, DELAY / 2, 0.9 * DELAY, 0.0, 0.5 * DELAY):
         mark.show_age(age, "computing…")
         assert mark.isHidden(), age
-
-
-def test_a_result_that_stays_outdated_is_marked(mark: OutdatedMark, qtbot: QtBot) -> None:
     mark.show_age(0.9 * DELAY, "computing…")
     qtbot.waitUntil(mark.isVisible)
+    mark.show_age(2 * DELAY, "computing…")
+    mark.show_age(0.8 * DELAY, "computing…")
+    assert mark.isVisible()
 
 
 def test_a_present_result_ends_the_wait_and_the_mark(mark: OutdatedMark, qtbot: QtBot) -> None:
@@ -46,17 +48,10 @@ def test_a_present_result_ends_the_wait_and_the_mark(mark: OutdatedMark, qtbot: 
     assert mark.isHidden()
 
 
-def test_a_mark_does_not_go_and_come_again(mark: OutdatedMark) -> None:
-    mark.show_age(2 * DELAY, "computing…")
-    mark.show_age(0.8 * DELAY, "computing…")
-    assert mark.isVisible()
-
-
 def test_the_mark_covers_the_pane_and_lets_input_through(
     mark: OutdatedMark, pane: QWidget, qtbot: QtBot
 ) -> None:
-    button = pane.findChild(QPushButton)
-    assert button is not None
+    button = not_none(pane.findChild(QPushButton))
     mark.show_age(1.0, "computing…")
     pane.resize(320, 160)
     assert mark.geometry() == pane.rect()

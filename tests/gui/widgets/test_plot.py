@@ -1,6 +1,7 @@
 """A plot shows the name of its lower axis only if it is high enough."""
 
 import pytest
+from gui.kinds import add_widget
 from PySide6.QtCore import QEvent
 from PySide6.QtGui import QImage, QPainter, QPalette
 from PySide6.QtWidgets import QApplication
@@ -23,13 +24,10 @@ def is_named(plot: Plot) -> bool:
     return bool(plot.getAxis("bottom").label.isVisible())
 
 
-def test_a_low_plot_leaves_the_name_out_and_a_high_one_has_it(plot: Plot) -> None:
+def test_a_low_plot_leaves_the_name_out_and_each_one_where_it_is_not_wanted(plot: Plot) -> None:
     for height, named in ((200, True), (60, False), (100, True)):
         plot.resize(300, height)
         assert is_named(plot) == named
-
-
-def test_a_name_that_is_not_wanted_is_left_out_at_every_height(plot: Plot) -> None:
     plot.resize(300, 200)
     plot.name_bottom(False)
     assert not is_named(plot)
@@ -44,8 +42,7 @@ def test_a_name_that_is_not_wanted_is_left_out_at_every_height(plot: Plot) -> No
 def test_a_curve_is_two_pixels_wide_on_every_screen(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch, ratio: float
 ) -> None:
-    plot = new_plot("name", "x", "y", QPalette())
-    qtbot.addWidget(plot)
+    plot = add_widget(qtbot, new_plot("name", "x", "y", QPalette()))
     curve = plot.add_curve(thin(SIMULATION))
     monkeypatch.setattr(plot, "devicePixelRatioF", lambda: ratio)
     QApplication.sendEvent(plot, QEvent(QEvent.Type.DevicePixelRatioChange))

@@ -1,6 +1,7 @@
 """A pane that is lower than its content scrolls, and is no higher than it is given."""
 
 import pytest
+from gui.kinds import show_widget
 from PySide6.QtCore import QSize
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
@@ -18,10 +19,7 @@ def test_the_pane_asks_for_its_contents_size_up_to_its_limit(
     label = QLabel("text")
     label.setMinimumHeight(height)
     layout.addWidget(label)
-    pane = ScrollPane(content, QSize(200, 120))
-    qtbot.addWidget(pane)
-    pane.resize(200, 120)
-    pane.show()
+    pane = show_widget(qtbot, ScrollPane(content, QSize(200, 120)), 200, 120)
     assert pane.minimumSizeHint() == QSize(200, asked)
     assert pane.verticalScrollBar().isVisible() == (height > 120)
     assert not pane.horizontalScrollBar().isVisible()

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from gui.kinds import add_widget
 from PySide6.QtCore import QRectF
 from PySide6.QtGui import QColor, QImage, QPainter, QPalette
 from pytestqt.qtbot import QtBot
@@ -35,8 +36,7 @@ def test_a_legends_point_is_a_ring_or_filled(qtbot: QtBot, fill: QColor | None) 
 
 
 def test_the_bar_of_a_state_holds_its_title_and_its_sentence(qtbot: QtBot) -> None:
-    bar = StateBar()
-    qtbot.addWidget(bar)
+    bar = add_widget(qtbot, StateBar())
     bar.resize(400, bar.minimumSizeHint().height())
     bar.show()
     for part in (bar.title, bar.sentence):

@@ -4,6 +4,7 @@ import sys
 
 import pyqtgraph as pg
 import pytest
+from gui.kinds import add_widget
 from gui.wheel import turn_wheel, views_of
 from hypothesis import given
 from hypothesis import strategies as st
@@ -32,7 +33,6 @@ def ticks(view: pg.GraphicsView) -> int:
 
 
 def spans(box: pg.ViewBox) -> list[float]:
-    """Give how much of both axes is seen."""
     return [high - low for low, high in box.viewRange()]
 
 
@@ -89,8 +89,7 @@ def test_an_axis_that_cannot_be_numbered_stays_empty_with_a_note(
     def fail(*_range: float) -> None:
         raise OverflowError("too many decades")
 
-    plot = new_plot("Test", "column", "level", QPalette())
-    qtbot.addWidget(plot)
+    plot = add_widget(qtbot, new_plot("Test", "column", "level", QPalette()))
     for side in ("left", "bottom"):
         monkeypatch.setattr(plot.getAxis(side), "tickValues", fail)
     plot.grab()

@@ -93,7 +93,7 @@ def with_photo(qtbot: QtBot, application: Application, user: User, photo_file: P
 
 @dataclass(frozen=True)
 class Control:
-    """What is known of a control of a window that is closed again."""
+    """What is known of a control."""
 
     name: str
     path: str
@@ -125,46 +125,16 @@ def surveyed(widget: QWidget) -> Control:
     return Control(name_of(widget), path_to(widget), widget.toolTip(), in_reach, is_connected)
 
 
-@pytest.fixture(scope="module")
-def surveys() -> list[list[Control]]:
-    """Keep what was noted of the controls."""
-    return []
-
-
-@pytest.fixture
-def controls(request: pytest.FixtureRequest, surveys: list[list[Control]]) -> list[Control]:
-    """Look at all controls of a window with a photo, once for the tests of this file."""
-    if not surveys:
-        window = request.getfixturevalue("with_photo").window
-        surveys.append([surveyed(widget) for widget in controls_of(window)])
-    return surveys[0]
-
-
-@pytest.mark.whole
 @pytest.mark.own_window
-def test_each_control_has_a_name_for_those_who_do_not_see_it(controls: list[Control]) -> None:
-    assert [str(control) for control in controls if not control.name] == []
-
-
-@pytest.mark.own_window
-def test_the_walk_sees_the_controls_of_panes_that_are_made_late(controls: list[Control]) -> None:
+def test_each_control_is_named_explained_connected_and_reached_by_the_keys(
+    with_photo: Application,
+) -> None:
+    controls = [surveyed(widget) for widget in controls_of(with_photo.window)]
     names = {control.name for control in controls}
+    # Panes that are made late are among them.
     assert {"Pin A", "Show the explanation", "Column whose exposure is shown"} <= names
-
-
-@pytest.mark.own_window
-def test_each_control_says_what_it_does(controls: list[Control]) -> None:
-    assert [str(control) for control in controls if not control.tip] == []
-
-
-@pytest.mark.own_window
-def test_each_button_list_and_box_is_connected(controls: list[Control]) -> None:
-    assert [str(control) for control in controls if not control.is_connected] == []
-
-
-@pytest.mark.own_window
-def test_the_keys_reach_every_control(controls: list[Control]) -> None:
-    assert [str(control) for control in controls if not control.is_in_reach] == []
+    for what in ("name", "tip", "is_connected", "is_in_reach"):
+        assert [str(each) for each in controls if not getattr(each, what)] == [], what
 
 
 def test_each_tooltip_has_meaning_symbol_range_and_unit(application: Application) -> None:
@@ -187,14 +157,13 @@ def all_entries(application: Application) -> list[tuple[str, QAction]]:
     return list(entries(application.window.menuBar()))
 
 
-def test_no_two_entries_share_keys(application: Application) -> None:
+def test_no_two_entries_share_keys_nor_two_of_a_menu_a_letter_that_each_has_or_is_a_name(
+    application: Application,
+) -> None:
     keys = Counter(
         key.toString() for _, action in all_entries(application) for key in action.shortcuts()
     )
     assert [key for key, count in keys.items() if count > 1] == []
-
-
-def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> None:
     bar = application.window.menuBar()
     menus: list[QMenuBar | QMenu] = [bar, *bar.findChildren(QMenu)]
     for menu in menus:
@@ -204,9 +173,6 @@ def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> No
             if (found := re.search(r"&(\w)", action.text().replace("&&", "")))
         )
         assert [letter for letter, count in letters.items() if count > 1] == [], letters
-
-
-def test_each_entry_has_a_letter_or_is_a_name(application: Application) -> None:
     names = {figure.title for figure in application.shell.figures.values()}
     for path, action in all_entries(application):
         text = action.text()
@@ -243,7 +209,6 @@ class Dialogs:
 
 @pytest.fixture
 def dialogs(monkeypatch: pytest.MonkeyPatch) -> Dialogs:
-    """Patch all dialogs."""
     return Dialogs(monkeypatch)
 
 

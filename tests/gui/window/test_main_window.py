@@ -1,23 +1,18 @@
 """Menus and docks: every entry does something, every pane can be hidden and shown again."""
 
-from collections import Counter
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import SIGNAL, QMimeData, Qt, QUrl
+from gui.kinds import collect, show_widget
+from PySide6.QtCore import QMimeData, Qt, QUrl
 from PySide6.QtGui import QAction, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
-    QAbstractSpinBox,
     QApplication,
-    QCheckBox,
-    QComboBox,
     QGraphicsView,
-    QLineEdit,
+    QMainWindow,
     QMenu,
-    QPushButton,
-    QSlider,
     QTabBar,
     QWidget,
 )
@@ -26,11 +21,11 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.app.command_line import PANES
 from occ_gui.values.placement import MODES as OVERLAYS
+from occ_gui.window.full_screen import FullScreen
 from occ_gui.window.modes.mode import MODES
 
 
 def menus(menu: QWidget) -> Iterator[QMenu]:
-    """Walk over the menus of a menu bar, and the menus in them."""
     for action in menu.actions():
         below = action.menu()
         if isinstance(below, QMenu):
@@ -40,10 +35,6 @@ def menus(menu: QWidget) -> Iterator[QMenu]:
 
 def entries(menu: QMenu) -> list[QAction]:
     return [a for a in menu.actions() if not a.isSeparator() and a.menu() is None]
-
-
-def listeners(action: QAction) -> int:
-    return sum(action.receivers(SIGNAL(s)) for s in ("triggered(bool)", "toggled(bool)"))
 
 
 def test_nothing_is_deleted_beside_quit_and_presets_are_deleted_where_they_are_saved(
@@ -58,61 +49,20 @@ def test_nothing_is_deleted_beside_quit_and_presets_are_deleted_where_they_are_s
     assert photo.index(actions["delete_preset"]) == photo.index(actions["save_match"]) + 1
 
 
-def test_every_menu_entry_is_connected(application: Application) -> None:
-    found = list(menus(application.window.menuBar()))
-    assert len(found) >= 9
-    for menu in found:
-        dead = menu.addAction("an entry that does nothing")
-        alone = listeners(dead)
-        menu.removeAction(dead)
-        for action in entries(menu):
-            group = action.actionGroup()
-            if group is not None:
-                assert group.receivers(SIGNAL("triggered(QAction*)")), action.text()
-            else:
-                assert listeners(action) > alone, action.text()
-
-
-def test_no_two_entries_of_a_menu_share_a_letter(application: Application) -> None:
-    for menu in [application.window.menuBar(), *menus(application.window.menuBar())]:
-        texts = [action.text() for action in menu.actions()]
-        letters = [text[text.index("&") + 1].lower() for text in texts if "&" in text]
-        doubles = {letter for letter, times in Counter(letters).items() if times > 1}
-        assert doubles == set(), texts
-
-
-def test_no_two_entries_share_a_shortcut(application: Application) -> None:
-    keys = [
-        action.shortcut().toString()
-        for menu in menus(application.window.menuBar())
-        for action in entries(menu)
-        if not action.shortcut().isEmpty()
-    ]
-    assert len(keys) >= 5
-    assert len(set(keys)) == len(keys)
-
-
 def test_every_dock_can_be_hidden_and_shown_again(application: Application) -> None:
     docks = application.window.docks
     assert set(docks) == set(PANES)
     for name, dock in docks.items():
+        # A saved arrangement names it so.
+        assert dock.objectName() == name
+        assert dock.windowTitle()
         toggle = dock.toggleViewAction()
         if name not in MODES["explore"].panes:
             assert not dock.isVisible()
             toggle.trigger()
-        assert dock.isVisible()
-        assert toggle.isChecked()
-        toggle.trigger()
-        assert not dock.isVisible()
-        toggle.trigger()
-        assert dock.isVisible()
-        assert dock.widget().isVisible()
-
-
-def test_docks_have_names_that_a_saved_arrangement_can_refer_to(application: Application) -> None:
-    for name, dock in application.window.docks.items():
-        assert dock.objectName() == name
-        assert dock.windowTitle()
+        for is_seen in (True, False, True):
+            assert dock.isVisible() == toggle.isChecked() == dock.widget().isVisible() == is_seen
+            toggle.trigger()
 
 
 @pytest.mark.own_window
@@ -121,42 +71,34 @@ def test_quit_closes_the_window(application: Application) -> None:
     assert not application.window.isVisible()
 
 
-def test_what_cannot_be_done_is_not_offered(application: Application) -> None:
+def test_what_cannot_be_done_is_not_offered_and_every_picture_and_plot_has_a_name(
+    application: Application,
+) -> None:
     by_text = {a.text(): a for menu in menus(application.window.menuBar()) for a in entries(menu)}
     with_photo = ("&Close photo", "&Match", "&Apply", "Save match", "&Use this")
     for text in (*with_photo, "&Undo", "&Redo"):
         (found,) = [action for key, action in by_text.items() if key.startswith(text)]
         assert not found.isEnabled(), text
-
-
-def test_one_scan_axis_is_chosen_at_a_time(application: Application) -> None:
-    axes = application.window.menus.scan_axes.actions()
-    assert [axis.data() for axis in axes if axis.isChecked()] == ["auto"]
-    axes[2].trigger()
-    assert [axis.data() for axis in axes if axis.isChecked()] == ["lines"]
-
-
-@pytest.mark.parametrize(
-    "kind", [QSlider, QAbstractSpinBox, QComboBox, QLineEdit, QCheckBox, QPushButton]
-)
-def test_every_control_of_the_window_has_a_name_and_a_tooltip(
-    application: Application, kind: type[QWidget]
-) -> None:
-    controls = application.window.findChildren(kind)
-    assert controls
-    for control in controls:
-        if isinstance(control.parentWidget(), QAbstractSpinBox):
-            continue
-        text = control.text() if isinstance(control, QCheckBox | QPushButton) else ""
-        assert control.accessibleName() or text, control
-        assert control.toolTip(), control
-
-
-def test_every_picture_and_plot_has_a_name(application: Application) -> None:
     graphics = application.window.findChildren(QGraphicsView)
     assert len(graphics) >= 3
     for view in graphics:
         assert view.accessibleName(), view
+
+
+@pytest.mark.parametrize(
+    ("menu", "keys"), [("scan_axes", ["auto", "columns", "lines"]), ("overlays", [*OVERLAYS])]
+)
+def test_one_entry_of_a_choice_is_marked_at_a_time(
+    application: Application, menu: str, keys: list[str]
+) -> None:
+    entries = getattr(application.window.menus, menu).actions()
+    assert [entry.data() for entry in entries] == keys
+    for chosen in (*entries, entries[0]):
+        chosen.trigger()
+        assert [entry.data() for entry in entries if entry.isChecked()] == [chosen.data()]
+    if menu == "overlays":
+        entries[1].trigger()
+        assert application.view("picture").mode.key() == entries[1].data()
 
 
 def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(
@@ -180,49 +122,25 @@ def test_there_are_as_many_bars_of_tabs_as_groups_of_panes(
         qtbot.waitUntil(partial(is_shown, wanted))
 
 
-def test_one_way_of_showing_the_photo_is_chosen_at_a_time(application: Application) -> None:
-    modes = application.window.menus.overlays.actions()
-    assert [mode.data() for mode in modes] == list(OVERLAYS)
-    for action in (*modes, modes[0]):
-        action.trigger()
-        assert [mode.data() for mode in modes if mode.isChecked()] == [action.data()]
-        assert application.view("picture").mode.key() == action.data()
-
-
-def drop(application: Application, *urls: QUrl) -> None:
-    """Let go of something over the middle of the window."""
-    data = QMimeData()
-    data.setUrls(list(urls))
-    place = application.window.rect().center()
-    actions, button = Qt.DropAction.CopyAction, Qt.MouseButton.LeftButton
-    no_key = Qt.KeyboardModifier.NoModifier
-    enter = QDragEnterEvent(place, actions, data, button, no_key)
-    QApplication.sendEvent(application.window, enter)
-    assert enter.isAccepted()
-    QApplication.sendEvent(application.window, QDropEvent(place, actions, data, button, no_key))
-
-
-def test_the_window_alone_takes_drops_and_reports_them(
+def test_the_window_alone_takes_drops_of_files_and_reports_them(
     application: Application, tmp_path: Path
 ) -> None:
-    told: list[list[Path]] = []
-    application.window.dropped.connect(told.append)
-    drop(application, QUrl.fromLocalFile(str(tmp_path / "a.png")), QUrl("https://example.org/b"))
-    assert told == [[tmp_path / "a.png"]]
+    reported = collect(application.window.dropped)
+    files, text = QMimeData(), QMimeData()
+    files.setUrls([QUrl.fromLocalFile(str(tmp_path / "a.png")), QUrl("https://example.org/b")])
+    text.setText("a.png")
+    place = application.window.rect().center()
+    how = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    for data, is_taken in ((text, False), (files, True)):
+        enter = QDragEnterEvent(place, Qt.DropAction.CopyAction, data, *how)
+        enter.ignore()
+        QApplication.sendEvent(application.window, enter)
+        assert enter.isAccepted() == is_taken
+    drop = QDropEvent(place, Qt.DropAction.CopyAction, files, *how)
+    QApplication.sendEvent(application.window, drop)
+    assert reported == [[tmp_path / "a.png"]]
     takers = [w for w in application.window.findChildren(QWidget) if w.acceptDrops()]
     assert takers == []
-
-
-def test_text_is_not_taken_for_files(application: Application) -> None:
-    data = QMimeData()
-    data.setText("a.png")
-    enter = QDragEnterEvent(
-        application.window.rect().center(), Qt.DropAction.CopyAction, data,
-        Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier,
-    )  # fmt: skip
-    enter.ignore()
-    QApplication.sendEvent(application.window, enter)
-    assert not enter.isAccepted()
 
 
 @pytest.mark.parametrize("height", [800, 1080])
@@ -253,3 +171,31 @@ def test_a_pane_that_the_menu_opens_is_large_enough(
     dock = window.docks[name]
     dock.toggleViewAction().trigger()
     qtbot.waitUntil(lambda: getattr(dock, side)() >= 0.25 * getattr(window, side)())
+
+
+@pytest.fixture
+def window(qtbot: QtBot) -> QMainWindow:
+    """Show a window of its own."""
+    return show_widget(qtbot, QMainWindow(), 500, 300)
+
+
+@pytest.mark.parametrize("maximized", [False, True])
+def test_the_window_is_as_before_after_full_screen(window: QMainWindow, maximized: bool) -> None:
+    if maximized:
+        window.showMaximized()
+    action = QAction()
+    FullScreen(window, action)
+    action.setChecked(True)
+    assert window.isFullScreen()
+    action.setChecked(False)
+    assert not window.isFullScreen()
+    assert window.isMaximized() == maximized
+
+
+def test_the_entry_follows_the_desktop(window: QMainWindow) -> None:
+    action = QAction()
+    FullScreen(window, action)
+    window.setWindowState(Qt.WindowState.WindowFullScreen)
+    assert action.isChecked()
+    window.showNormal()
+    assert not action.isChecked()

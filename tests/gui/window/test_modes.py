@@ -1,23 +1,16 @@
 """Modes: a layout for each task, reached by keys and tabs, that comes back as it was left."""
 
-from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
 from functools import partial
-from pathlib import Path
 
 import pytest
-from gui.user import User
-from PySide6.QtCore import QEvent, QObject, QSettings, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QSize, Qt
 from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QApplication, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.app import command_line
 from occ_gui.app.application import Application
-from occ_gui.core.workspace import Workspace
 from occ_gui.window.modes.mode import HOMES, MODES, PICTURE
-from occ_model.files.resources import resource_names
-from occ_model.scene.scene import Scene
 
 NAMES = list(MODES)
 CONTROL, RIGHT = Qt.KeyboardModifier.ControlModifier, Qt.DockWidgetArea.RightDockWidgetArea
@@ -28,16 +21,11 @@ def bar(application: Application) -> QTabBar:
 
 
 def shown(application: Application) -> set[str]:
-    """Give the names of the panes that are not hidden."""
     return {name for name, dock in application.window.docks.items() if not dock.isHidden()}
 
 
 def in_front(application: Application, name: str) -> bool:
     return not application.window.docks[name].visibleRegion().isEmpty()
-
-
-def has_icon(tabs: QTabBar, place: int) -> bool:
-    return not tabs.tabIcon(place).isNull()
 
 
 def test_the_command_line_knows_the_modes_of_the_window() -> None:
@@ -50,33 +38,25 @@ def test_each_mode_shows_panes_that_there_are(application: Application) -> None:
         assert mode.main == PICTURE or mode.main in mode.panes
 
 
-def test_each_mode_has_an_icon() -> None:
-    assert set(resource_names("icons", ".svg")) >= set(MODES)
-
-
-@pytest.mark.parametrize("place", range(len(MODES)))
-def test_control_and_a_digit_choose_a_mode(
-    application: Application, qtbot: QtBot, place: int
-) -> None:
-    application.window.modes.switch(NAMES[(place + 1) % len(NAMES)])
+def test_control_and_a_digit_choose_a_mode(application: Application, qtbot: QtBot) -> None:
+    application.window.modes.switch(NAMES[-1])
     application.window.activateWindow()
-    qtbot.keyClick(application.window, Qt.Key(Qt.Key.Key_1 + place), CONTROL)
-    mode = NAMES[place]
-    assert application.window.modes.mode == mode
-    assert bar(application).currentIndex() == place
-    assert shown(application) == set(MODES[mode].panes)
-    assert application.story.isVisible() == bool(MODES[mode].centre)
+    for place, mode in enumerate(NAMES):
+        qtbot.keyClick(application.window, Qt.Key(Qt.Key.Key_1 + place), CONTROL)
+        assert application.window.modes.mode == mode
+        assert bar(application).currentIndex() == place
+        assert shown(application) == set(MODES[mode].panes)
+        assert application.story.isVisible() == bool(MODES[mode].centre)
 
 
-def test_the_tabs_choose_a_mode_by_the_arrow_keys(application: Application, qtbot: QtBot) -> None:
+def test_the_tabs_choose_a_mode_by_the_arrow_keys_and_a_screen_reader_hears_it(
+    application: Application, qtbot: QtBot
+) -> None:
     bar(application).setFocus()
     qtbot.keyClick(bar(application), Qt.Key.Key_Right)
     assert application.window.modes.mode == NAMES[1]
     entry = application.window.actions_by_name[f"mode_{NAMES[1]}"]
     assert entry.isChecked()
-
-
-def test_a_screen_reader_hears_the_modes_and_the_active_one(application: Application) -> None:
     application.window.modes.switch("limits")
     face = QAccessible.queryAccessibleInterface(bar(application))
     tabs = [face.child(place) for place in range(len(NAMES))]
@@ -86,7 +66,9 @@ def test_a_screen_reader_hears_the_modes_and_the_active_one(application: Applica
     assert [tab.state().selected for tab in tabs] == [name == "limits" for name in NAMES]
 
 
-def test_a_mode_comes_back_as_it_was_left(application: Application) -> None:
+def test_a_mode_comes_back_as_it_was_left_and_a_pane_that_is_open_stays_in_it(
+    application: Application, qtbot: QtBot
+) -> None:
     window = application.window
     window.modes.switch("limits")
     window.docks["controls"].hide()
@@ -99,27 +81,23 @@ def test_a_mode_comes_back_as_it_was_left(application: Application) -> None:
     assert shown(application) == left == {"map", "bench", "bands", "equations"}
     window.actions_by_name["reset_layout"].trigger()
     assert shown(application) == set(MODES["limits"].panes)
-
-
-@pytest.mark.parametrize("pane", HOMES)
-def test_a_hidden_pane_is_shown_in_the_mode_about_it(
-    application: Application, qtbot: QtBot, pane: str
-) -> None:
-    window = application.window
-    window.modes.switch("effects" if pane != "accuracy" else "limits")
-    window.docks[pane].hide()
-    window.bring_to_front(pane)
-    qtbot.waitUntil(lambda: in_front(application, pane))
-    assert window.modes.mode == HOMES[pane]
-
-
-def test_a_pane_that_is_open_stays_in_its_mode(application: Application, qtbot: QtBot) -> None:
-    window = application.window
     window.modes.switch("effects")
     window.docks["map"].toggleViewAction().trigger()
     window.bring_to_front("map")
     qtbot.waitUntil(lambda: in_front(application, "map"))
     assert window.modes.mode == "effects"
+
+
+def test_a_hidden_pane_is_shown_in_the_mode_about_it(
+    application: Application, qtbot: QtBot
+) -> None:
+    window = application.window
+    for pane, home in HOMES.items():
+        window.modes.switch("effects" if pane != "accuracy" else "limits")
+        window.docks[pane].hide()
+        window.bring_to_front(pane)
+        qtbot.waitUntil(partial(in_front, application, pane))
+        assert window.modes.mode == home
 
 
 @pytest.mark.parametrize(("width", "with_icons"), [(1000, False), (1120, True)])
@@ -129,11 +107,14 @@ def test_the_narrowest_usual_window_shows_every_mode_beside_the_tools_and_a_wide
     window, tabs = application.window, bar(application)
     window.resize(width, 700)
     widths = set()
+
+    def is_arranged(place: int) -> bool:
+        has_icon = not tabs.tabIcon(place).isNull()
+        return has_icon >= with_icons and tabs.tabRect(len(NAMES) - 1).right() < tabs.width()
+
     for place, mode in enumerate(NAMES):
         window.modes.switch(mode)
-        if with_icons:
-            qtbot.waitUntil(partial(has_icon, tabs, place))
-        qtbot.waitUntil(lambda: tabs.tabRect(len(NAMES) - 1).right() < tabs.width())
+        qtbot.waitUntil(partial(is_arranged, place))
         widths.add(tabs.sizeHint().width())
     assert len(widths) == 1, "the tabs move when another one is chosen"
     assert all(b.isVisible() for b in window.toolbar.buttons.values())
@@ -183,71 +164,15 @@ class Widths(QObject):
         return False
 
 
-@pytest.mark.parametrize("other", ["limits", "effects", "photo", "video", "lessons"])
 def test_no_change_of_the_mode_widens_the_window_even_for_a_moment(
-    application: Application, other: str
+    application: Application,
 ) -> None:
     window = application.window
     window.resize(1000, 700)
     QApplication.processEvents()
     widths = Widths(window)  # a maximized window would keep the largest of them
-    for mode in (other, "explore", other):
-        window.modes.switch(mode)
-        QApplication.processEvents()
+    for mode in ("limits", "effects", "photo", "video", "lessons"):
+        for shown_mode in (mode, "explore", mode):
+            window.modes.switch(shown_mode)
+            QApplication.processEvents()
     assert widths.seen <= {1000}
-
-
-def test_a_photo_is_opened_in_the_mode_for_it(
-    application: Application, user: User, photo_file: Path
-) -> None:
-    application.window.modes.switch("limits")
-    application.open_photo(photo_file)
-    user.wait_until_idle()
-    assert application.window.modes.mode == "photo"
-
-
-Start = Callable[..., AbstractContextManager[Application]]
-
-
-@pytest.fixture
-def start(qtbot: QtBot, small_scene: Scene, tmp_path: Path) -> Start:
-    """Start windows that keep their layout in the same file."""
-
-    @contextmanager
-    def begin() -> Iterator[Application]:
-        kept = QSettings(str(tmp_path / "kept.ini"), QSettings.Format.IniFormat)
-        application = Application(Workspace(small_scene), kept)
-        application.options.layout.restore()
-        application.window.show()
-        qtbot.waitUntil(lambda: application.is_idle)
-        yield application
-        application.options.layout.keep()
-        application.window.close()
-        application.stop()
-        application.window.deleteLater()
-        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-
-    return begin
-
-
-def test_mode_and_layouts_are_there_at_the_next_start(start: Start) -> None:
-    with start() as application:
-        application.window.modes.switch("effects")
-        application.window.docks["controls"].hide()
-        application.window.modes.switch("limits")
-    with start() as application:
-        assert application.window.modes.mode == "limits"
-        assert bar(application).currentIndex() == NAMES.index("limits")
-        assert shown(application) == set(MODES["limits"].panes)
-        application.window.modes.switch("effects")
-        assert shown(application) == {"accuracy"}
-
-
-@pytest.mark.whole
-def test_a_maximized_window_opens_maximized(start: Start) -> None:
-    for maximized in (True, False):
-        with start() as application:
-            window = application.window
-            window.showMaximized() if maximized else window.showNormal()
-        with start() as application:
-            assert application.window.isMaximized() == maximized

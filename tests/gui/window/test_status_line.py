@@ -1,6 +1,7 @@
 """The texts of the status line never overlap: what is too long ends in dots."""
 
 import pytest
+from gui.kinds import show_widget
 from gui.user import User
 from PySide6.QtCore import QRect
 from PySide6.QtGui import QImage
@@ -34,10 +35,7 @@ def check_texts(bar: QStatusBar) -> None:
 
 @pytest.fixture
 def line(qtbot: QtBot) -> StatusLine:
-    line = StatusLine()
-    qtbot.addWidget(line)
-    line.show()
-    return line
+    return show_widget(qtbot, StatusLine())
 
 
 @pytest.mark.parametrize("width", [300, 800, 1280])
@@ -80,22 +78,23 @@ def test_a_long_message_ends_in_dots_and_is_whole_in_the_tip(line: StatusLine) -
     assert line.currentMessage() == LONG
 
 
-def test_the_change_of_the_plan_is_said_until_the_next_message(line: StatusLine) -> None:
+def test_the_change_of_the_plan_is_said_until_the_next_message_or_its_end(
+    line: StatusLine, qtbot: QtBot
+) -> None:
+    def texts() -> list[str]:
+        return [label.text() for label, _ in texts_of(line)]
+
     line.resize(800, 24)
     line.show_plan_change("Switched in: JPEG")
-    assert [label.text() for label, _ in texts_of(line)] == ["Switched in: JPEG"]
+    assert texts() == ["Switched in: JPEG"]
     line.showMessage("Saved scene.toml")
     QApplication.processEvents()
-    assert [label.text() for label, _ in texts_of(line)] == ["Saved scene.toml"]
+    assert texts() == ["Saved scene.toml"]
     line.clearMessage()
-    assert [label.text() for label, _ in texts_of(line) if label.text()] == []
-
-
-def test_the_change_of_the_plan_is_news_until_it_is_ended(line: StatusLine, qtbot: QtBot) -> None:
-    line.resize(800, 24)
+    assert texts() == []
     line.show_plan_change("Switched in: JPEG")
     line.show_plan_change("")
-    qtbot.waitUntil(lambda: not [one for one, _ in texts_of(line) if one.text()])
+    qtbot.waitUntil(lambda: texts() == [])
 
 
 def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:

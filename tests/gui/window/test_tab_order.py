@@ -3,6 +3,7 @@
 from itertools import groupby, pairwise
 
 import pytest
+from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
@@ -30,8 +31,7 @@ def walk(window: QWidget, key: Qt.Key) -> list[QWidget]:
     stops: list[QWidget] = []
     for _ in range(MOST):
         QTest.keyClick(QApplication.focusWidget() or window, key)
-        widget = QApplication.focusWidget()
-        assert widget is not None
+        widget = not_none(QApplication.focusWidget())
         if widget in stops:
             assert widget is stops[0], f"the key is caught at {widget.accessibleName()}"
             return stops
@@ -60,24 +60,25 @@ def show_mode(application: Application, qtbot: QtBot, mode: str) -> None:
     QApplication.processEvents()
 
 
-@pytest.mark.whole
+@pytest.mark.parametrize(
+    "mode", [pytest.param(m, marks=() if m == "explore" else pytest.mark.whole) for m in MODES]
+)
 def test_the_tab_key_goes_through_every_mode_as_it_is_read(
-    application: Application, qtbot: QtBot
+    application: Application, qtbot: QtBot, mode: str
 ) -> None:
     window = application.window
-    for mode in MODES:
-        show_mode(application, qtbot, mode)
-        stops = walk(window, Qt.Key.Key_Tab)
-        assert stops[0] is window.toolbar.modes, mode
-        panes = [pane for pane, _ in groupby(pane_of(stop, window) for stop in stops)]
-        assert len(panes) == len(set(panes)), f"{mode}: a pane is left and entered again"
-        ways = [panes, *(list(each) for _, each in groupby(stops, lambda s: pane_of(s, window)))]
-        for way in ways:
-            for one, after in pairwise(way):
-                if one.isAncestorOf(after):  # which may have been scrolled
-                    continue
-                read = comes_after(place_of(after, window), place_of(one, window))
-                assert read, (mode, one, place_of(one, window), after, place_of(after, window))
+    show_mode(application, qtbot, mode)
+    stops = walk(window, Qt.Key.Key_Tab)
+    assert stops[0] is window.toolbar.modes
+    panes = [pane for pane, _ in groupby(pane_of(stop, window) for stop in stops)]
+    assert len(panes) == len(set(panes)), "a pane is left and entered again"
+    ways = [panes, *(list(each) for _, each in groupby(stops, lambda s: pane_of(s, window)))]
+    for way in ways:
+        for one, after in pairwise(way):
+            if one.isAncestorOf(after):  # which may have been scrolled
+                continue
+            read = comes_after(place_of(after, window), place_of(one, window))
+            assert read, (one, place_of(one, window), after, place_of(after, window))
 
 
 def test_the_tab_key_reaches_all_that_can_be_handled_and_back(

@@ -18,7 +18,6 @@ def normal_again(application: Application) -> Iterator[None]:
 
 
 def sizes(application: Application) -> list[float]:
-    """Return the sizes of texts that are set in different ways."""
     bar, scene = application.story.verdict, application.controls
     shown = (
         bar.title, bar.sentence, scene.panels["Main"].labels["distance"], scene.preset,

@@ -5,17 +5,29 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtGui import QAction, QActionGroup, QColor, QIcon, QImage, QPalette
+from gui.kinds import add_widget
+from PySide6.QtGui import (
+    QAction,
+    QActionGroup,
+    QColor,
+    QIcon,
+    QImage,
+    QPalette,
+    QUndoCommand,
+    QUndoStack,
+)
 from PySide6.QtWidgets import QMenu, QWidget
 from pytestqt.qtbot import QtBot
+from shiboken6 import delete
 
 from occ_gui.app.application import Application
 from occ_gui.widgets.icons import icon, pixmap
 from occ_gui.window.command_palette import entries
 from occ_gui.window.modes.mode import MODES
 from occ_gui.window.theme import palette_of
+from occ_gui.window.toolbar.tool_button import ToolButton
 from occ_gui.window.toolbar.toolbar import TOOLS, ToolBar
-from occ_model.files.resources import resource_names, resource_text
+from occ_model.files.resources import resource_text
 
 DRAWN = {drawing for group in TOOLS for drawing in group.values()}
 ICONS = sorted({*DRAWN, *MODES})
@@ -60,36 +72,31 @@ def test_tooltips_name_the_keys_of_the_entry(application: Application) -> None:
 
 
 def test_an_entry_that_is_not_there_has_no_button(qtbot: QtBot) -> None:
-    owner = QWidget()
-    qtbot.addWidget(owner)
+    owner = add_widget(qtbot, QWidget())
     bar = ToolBar({"undo": QAction("&Undo")}, {}, QActionGroup(owner), owner)
     assert list(bar.buttons) == ["undo"]
 
 
-def test_each_icon_of_the_toolbar_is_a_file() -> None:
-    assert set(resource_names("icons", ".svg")) >= set(ICONS)
+def test_icons_name_no_colour_of_their_own() -> None:
+    for name in ICONS:
+        text = resource_text("icons", f"{name}.svg")
+        colours = set(re.findall(r'(?:stroke|fill)="([^"]*)"', text))
+        assert "currentColor" in colours, name
+        assert colours <= {"currentColor", "none"}, name
 
 
-@pytest.mark.parametrize("name", ICONS)
-def test_icons_name_no_colour_of_their_own(name: str) -> None:
-    text = resource_text("icons", f"{name}.svg")
-    colours = set(re.findall(r'(?:stroke|fill)="([^"]*)"', text))
-    assert colours <= {"currentColor", "none"}
-    assert "currentColor" in colours
-
-
-@pytest.mark.parametrize("name", ICONS)
 @pytest.mark.parametrize("ratio", [1.0, 1.25, 2.0])
-def test_icons_are_drawn_in_the_pixels_of_the_screen(qapp: object, name: str, ratio: float) -> None:
-    drawn = pixmap(name, QColor("#336699"), 20, ratio)
-    assert drawn.width() == drawn.height() == round(20 * ratio)
-    assert drawn.devicePixelRatio() == ratio
-    image = drawn.toImage()
-    seen = opacity(image)
-    assert 0.05 < np.mean(seen > 128) < 0.8
-    assert not seen[0, 0]
-    row, column = np.unravel_index(np.argmax(seen), seen.shape)
-    assert image.pixelColor(int(column), int(row)).name() == "#336699"
+def test_icons_are_drawn_in_the_pixels_of_the_screen(qapp: object, ratio: float) -> None:
+    for name in ICONS:
+        drawn = pixmap(name, QColor("#336699"), 20, ratio)
+        assert drawn.width() == drawn.height() == round(20 * ratio)
+        assert drawn.devicePixelRatio() == ratio
+        image = drawn.toImage()
+        seen = opacity(image)
+        assert 0.05 < np.mean(seen > 128) < 0.8, name
+        assert not seen[0, 0]
+        row, column = np.unravel_index(np.argmax(seen), seen.shape)
+        assert image.pixelColor(int(column), int(row)).name() == "#336699"
 
 
 def test_twice_the_pixels_show_finer_edges(qapp: object) -> None:
@@ -128,3 +135,14 @@ def test_another_theme_draws_the_icons_anew(application: Application, qtbot: QtB
 def test_every_icon_comes_with_the_package() -> None:
     text = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
     assert '"resources/icons" = "occ_model/resources/icons"' in text
+
+
+def test_a_button_asks_nothing_of_an_entry_that_is_deleted(qtbot: QtBot) -> None:
+    stack = QUndoStack()
+    undo = stack.createUndoAction(stack)
+    stack.push(QUndoCommand("change of ISO speed"))
+    button = add_widget(qtbot, ToolButton("undo", undo))
+    assert button.isEnabled()
+    with qtbot.captureExceptions() as raised:
+        delete(stack)
+    assert raised == []

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from gui.kinds import not_none
 from gui.user import User
 from PySide6.QtCore import Qt
 
@@ -65,8 +66,7 @@ def test_a_row_opens_with_its_match_which_can_be_applied_at_once(
 ) -> None:
     matching, started = application.shell.pane("photo").matching, list[object]()
     matching.work.task.ask = started.append
-    row = application.view("photo").many.rows.row_of(listed[1])
-    assert row is not None
+    row = not_none(application.view("photo").many.rows.row_of(listed[1]))
     assert row.match is not None
     application.open_photo(listed[1])
     user.wait_until_idle()

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from gui.kinds import add_widget, collect, not_none
 from gui.stores import store_of
 from matches import match_with
 from PySide6.QtCore import Qt
@@ -66,19 +67,19 @@ def controller_of(view: ManyPhotosView) -> ManyPhotosController:
     scenes, board = store_of(), Board()
     photos = PhotoController(scenes.store, board)
     photos.edit(lambda choice: replace(choice, reading=PhotoReading("lines", "green")))
-    return ManyPhotosController(scenes, photos, view, board, jobs=1)
+    controller = ManyPhotosController(scenes, photos, view, board, jobs=1)
+    show(controller, PATHS)
+    return controller
 
 
 def show(controller: ManyPhotosController, paths: tuple[Path, ...]) -> None:
-    """List photos, as the pane does."""
     controller.choose_files(paths)
     controller.show_files(paths)
 
 
 @pytest.fixture
 def view(qtbot: QtBot) -> ManyPhotosView:
-    view = ManyPhotosView()
-    qtbot.addWidget(view)
+    view = add_widget(qtbot, ManyPhotosView())
     view.resize(420, 500)
     view.show_files(PATHS)
     return view
@@ -102,7 +103,9 @@ def test_without_files_nothing_can_be_matched_and_what_to_do_is_said(view: ManyP
     assert view.title.text().startswith("Open several photos together")
 
 
-def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:
+def test_each_photo_has_its_verdict_and_times_and_a_doubtful_exposure_says_so(
+    view: ManyPhotosView,
+) -> None:
     view.show_table(table())
     assert column(view, PHOTO) == [path.name for path in PATHS]
     sure, unreadable = "● sure", "✕ unreadable"
@@ -112,9 +115,6 @@ def test_each_photo_has_its_verdict_and_times(view: ManyPhotosView) -> None:
     assert column(view, ESTIMATE)[0] == "7.0000 ± 0.0020 µs"
     assert column(view, EXPOSURE)[4] == ""
     assert column(view, NOTE)[3:5] == [ROWS[3].note, ROWS[4].note]
-
-
-def test_a_doubtful_exposure_says_so_in_its_cell(view: ManyPhotosView) -> None:
     rows = (replace(ROWS[0], match=found_with(7e-6, "Few edges.")), *ROWS[1:])
     view.show_table(table_of(MatchSettings(occ.Scene()), rows))
     assert column(view, VERDICT)[0] == "● sure"
@@ -124,8 +124,7 @@ def test_a_doubtful_exposure_says_so_in_its_cell(view: ManyPhotosView) -> None:
 def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     view.show_certain({"switching_frequency": occ.Scene().transmitter.switching_frequency})
     view.show_table(table())
-    found = table().estimated
-    assert found is not None
+    found = not_none(table().estimated)
     assert view.mean.text() == (
         "Readout time a line: 7.0000 ± 0.0018 µs, mean of 3 sure photos; χ² 0.5 of 2: they agree; "
         "1 left out"
@@ -136,7 +135,9 @@ def test_the_mean_is_that_of_the_model(view: ManyPhotosView) -> None:
     assert view.title.text() == "6 photos: 4 sure, 1 doubtful, 1 unreadable"
 
 
-def test_times_name_the_frequency_that_they_rest_on(view: ManyPhotosView) -> None:
+def test_times_name_the_frequency_that_they_rest_on_and_another_one_asks_to_match_again(
+    view: ManyPhotosView,
+) -> None:
     frequency = occ.Scene().transmitter.switching_frequency
     condition = f": if f = {quantity('switching_frequency').format(frequency)}: "
     view.show_table(table())
@@ -145,11 +146,8 @@ def test_times_name_the_frequency_that_they_rest_on(view: ManyPhotosView) -> Non
     view.show_certain({"switching_frequency": frequency})
     for label in (view.mean, view.exposure, view.frame):
         assert condition not in label.text()
-
-
-def test_another_known_value_asks_to_match_again(view: ManyPhotosView) -> None:
+    view.show_certain({})
     view.show_scene(occ.Scene())
-    view.show_table(table())
     assert view.stale.isHidden()
     view.show_scene(occ.Scene().replace(switching_frequency=4321.0))
     assert not view.stale.isHidden()
@@ -166,8 +164,7 @@ def test_lines_for_other_programs_are_copied(view: ManyPhotosView, qtbot: QtBot)
     view.show_certain(CERTAIN)
     view.show_table(table())
     assert list(view.paste.lines) == ["OpenDroneMap", "Gyroflow"]
-    said: list[str] = []
-    view.copied.connect(said.append)
+    said = collect(view.copied)
     for button in view.findChildren(QToolButton):
         qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
         copied = QGuiApplication.clipboard().text()
@@ -184,8 +181,7 @@ def test_the_table_is_copied_and_saved_as_the_shell_has_it(
     for button in (view.copy, view.save):
         assert not button.isEnabled()
     view.show_table(table())
-    said: list[str] = []
-    view.copied.connect(said.append)
+    said = collect(view.copied)
     for condition in ("if f = 10 kHz: ", ""):
         paste = stated_lines(table(), condition)
         assert [line.split(":")[0] for line in paste[:2]] == ["OpenDroneMap", "Gyroflow"]
@@ -210,9 +206,7 @@ def test_a_line_is_pasted_nowhere_while_its_frequency_is_only_assumed(view: Many
     assert len(view.findChildren(QToolButton)) == 2
     assert view.paste.why_none.isHidden()
     assert "if f" not in view.title.text() + tip(view, 0, ESTIMATE)
-
-
-def test_rows_of_a_running_match_name_the_frequency_that_they_rest_on(view: ManyPhotosView) -> None:
+    view.show_certain({})
     view.show_begun("readout_time", occ.Scene())
     view.show_row(0, ROWS[0], 1)
     assert "if f = 10 kHz" in view.title.text()
@@ -242,12 +236,6 @@ def test_a_line_to_paste_is_seen_to_its_end(view: ManyPhotosView, qtbot: QtBot) 
         assert field.heightForWidth(field.width()) <= field.height()
 
 
-def test_a_click_on_a_row_opens_its_photo(view: ManyPhotosView, qtbot: QtBot) -> None:
-    with qtbot.waitSignal(view.photo_chosen) as chosen:
-        view.table.clicked.emit(view.rows.index(2, VERDICT))
-    assert chosen.args == [PATHS[2]]
-
-
 def marked(view: ManyPhotosView) -> list[str]:
     """Name the photos whose rows have the colours of a selection."""
     role = Qt.ItemDataRole.BackgroundRole
@@ -256,7 +244,7 @@ def marked(view: ManyPhotosView) -> list[str]:
     return [view.rows.paths[n].name for n in {*rows, *(index.row() for index in chosen)}]
 
 
-def test_the_row_of_the_open_photo_is_marked_however_it_was_opened(
+def test_a_click_on_a_row_opens_its_photo_which_is_marked_however_it_was_opened(
     view: ManyPhotosView, qtbot: QtBot
 ) -> None:
     view.show()
@@ -270,6 +258,9 @@ def test_the_row_of_the_open_photo_is_marked_however_it_was_opened(
     assert marked(view) == [PATHS[4].name]
     view.rows.show_open(Path("another.jpg"))
     assert marked(view) == []
+    with qtbot.waitSignal(view.photo_chosen) as chosen:
+        view.table.clicked.emit(view.rows.index(2, VERDICT))
+    assert chosen.args == [PATHS[2]]
 
 
 def enter_known(view: ManyPhotosView, place: int, text: str) -> bool:
@@ -283,7 +274,6 @@ class Bench:
         self.go_on, self.settings, self.closed = threading.Event(), [], threading.Event()  # type: ignore[var-annotated]
         monkeypatch.setattr(match_photos, "matched_rows", self._rows)
         self.controller = controller_of(view)
-        show(self.controller, PATHS)
 
     def _rows(
         self,
@@ -401,7 +391,6 @@ def test_a_failure_is_a_sentence_in_the_table(
 
     monkeypatch.setattr(match_photos, "matched_rows", fail)
     controller = controller_of(view)
-    show(controller, PATHS)
     controller.start(MatchChoice())
     qtbot.waitUntil(lambda: view.notes.text() == "Nothing works.")
     assert view.start.isEnabled()

@@ -1,4 +1,7 @@
-"""Panels of the pane: side by side or one over the other as the space allows, or behind tabs."""
+"""Panels of the pane: side by side or one over the other as the space allows, or behind tabs.
+
+A splitter neither turns with its size nor hides parts behind tabs.
+"""
 
 from dataclasses import dataclass
 

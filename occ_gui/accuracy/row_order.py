@@ -1,4 +1,7 @@
-"""Order of the table of effects: as light travels, or by a column that the user clicked."""
+"""Order of the table of effects: as light travels, or by a column that the user clicked.
+
+A proxy model would sort by a strict order; times that are about equal have none.
+"""
 
 from collections.abc import Sequence
 from typing import TypeAlias

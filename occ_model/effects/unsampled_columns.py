@@ -6,7 +6,7 @@ from occ_model.arrays import FloatArray
 from occ_model.camera.photometry import fast_power
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
-from occ_model.effects.smoothed_curves import SmoothedCurves
+from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves
 
 _MISSED_FRACTION = 0.1
 """Part of a change that a sample must miss for its columns to be too few."""
@@ -18,8 +18,8 @@ def add_unsampled(
     """Add to the mean square of each change what columns beside the sample add to it.
 
     Where most columns are white or black, or an enhancement makes them so, a change of the light
-    shows in the few that are not. All columns of a profile cost microseconds, without the
-    enhancement's curves.
+    shows in the few that are not, and where little noise spreads the rounding, so does noise. All
+    columns of a profile cost microseconds, without the enhancement's curves.
     """
     if pixels.unsampled is None:
         return
@@ -38,8 +38,17 @@ def add_unsampled(
             continue
         if curves is not None:
             changed = curves.enhanced(sets, profiles)
-        missed = float((changed[1] - changed[0]) ** 2 @ pixels.unsampled)
-        found.alone[effect.name] = found.alone.get(effect.name, 0.0) + max(missed, 0.0)
+        _add(pixels, found, effect.name, changed)
+    if curves is not None and pixels.least_noise(pixels.names) < LEAST_SMOOTHING_NOISE:
+        profiles = np.stack([pixels.profile(pixels.names)] * 2)
+        for noise in pixels.noises:
+            sets = [pixels.names, pixels.names - {noise.name}]
+            _add(pixels, found, noise.name, curves.enhanced(sets, profiles))
+
+
+def _add(pixels: SampledPixels, found: Observed, name: str, seen: FloatArray) -> None:
+    missed = float((seen[1] - seen[0]) ** 2 @ pixels.unsampled)
+    found.alone[name] = found.alone.get(name, 0.0) + max(missed, 0.0)
 
 
 def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:

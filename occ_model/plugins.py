@@ -106,9 +106,9 @@ def called(
     try:
         with at_work(who):
             result = function(*given)
-    except (ParameterError, PluginError):
-        raise  # a sentence already
     except FAULTS as error:
+        if isinstance(error, ParameterError | PluginError) and str(error).isprintable():
+            raise  # a sentence already
         raise PluginError(f"{who} cannot {verb}: {reason(error)}") from None
     if not isinstance(result, kind):
         raise PluginError(f"{who} gives a {type(result).__name__}, not a {kind.__name__}.")

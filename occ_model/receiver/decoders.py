@@ -7,7 +7,7 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import FloatArray
-from occ_model.errors import ParameterError, PluginError, shown
+from occ_model.errors import ParameterError, PluginError, one_line, shown
 from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.equalizer.decoder import DECODER as EQUALIZER
 from occ_model.receiver.matched.decoder import DECODER as MATCHED
@@ -73,4 +73,4 @@ def _plugin(name: str) -> Decoder:
         except (ParameterError, PluginError) as error:
             return DecodeResult(name, signal=signal, failure=str(error))
 
-    return Decoder(name, offered.title, read)
+    return Decoder(name, one_line(str(offered.title)), read)

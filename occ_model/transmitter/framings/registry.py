@@ -6,9 +6,15 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError
+from occ_model.errors import ParameterError, PluginError, one_line
 from occ_model.transmitter.framings.framing import Framed, FrameFormat, Framing
-from occ_model.transmitter.plugin_values import MOST_CHIPS, checked_bits, plain_reason
+from occ_model.transmitter.plugin_values import (
+    MOST_CHIPS,
+    check_kinds,
+    check_places,
+    checked_bits,
+    plain_reason,
+)
 from occ_model.transmitter.registry import Registry
 
 
@@ -25,12 +31,16 @@ def _guarded(offered: Framing) -> Framing:
     def decode(chips: ByteArray, form: FrameFormat) -> Framed:
         try:
             read = plugins.called(who, "decode", Framed, offered.decode, chips, form)
+            check_kinds(who, read, failure=str | None)
             bits = checked_bits(who, "bits", read.bits, form.bits)
-        except PluginError as error:
+            check_places(who, "headers", read.headers, len(chips))
+            if not read.failure and not bits.size:
+                raise PluginError(f"{who} gives neither bits nor a failure.")
+        except (ParameterError, PluginError) as error:
             return Framed.nothing(str(error))
         return Framed(read.headers, bits, plain_reason(read.failure))
 
-    return replace(offered, encode=encode, decode=decode)
+    return replace(offered, title=one_line(str(offered.title)), encode=encode, decode=decode)
 
 
 FRAMINGS = Registry(  # the framings that a scene chooses among

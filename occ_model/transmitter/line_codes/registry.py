@@ -6,33 +6,48 @@ import numpy as np
 
 from occ_model import plugins
 from occ_model.arrays import ByteArray
-from occ_model.errors import PluginError
+from occ_model.errors import ParameterError, PluginError, one_line, shown
 from occ_model.transmitter.line_codes.line_code import Decoded, LineCode
-from occ_model.transmitter.plugin_values import checked_bits, plain_reason
+from occ_model.transmitter.plugin_values import (
+    check_kinds,
+    check_places,
+    checked_bits,
+    plain_reason,
+)
 from occ_model.transmitter.registry import Registry
 
 
 def _guarded(offered: LineCode) -> LineCode:
     """Return a plug-in's line code whose faults become sentences."""
     who = plugins.described(plugins.LINE_CODES, offered.name)
+    run = 1 if offered.longest_run is None else offered.longest_run
+    for name, count in (
+        ("block_bits", offered.block_bits),
+        ("block_chips", offered.block_chips),
+        ("longest_run", run),
+    ):
+        if not isinstance(count, int) or count < 1:
+            raise PluginError(f"{who} declares {name} = {shown(count)}; allowed: from 1.")
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
         chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, level)
         count = offered.chips_for(len(bits))
-        if len(chips) != count:
-            raise PluginError(f"{who} gives {len(chips)} chips in place of {count}.")
+        if chips.size != count:
+            raise PluginError(f"{who} gives {chips.size} chips in place of {count}.")
         return checked_bits(who, "chips", chips, count)
 
     def decode(chips: ByteArray, level: int) -> Decoded:
         most = (len(chips) // offered.block_chips + 1) * offered.block_bits
         try:
             read = plugins.called(who, "decode", Decoded, offered.decode, chips, level)
+            check_kinds(who, read, failure=str | None)
             bits = checked_bits(who, "bits", read.bits, most)
-        except PluginError as error:
+            check_places(who, "violations", read.violations, len(bits))
+        except (ParameterError, PluginError) as error:
             return Decoded(failure=str(error))
         return Decoded(bits, read.violations, plain_reason(read.failure))
 
-    return replace(offered, encode=encode, decode=decode)
+    return replace(offered, title=one_line(str(offered.title)), encode=encode, decode=decode)
 
 
 LINE_CODES = Registry(  # the line codes that a scene chooses among

@@ -52,6 +52,10 @@ nothing = decoder("nothing", lambda *_: None)
 empty = decoder("empty", lambda *_: occ.DecodeResult("empty"))
 floats = spoiled("floats", bits=np.array([0.5]))
 lists = spoiled("lists", bits=[1])
+worded = spoiled("worded", threshold="high")
+wordless = spoiled("wordless", failure=3)
+headed = spoiled("headed", headers=(2,))
+ragged = spoiled("ragged", light=[1.0])
 paired = spoiled("paired", chip_starts=np.array([1.0]))
 huge = spoiled("huge", chips=endless)
 overwrites = decoder("overwrites", overwrite)
@@ -63,17 +67,29 @@ code_short = replace(LINE_CODE, name="code_short", encode=lambda bits, level: bi
 code_grey = replace(LINE_CODE, name="code_grey", encode=lambda bits, _: np.full(2 * len(bits), 7))
 code_mute = replace(LINE_CODE, name="code_mute", decode=lambda chips, level: None)
 
+code_scalar = replace(LINE_CODE, name="code_scalar", encode=lambda *_: np.array(1))
+code_wordless = replace(
+    LINE_CODE, name="code_wordless", decode=lambda *_: occ.Decoded(np.array([1]), failure=3)
+)
+code_blockless = replace(LINE_CODE, name="code_blockless", block_chips=0)
+
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
 frame_huge = replace(FRAMING, name="frame_huge", encode=lambda *_: endless)
 frame_fails = replace(FRAMING, name="frame_fails", decode=fail)
+frame_says_nothing = replace(
+    FRAMING, name="frame_says_nothing", decode=lambda *_: occ.Framed((), np.array([]))
+)
 """
 
 DECODERS = [
     "raises", "leaves", "nothing", "empty", "floats", "lists", "overwrites", "misnamed",
-    "threshold", "gone", "paired", "huge",
+    "threshold", "gone", "paired", "huge", "worded", "wordless", "headed", "ragged",
 ]  # fmt: skip
-CODES = ["code_raises", "code_short", "code_grey", "code_mute"]
-FRAMINGS = ["frame_empty", "frame_huge", "frame_fails"]
+CODES = [
+    "code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_wordless",
+    "code_blockless",
+]  # fmt: skip
+FRAMINGS = ["frame_empty", "frame_huge", "frame_fails", "frame_says_nothing"]
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
 
 
@@ -110,6 +126,10 @@ def decode(decoder: str) -> occ.DecodeResult:
         ("empty", "gives neither a code with its bits nor a failure."),
         ("floats", "gives bits that are not zeros and ones."),
         ("lists", "gives bits that are not an array of one dimension."),
+        ("worded", "gives threshold = 'high' of the type str."),
+        ("wordless", "gives failure = 3 of the type int."),
+        ("headed", "gives headers that are not places among 2."),
+        ("ragged", "gives light = [1.0] of the type list."),
         ("paired", "gives chip_starts of the shape (1,) in place of (2,)."),
         ("huge", "gives 1,000,000,000,000 chips; allowed: up to 65,536."),
     ],
@@ -164,6 +184,8 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
     [
         ("code_raises", "cannot encode: ValueError: not today."),
         ("code_short", "gives 10 chips in place of 20."),
+        ("code_scalar", "gives 1 chips in place of 20."),
+        ("code_blockless", "declares block_chips = 0; allowed: from 1."),
         ("code_grey", "gives chips that are not zeros and ones."),
     ],
 )
@@ -191,6 +213,8 @@ def test_a_framing_that_cannot_be_sent_is_named(name: str, said: str) -> None:
     ("changes", "said"),
     [
         ({"line_code": "code_mute"}, "gives a NoneType, not a Decoded."),
+        ({"line_code": "code_wordless"}, "gives failure = 3 of the type int."),
+        ({"framing": "frame_says_nothing"}, "gives neither bits nor a failure."),
         ({"framing": "frame_fails"}, "cannot decode: ValueError: not today."),
     ],
 )

@@ -16,7 +16,7 @@ from occ_model.errors import OutputError, one_line
 from occ_model.figures.page import fit_texts
 from occ_model.files.writing import make_folder, write_whole
 from occ_model.scene.provenance import Provenance
-from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.scene.simulation_settings import SimulationSettings, unit_of
 
 # The line styles differ, so that grey print distinguishes the lines too.
 SIMULATION = {"color": colours.SIMULATION, "linestyle": "-"}
@@ -124,8 +124,9 @@ def write_all(
 def settings_notes(settings: SimulationSettings) -> tuple[str, ...]:
     """Write a simulation's settings, except the seed, as lines of a provenance."""
     forced = ", ".join(f"{name} {'on' if on else 'off'}" for name, on in settings.force.items())
+    observable = settings.observable
     return (
-        f"tolerance {settings.tolerance:g} levels of the {settings.observable}",
+        f"tolerance {settings.tolerance:g} {unit_of(observable)} of the {observable}",
         f"noise {settings.noise}",
         f"by hand: {forced or 'nothing'}",
     )

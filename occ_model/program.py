@@ -142,7 +142,7 @@ def _is_importing(frame: FrameType | None) -> bool:
 
 
 def _open_streams(needs_output: bool) -> None:
-    """Open the null device for closed standard streams, lest a file is taken for one."""
+    """Open the null device for closed standard streams: the next file would be taken for one."""
     for descriptor in range(3):
         try:
             os.fstat(descriptor)

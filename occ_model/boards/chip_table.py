@@ -37,7 +37,10 @@ def _lines(octets: Sequence[str]) -> list[Sequence[str]]:
 
 
 def head(sent: Transmission, mark: str) -> str:
-    """Say in comment lines what a sketch sends; none ends in the user's text, as a backslash."""
+    """Say in comment lines what a sketch sends, each after a mark.
+
+    No line ends in what the user wrote: a backslash there would join the next line to it.
+    """
     lines = [
         f"Blinks an LED so that a rolling-shutter camera can read it: {sent.board.title}.",
         "",

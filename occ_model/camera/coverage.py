@@ -60,9 +60,9 @@ def _shares(parts: list[CoveredPart]) -> list[Pixels]:
 class Coverage:
     """The fraction of the light in each pixel that comes from the panel.
 
-    A pixel belongs to the panel when its centre lies inside the outline, in order and possibly
-    concave. The blur (standard deviation in pixels) includes light from beyond the picture's rim,
-    as the lens blurs before the sensor cuts.
+    A pixel belongs to the panel when its centre lies inside the outline: the (column, row) of
+    each corner, in order round the panel, which may be concave. The blur (standard deviation in
+    pixels) includes light from beyond the picture's rim, as the lens blurs before the sensor cuts.
     """
 
     def __init__(self, outline: FloatArray, rows: int, columns: int, blur: float = 0.0) -> None:
@@ -240,7 +240,10 @@ def _crossings(
 
 
 def column_spans(outline: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
-    """Return each column's first row in an outline and the one after the last; equal for none."""
+    """Return each column's first row in an outline, and the one after the last; equal for none.
+
+    ``outline``: the (column, row) of each corner, in order.
+    """
     column, row, _ = _crossings(outline[:, ::-1], range(columns), 1)
     top, bottom = np.full(columns, np.inf), np.full(columns, -np.inf)
     np.minimum.at(top, column, row)

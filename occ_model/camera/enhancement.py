@@ -28,11 +28,11 @@ def to_bytes(values: NDArray[np.floating[Any]]) -> ByteArray:
 class Enhancement:
     """The contrast enhancement of a picture with some column values.
 
-    Its curve, rising and of shape (256,), follows from the columns' values alone and is applied to
-    pixels that a lens, noise or a file has changed since. ``"equalization"``, the paper's choice,
-    equalizes the histogram of the rounded values; ``"stretch"`` makes the smallest 0 and the
-    largest 255. A profile that spans less than one grey level is only rounded; one whose values
-    differ by rounding errors alone has one grey level, also half-way between two.
+    Its curve, of shape (256,) and nowhere falling, follows from the columns' values alone; it is
+    applied to pixels that a lens, noise or a file has changed since. ``"equalization"``, the
+    paper's choice, equalizes the histogram of the rounded values; ``"stretch"`` makes the smallest
+    0 and the largest 255. A profile that spans less than one grey level is only rounded; one whose
+    values differ by rounding errors alone has one grey level, also half-way between two.
     """
 
     def __init__(self, profile: FloatArray, method: str) -> None:

@@ -111,6 +111,8 @@ def rotations(yaw: FloatArray, pitch: FloatArray, roll: FloatArray) -> FloatArra
 def row_spans(corners: FloatArray, rows: int, columns: int) -> tuple[IndexArray, IndexArray]:
     """Return each row's first column inside a convex polygon, and the one after the last.
 
+    Equal where the row has none. ``corners``: the (column, row) of each, in order.
+
     A pixel lies inside when its centre does, or lies on the left or upper rim, so that it belongs
     to only one of two adjacent panels. Corners may lie any distance outside the image.
     """

@@ -135,7 +135,7 @@ def _padded(values: FloatArray, length: int) -> FloatArray:
 def write_rate_figure(
     folder: Path, number: int, device: str, tables: Mapping[str, SweepTable]
 ) -> None:
-    """Write figure 5 or 6: a device's success rate over frequency and distance, twice exposed."""
+    """Write figure 5 or 6: success rate over frequency and distance, at both exposure times."""
     settings = next(iter(tables.values())).request.settings
     title = f"Figure {number}: success rate, {device}, {settings.images} images a point"
     scenes = {preset: table.request.scene for preset, table in tables.items()}

@@ -12,7 +12,7 @@ _CAMERA = Scene().camera
 EXPOSURES = (0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0)  # default exposures, in symbols
 
 DECIBELS = (10.0, 15.0, 20.0, 25.0, 30.0)  # default ratios: variance of chips to that of row noise
-BenchPlace: TypeAlias = tuple[str, str, float, float]  # scheme, "exposure" or "noise", its values
+BenchPlace: TypeAlias = tuple[str, str, float, float]  # scheme, varied axis, exposure, ratio in dB
 
 
 @dataclass(frozen=True, slots=True)

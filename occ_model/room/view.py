@@ -140,7 +140,10 @@ def _clipped(points: FloatArray) -> FloatArray:
 
 
 def seen_outline(room: Room, height: float) -> FloatArray:
-    """Return the corners (x, y) of what the camera sees of a level plane; empty for none whole."""
+    """Return the corners, x and y, of the part of a plane at some height that the camera sees.
+
+    Empty where no whole picture of it is above the camera.
+    """
     camera, place = room.scene.camera, room.camera
     right, bottom = camera.columns - 1.0, camera.rows - 1.0
     corners = np.array([[0.0, 0.0], [right, 0.0], [right, bottom], [0.0, bottom]])

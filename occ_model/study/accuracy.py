@@ -2,7 +2,8 @@
 
 Five comparisons: samples of the exposure with its closed form; effects added one by one with all
 of them; the profile path with the image path; drafts with the whole picture; reused noise with
-noise drawn for each pixel. All errors are RMS in levels of the stretched profile.
+noise drawn for each pixel. All errors are RMS, in the unit of the plan: levels of the stretched
+profile, or margins of a decision.
 """
 
 from collections.abc import Callable, Iterator, Sequence

@@ -32,7 +32,8 @@ def interval_of_end(
 ) -> tuple[float, float]:
     """Return the 95 % interval of an end, between two values, the nearer to ``inside`` first.
 
-    ``lost``: the fraction of bits lost in each picture, by value; ``rate``: that reached inside.
+    ``lost``: the fraction of bits lost in each picture, by value; ``rate``: the success
+    rate in percent that is reached inside.
     """
     direction = math.copysign(1.0, outside - inside)
     span = abs(math.log(outside / inside))

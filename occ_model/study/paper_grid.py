@@ -31,7 +31,10 @@ def grid_request(
 
 
 def ceases_at(table: SweepTable, decoder: str, readable: float = 60.0) -> float | None:
-    """Find the lowest frequency in Hz from which on no distance is read; None for none."""
+    """Find the lowest frequency in Hz from which on no distance is read; None without one.
+
+    ``readable``: success rate in percent from which a distance counts as read.
+    """
     ceased = None
     best = table.rates(decoder).max(axis=1).tolist()
     for frequency, rate in zip(reversed(FREQUENCIES), reversed(best), strict=True):

@@ -92,7 +92,7 @@ class _MeasuredPlaces:
 
 
 def floor_under(room: Room, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Return evenly spaced places below a room's lamps, ``count`` a side; one is the middle."""
+    """Return evenly spaced places below a room's lamps, ``count`` a side; 1: their middle."""
     check_count("places on a side", count, 1, MOST_PLACES)
     sides = []
     for places in ([lamp.x for lamp in room.lamps], [lamp.y for lamp in room.lamps]):

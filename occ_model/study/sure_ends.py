@@ -25,9 +25,7 @@ from occ_model.study.confidence import TWO_SIDED, trial_of
 from occ_model.study.end_interval import interval_of_end
 from occ_model.study.working_range import NEAR, Images, moved, right_bits_at
 
-MOST_IMAGES = 1000  # maximum at a value inside, beyond which no rate above 99.6 % is shown
-
-
+MOST_IMAGES = 1000  # maximum at a value inside an end; a rate above 99.6 % would take more
 OUTSIDE = 200  # maximum images at a value beyond an end
 _ROUNDS, _PARTS, PICTURES = 2, (0.125, 0.375, 0.625, 0.875), 25
 """Pictures at parts of what is left of an interval, in rounds."""
@@ -37,7 +35,10 @@ _STAKES = (0.03, 0.1, 0.3)  # of the betting test, of the maximum: small ones de
 
 
 def images_to_be_sure(rate: float) -> int:
-    """Return how many images n, all read, show a rate in percent, n / (n + z^2); 0 for too many."""
+    """Return how many images show a rate in percent if all are read; 0 where too many would.
+
+    The lower end of the interval of n images is n / (n + z^2).
+    """
     fraction = rate / 100.0
     if fraction >= 1.0:
         return 0

@@ -20,7 +20,10 @@ _MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames from wh
 def fits_of(
     phases: Phases, readout_time: float, tolerance: float, columns: int, period: float
 ) -> tuple[ClockFit, ...]:
-    """Fit the clock to phases, by a readout time known to a fraction, below a frame period."""
+    """Fit the clock to phases, by a rough readout time in seconds that is wrong by a fraction.
+
+    ``period``: the frame period in seconds: reading out a frame takes no longer.
+    """
     if len(phases.times) < _MIN_FRAMES:
         return ()
     step, _ = mean_step(phases)

@@ -51,7 +51,7 @@ def enhanced_picture(image: ByteArray, region: Region, method: str) -> ByteArray
 
 
 def read_by_itself(image: ByteArray, scene: Scene, decoder: str = PAPER_DECODER) -> DecodeResult:
-    """Read one frame as a single picture: enhanced, where this one alone shows the payload."""
+    """Read a frame as the camera gives it, or enhanced where that alone shows the payload."""
     plain = decode(image, scene.replace(enhancement="none"), decoder)
     method, region = scene.model.enhancement, plain.region
     if plain.failure is None or region is None or method == "none":

@@ -46,8 +46,8 @@ class PayloadTemplates:
         """Return the ``count`` payloads, and phases, that correlate best with a signal.
 
         Each payload is compared with the signal that has its own levels, as it may light most chips
-        or hardly any. ``rank``: shape (bins,); the order of the bins of the folded signal. All with
-        a correlation of ``sure`` are among them.
+        or hardly any. ``rank``: shape (bins,); the place of each bin of the folded signal in the
+        order of its values. All with a correlation of ``sure`` are among them.
         """
         scores = np.empty(len(self.spectra))
         phases = np.empty(len(self.spectra), dtype=np.int64)

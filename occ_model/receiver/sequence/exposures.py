@@ -49,8 +49,8 @@ def taps(timing: Timing, starts: FloatArray) -> tuple[IndexArray, FloatArray]:
 class ChipStatistics:
     """All that a squared distance of rows from chips depends on, gathered by the last chip.
 
-    The squared distance of the rows that end in a chip from the light of chips c is c' G c - 2 v'
-    c, and a number that does not depend on the chips.
+    The squared distance of the rows that end in a chip from the light of chips c is
+    c' G c - 2 v' c, and a number that does not depend on the chips.
     """
 
     first: int  # The first chip that a row ends in

@@ -41,8 +41,8 @@ def short_run(histogram: RunHistogram) -> float:
 class ChipFit:
     """The relation of run lengths to chips.
 
-    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros ``n * chip_length
-    - widening``: a threshold off the middle moves every edge by the same amount.
+    A run of n ones is ``n * chip_length + widening`` columns long, one of n zeros
+    ``n * chip_length - widening``: a threshold off the middle moves every edge by the same amount.
     """
 
     chip_length: float

@@ -115,7 +115,10 @@ def _split(ranges: list[tuple[float, float]], highest: float) -> tuple[Ranges, f
 def _below(
     depths: Depths, nodes: FloatArray, limit: float, low: float, end: float
 ) -> list[tuple[float, float]]:
-    """Return the ranges with depths below a limit: quasi-concave, from ``end`` on below."""
+    """Return the ranges in which depths, quasi-concave between nodes, are below a limit.
+
+    From ``end`` on all are.
+    """
     inner = nodes[(nodes > low) & (nodes < end)]
     places = np.unique(np.concatenate([[min(low, end)], inner, [end]]))
     first, last = places[:-1], places[1:]

@@ -30,7 +30,10 @@ else:
 
 
 def is_locked_by_us(file: BinaryIO) -> bool:
-    """Lock a file until it is closed; False where another process has. Disks may have no locks."""
+    """Lock a file until it is closed; return False where another process has locked it.
+
+    On file systems without locks no process is kept out.
+    """
     try:
         _lock(file)
     except OSError as error:

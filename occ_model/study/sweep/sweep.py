@@ -101,13 +101,14 @@ def run_sweep(
     ``executor``: any executor of ``concurrent.futures`` whose workers can import this package, such
     as ``ProcessPoolExecutor(2)`` or, with dask, ``client.get_executor()``. When it breaks, this
     process finishes the sweep, with a ``RuntimeWarning``. Without one, ``jobs`` processes are
-    started, and again where they die, at most one a point and a few a core; 1, or a system without
-    processes, is this process. The module that calls this must not do so when it is imported (``if
-    __name__ == "__main__":``). ``progress``: called after each point, and several times a second
-    while a point takes longer, with the points done, of all, and seconds left (not a number at
-    first). Whatever it raises ends the sweep and is passed on; the CSV file ``results`` keeps what
-    is done. Where it holds a part of this same sweep, also one that was killed, only the remainder
-    is measured; a complete file is in the order of the axes.
+    started, and again where they die, at most one a point and a few a core; with one job, or with a
+    ``RuntimeWarning`` where the system has no processes to give, the sweep runs in this process.
+    The module that calls this must not do so when it is imported
+    (``if __name__ == "__main__":``). ``progress``: called after each point, and several times a
+    second while a point takes longer, with the points done, of all, and seconds left (not a number
+    at first). Whatever it raises ends the sweep and is passed on; the CSV file ``results`` keeps
+    what is done. Where it holds a part of this same sweep, also one that was killed, only the
+    remainder is measured; a complete file is in the order of the axes.
     """
     check_count("jobs", jobs, 1, MOST_JOBS)
     with ExitStack() as stack:

@@ -86,9 +86,9 @@ class Framing:
 def own_preamble(line_code: LineCode) -> ByteArray:
     """Return a line code's own preamble, which no payload contains.
 
-    It is the one declared, or a run longer than any of the code. With a longest run of n that is n
-    + 1 ones between as many zeros, so it is balanced: of Manchester 0 111 00 and of 4B6B 00 11111
-    000, which are those of C-OOK in IEEE 802.15.7-2018.
+    It is the one declared, or a run longer than any of the code. With a longest run of n that is
+    n + 1 ones between as many zeros, so it is balanced: of Manchester 0 111 00 and of 4B6B
+    00 11111 000, which are those of C-OOK in IEEE 802.15.7-2018.
     """
     if line_code.preamble:
         return _chips_of(line_code.preamble)

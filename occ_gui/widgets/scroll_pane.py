@@ -33,11 +33,14 @@ class ScrollPane(QScrollArea):
 
 def bring_into_view(widget: QWidget, margin: int = 50) -> None:
     """Choose the tabs and scroll all around a widget so that it is seen."""
+    scrolled: list[QScrollArea] = []
     page, around = widget, widget.parentWidget()
     while around is not None:
         tabs = around.parentWidget()
         if isinstance(around, QScrollArea):
-            around.ensureWidgetVisible(widget, 0, margin)
+            scrolled.append(around)
         elif isinstance(tabs, QTabWidget):
             tabs.setCurrentWidget(page)
         page, around = around, tabs
+    for area in scrolled:  # a page that was never in front is laid out by now, and not before
+        area.ensureWidgetVisible(widget, 0, margin)

@@ -32,6 +32,7 @@ def emboldened(label: Label, factor: float = 1.0) -> Label:
     """Set a label in bold, in a size that is so many times its own."""
     font = label.font()
     font.setBold(True)
-    font.setPointSizeF(factor * font.pointSizeF())
+    if factor != 1.0:  # a size that is set no longer follows that of the application
+        font.setPointSizeF(factor * font.pointSizeF())
     label.setFont(font)
     return label

@@ -177,9 +177,9 @@ class LimitCard(QFrame):
         )
 
     def show_unknown(self, why: str = "") -> None:
-        self._show("?" if why else "", why or "Not searched yet.", None)
         if why:
             self.name.setText(why)
+        self._show("?" if why else "", why or "Not searched yet.", None)
 
     def show_searching(self) -> None:
         self._show("…", "Searching for the highest frequency that is read.", None)

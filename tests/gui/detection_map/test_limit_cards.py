@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from gui.detection_map.test_advice import BAD, GOOD, INSIDE, advice_on
-from gui.kinds import add_widget, show_widget
+from gui.kinds import add_widget, not_none, show_widget
 from PySide6.QtCore import QSize
 from pytestqt.qtbot import QtBot
 
@@ -169,6 +169,15 @@ def test_titles_are_seen_whole_however_narrow_the_cards_are(
         needed = card.name.heightForWidth(card.name.width())
         assert card.name.height() >= needed
         assert not card.name.geometry().intersects(card.go.geometry())
+
+
+def test_a_reason_does_not_share_its_line_with_the_button(cards: LimitCards) -> None:
+    cards.resize(600, 120)
+    cards.show()
+    cards.show_ended("A raw pattern holds no code; a success rate needs packets.")
+    for card in cards.cards.values():
+        not_none(card.layout()).activate()
+        assert card.go.y() > card.name.geometry().bottom()
 
 
 def test_a_search_that_has_found_nothing_yet_says_what_will_appear(

@@ -134,7 +134,7 @@ class AccuracyView(QWidget):
 
     def show_settings(self, settings: SimulationSettings) -> None:
         """Show the simulation settings without emitting a signal."""
-        self.tolerance.field.show_unit(unit_of(settings.observable))
+        self.tolerance.show_unit(unit_of(settings.observable))
         self.plot.show_unit(unit_of(settings.observable))
         self.tolerance.show_value(settings.tolerance)
         self.table.show_tolerance(settings.tolerance)

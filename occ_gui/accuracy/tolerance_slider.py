@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QWidget
@@ -10,37 +11,41 @@ from occ_gui.scene.parameter_rows import explain
 from occ_gui.scene.quantity_edit import QuantityEdit
 from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
 from occ_model.results.plan import Way
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.parameter_kinds import Quantity
+from occ_model.scene.simulation_settings import TOLERANCE, unit_of
+from occ_model.scene.units import Unit
 
 STEPS = 200  # positions between the slider's ends, infinity and zero, while no marks are known
 
 _INFINITE = ("∞", "inf", "infinity", "infinite")
 
+_OF_DECISION = replace(
+    TOLERANCE,
+    meaning="How much effects left out may change what is observed, in margins: at 1 a chip could "
+    "be misread.",
+    unit=Unit(unit_of("decision")),
+)
+
 
 class ToleranceEdit(QuantityEdit):
     """A field for the tolerance, which may be infinite, in levels or in margins."""
 
-    _unit = TOLERANCE.unit.symbol
-
-    def show_unit(self, unit: str) -> None:
-        if unit != self._unit:
-            self._unit = unit
-            self._show()
+    def show_in(self, declared: Quantity) -> None:
+        self._quantity = declared
+        self._show()
 
     def _show(self) -> None:
         super()._show()
-        text = self.lineEdit().text() if self._value < math.inf else f"∞ {TOLERANCE.unit.symbol}"
-        self.lineEdit().setText(text.replace(TOLERANCE.unit.symbol, self._unit))
+        if self._value == math.inf:
+            self.lineEdit().setText(f"∞ {self._quantity.unit.symbol}")
 
     def take_typed(self) -> None:
         """Accept the typed text, as leaving the field does."""
-        text = self.lineEdit().text().removesuffix(self._unit).strip()
-        if self._typed and text.lower() in _INFINITE:
+        text = self.lineEdit().text().removesuffix(self._quantity.unit.symbol).strip().lower()
+        if self._typed and text in _INFINITE:
             self.set_value(math.inf)
             self.edited.emit(math.inf)
             return
-        if self._typed:
-            self.lineEdit().setText(text)
         super().take_typed()
 
 
@@ -58,13 +63,10 @@ class ToleranceSlider(QWidget):
         self.slider.setRange(0, STEPS + 1)
         self.slider.setPageStep(STEPS // 20)
         self.field = ToleranceEdit(TOLERANCE)
-        meaning = (
-            explain(TOLERANCE)
-            + "\nFast: infinity, the paper's model without any effect. Exact: 0, all effects."
-        )
+        self._unit = TOLERANCE.unit.symbol
+        self._explain(TOLERANCE)
         for control in (self.slider, self.field):
             control.setAccessibleName(TOLERANCE.label)
-            control.setToolTip(meaning)
             keep_wheel_for_scrolling(control)
         self.slider.valueChanged.connect(self._slide)
         self.field.edited.connect(self._take)
@@ -85,6 +87,23 @@ class ToleranceSlider(QWidget):
 
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return super().sizeHint().expandedTo(QSize(0, self.minimumSizeHint().height()))
+
+    def show_unit(self, unit: str) -> None:
+        """Name the unit, that of a decision or levels, in the field and in what is said of it."""
+        if unit == self._unit:
+            return
+        self._unit = unit
+        declared = TOLERANCE if unit == TOLERANCE.unit.symbol else _OF_DECISION
+        self.field.show_in(declared)
+        self._explain(declared)
+
+    def _explain(self, declared: Quantity) -> None:
+        meaning = (
+            explain(declared)
+            + "\nFast: infinity, the paper's model without any effect. Exact: 0, all effects."
+        )
+        for control in (self.slider, self.field):
+            control.setToolTip(meaning)
 
     def show_value(self, tolerance: float) -> None:
         """Show a tolerance without emitting a signal."""

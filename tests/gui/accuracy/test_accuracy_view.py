@@ -5,7 +5,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from gui.kinds import SnapshotOf, add_widget
+from gui.kinds import SnapshotOf, add_widget, collect
 from gui.pane_bench import PaneBench
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
@@ -225,10 +225,17 @@ def test_errors_of_a_decision_are_counted_in_margins(qtbot: QtBot, bench: Bench)
     field.lineEdit().selectAll()
     qtbot.keyClicks(field, "0.25 margins\r")
     assert bench.settings.settings.tolerance == 0.25
+    refused = collect(view.tolerance.refused)
+    field.lineEdit().selectAll()
+    qtbot.keyClicks(field, "-1\r")
+    assert refused == ["Tolerance cannot be -1 margins; allowed: from 0 margins."]
+    for control in (field, view.tolerance.slider):
+        assert "levels" not in control.toolTip()
     while bench.settings.settings.observable != "image":
         qtbot.keyClick(view.observable, Qt.Key.Key_Up)
     bench.simulate()
     assert field.lineEdit().text() == "0.25 levels"
+    assert "levels" in field.toolTip()
 
 
 def test_a_change_that_is_not_known_has_no_number(bench: Bench) -> None:

@@ -28,6 +28,9 @@ def _guarded(offered: LineCode) -> LineCode:
     ):
         if not isinstance(count, int) or count < 1:
             raise PluginError(f"{who} declares {name} = {shown(count)}; allowed: from 1.")
+    preamble: object = offered.preamble
+    if not isinstance(preamble, str) or set(preamble) - {"0", "1"}:
+        raise PluginError(f"{who} declares preamble = {shown(preamble)}; allowed: zeros and ones.")
 
     def encode(bits: ByteArray, level: int) -> ByteArray:
         chips = plugins.called(who, "encode", np.ndarray, offered.encode, bits, level)

@@ -72,6 +72,7 @@ code_wordless = replace(
     LINE_CODE, name="code_wordless", decode=lambda *_: occ.Decoded(np.array([1]), failure=3)
 )
 code_blockless = replace(LINE_CODE, name="code_blockless", block_chips=0)
+code_lettered = replace(LINE_CODE, name="code_lettered", preamble="ab")
 
 frame_empty = replace(FRAMING, name="frame_empty", encode=lambda bits, form: np.array([]))
 frame_huge = replace(FRAMING, name="frame_huge", encode=lambda *_: endless)
@@ -87,7 +88,7 @@ DECODERS = [
 ]  # fmt: skip
 CODES = [
     "code_raises", "code_short", "code_grey", "code_mute", "code_scalar", "code_wordless",
-    "code_blockless",
+    "code_blockless", "code_lettered",
 ]  # fmt: skip
 FRAMINGS = ["frame_empty", "frame_huge", "frame_fails", "frame_says_nothing"]
 SCENE = occ.load_preset("phone-68us").replace(rows=100, distance=0.6, switching_frequency=4e3)
@@ -186,6 +187,7 @@ def test_a_plugin_does_not_replace_a_built_in_decoder() -> None:
         ("code_short", "gives 10 chips in place of 20."),
         ("code_scalar", "gives 1 chips in place of 20."),
         ("code_blockless", "declares block_chips = 0; allowed: from 1."),
+        ("code_lettered", "declares preamble = 'ab'; allowed: zeros and ones."),
         ("code_grey", "gives chips that are not zeros and ones."),
     ],
 )

@@ -128,7 +128,6 @@ class StateIcon(QWidget):
     def __init__(self, side: int) -> None:
         super().__init__()
         self.state = State.NEUTRAL
-        self._side = side
         self.setFixedSize(QSize(side, side))
 
     def show_state(self, state: State) -> None:

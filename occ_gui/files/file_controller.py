@@ -260,8 +260,15 @@ class FileController(QObject):
         name, _ = QFileDialog.getSaveFileName(self._window, title, start, kinds)
         if not name:
             return None
-        path = Path(name)
-        return path if path.suffix else path.with_suffix(Path(first).suffix)
+        if (path := Path(name)).suffix:
+            return path
+        path = path.with_suffix(Path(first).suffix)
+        if path.exists():  # the dialog has asked about the name without it
+            self.status_message.emit(
+                f"{one_line(path.name)} exists already: name it with its ending to write over it."
+            )
+            return None
+        return path
 
     def _remember(self, photo: "Photo | None") -> None:
         if photo is not None and photo.path not in sample_photos():

@@ -255,6 +255,21 @@ def test_several_photos_of_the_dialog_become_a_table_which_is_saved_by_one(
     assert bench.status_message == ["Saved own.csv"]
 
 
+def test_a_name_without_an_ending_writes_over_no_file(
+    bench: Bench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The dialog has asked whether to write over the name as it was typed."""
+    own = tmp_path / "own.csv"
+    own.write_text("mine", encoding="utf-8")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "own"), ""))
+    bench.files.ask_to_save_table("readout\n")
+    assert own.read_text(encoding="utf-8") == "mine"
+    assert bench.status_message[0].startswith("own.csv exists already")
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(own), ""))
+    bench.files.ask_to_save_table("readout\n")
+    assert own.read_text(encoding="utf-8") == "readout\n"
+
+
 def test_dialogs_begin_in_the_folder_of_the_last_file(
     bench: Bench, tmp_path: Path, photo_file: Path, monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
 ) -> None:

@@ -152,7 +152,7 @@ def show_everything_about_the_photo(application: Application) -> None:
     photo.form.sent.show_key("square")
     photo.form.sent.chosen.emit("square")
     photo.result.show()
-    photo.show_match_failed("No scene explains the stripes of this photo at all. " * 4)
+    photo.verdict.show_ended(["No scene explains the stripes of this photo at all. " * 4])
     photo.form.show_running(True)
 
 

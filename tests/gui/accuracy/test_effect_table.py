@@ -156,6 +156,19 @@ def test_each_effect_has_a_switch_that_is_named_and_explained(table: EffectTable
         assert "plan" in switch.toolTip()
 
 
+def test_only_rows_that_differ_are_drawn_again(table: EffectTable, frame: Frame) -> None:
+    """All are given at each move of a slider."""
+    drawn: list[int] = []
+    table.effects.dataChanged.connect(lambda first, _: drawn.append(first.row()))
+    switches = dict(table.switches)
+    table.show_rows(rows_of(frame, costs_of(frame), new=()))
+    assert drawn == []
+    changed = replace(frame, timings={**frame.timings, "led-edges": 1e-3})
+    table.show_rows(rows_of(changed, costs_of(changed), new=()))
+    assert drawn == [0]
+    assert table.switches == switches
+
+
 def test_a_switch_tells_what_is_wanted_of_its_effect_and_shows_what_is_forced(
     table: EffectTable, qtbot: QtBot
 ) -> None:

@@ -260,6 +260,19 @@ def test_the_manual_is_read_in_larger_text_too(manual: HelpWindow) -> None:
     assert manual.browser.document().size().height() > before
 
 
+def test_pictures_are_fitted_anew_where_the_width_changes_only(
+    manual: HelpWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    browser, fitted = manual.browser, []
+    assert browser._pictures
+    monkeypatch.setattr(browser, "_fitted", lambda picture: fitted.append(picture) or picture)
+    width = browser.width()
+    browser.resize(width, browser.height() + 30)
+    assert not fitted
+    browser.resize(width + 30, browser.height())
+    assert len(fitted) == len(browser._pictures)
+
+
 def test_a_picture_has_all_points_of_a_fine_screen(
     qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -1,6 +1,7 @@
 """Pane of the photo: its steps, its facts, a failed match, and its placement."""
 
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,7 @@ from gui.kinds import add_widget, collect, not_none, show_widget
 from gui.photo.photo_bench import LiveView
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAccessible
-from PySide6.QtWidgets import QApplication, QPushButton, QWidget
+from PySide6.QtWidgets import QApplication, QCommonStyle, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.photo_steps import STEPS, PhotoSteps
@@ -181,17 +182,16 @@ def spoken(steps: PhotoSteps) -> list[str]:
         (True, "sure", False, ["Open: done", "Sent?: done", "Match: done", "Apply: next step"]),
         (True, "sure", True, ["Open: done", "Sent?: done", "Match: done", "Apply: done"]),
         (True, "earlier", True, ["Open: done", "Sent?: done", "Match: next step", "Apply"]),
-        (True, "doubtful", False, ["Open: done", "Sent?: done", "Match: doubtful", "Apply"]),
+        (True, "doubtful", False,
+         ["Open: done", "Sent?: done", "Match: doubtful", "Apply: next step"]),
     ],
 )  # fmt: skip
 def test_each_step_says_how_far_it_is(
     steps: PhotoSteps, has_photo: bool, match: str, is_applied: bool, words: list[str]
 ) -> None:
     steps.show_state(has_photo=has_photo, match=match, is_applied=is_applied)
-    assert [said.removesuffix(": next step") for said in spoken(steps)] == [
-        word.removesuffix(": next step") for word in words
-    ]
-    assert ("? Match" in steps.buttons["match"].text()) == (match == "doubtful")
+    assert spoken(steps) == words
+    assert (steps.buttons["match"].text() == "? Match") == (match == "doubtful")
     enabled = [name for name, button in steps.buttons.items() if button.isEnabled()]
     assert enabled == list(
         STEPS[: 1 if not has_photo else 4 if match in {"sure", "doubtful"} else 3]
@@ -210,6 +210,34 @@ def test_a_scene_that_differs_by_rounding_is_the_matched_one(
         assert spoken(view.steps)[3] == f"Apply: {word}"
         told = {chip.text for chip in view.verdict.chips.chips}
         assert ("not applied" in told) == (word != "done")
+
+
+def test_an_earlier_match_is_no_step_towards_the_present_one(view: LiveView, match: Match) -> None:
+    view.show_matched(match)
+    assert spoken(view.steps)[2:] == ["Match: done", "Apply: done"]
+    view.show_match_outdated("of another part of the photo: match again", usable=False)
+    assert spoken(view.steps)[2:] == ["Match: next step", "Apply"]
+    assert not view.steps.buttons["apply"].isEnabled()
+    view.show_match_outdated("", usable=True)
+    assert spoken(view.steps)[2:] == ["Match: done", "Apply: done"]
+
+
+def test_steps_are_styled_anew_only_where_they_change(
+    steps: PhotoSteps, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At each move of a slider they are told of the scene."""
+    styled: list[str] = []
+
+    def note(name: str) -> QCommonStyle:
+        styled.append(name)
+        return QCommonStyle()
+
+    for name, button in steps.buttons.items():
+        monkeypatch.setattr(button, "style", partial(note, name))
+    steps.show_state(has_photo=False, match="", is_applied=False)
+    assert not styled
+    steps.show_state(has_photo=True, match="", is_applied=False)
+    assert set(styled) == set(STEPS)
 
 
 def test_a_click_goes_to_its_step(steps: PhotoSteps) -> None:

@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.core.workspace import Workspace
+from occ_gui.export.jobs import ExportJob
 from occ_gui.files import file_controller
 from occ_model.scene.provenance import scene_inside
 from occ_model.scene.scene import Scene
@@ -246,3 +247,18 @@ def test_an_exported_figure_is_of_the_scene_just_chosen(
     if where == "clipboard":
         QGuiApplication.clipboard().image().save(str(path))
     assert scene_inside(path) == application.store.scene
+
+
+def test_all_figures_into_a_folder_are_of_the_scene_just_chosen(
+    application: Application, user: User, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Drawing them all takes a minute: their scenes are looked at before."""
+    export, jobs = application.shell.pane("export"), list[ExportJob]()
+    monkeypatch.setattr(export, "_put", jobs.append)
+    application.store.change(distance=1.3)
+    export.export_all(tmp_path)
+    user.wait_until_idle()
+    (job,) = jobs
+    assert job.folder == tmp_path
+    assert len(job.requests) > 3
+    assert {request.scene for request in job.requests} == {application.store.scene}

@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.exceptions import capture_exceptions
 from pytestqt.qtbot import QtBot
 
+import occ_model as occ
 from occ_gui.app.application import Application
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_model.scene.scene import Scene
@@ -106,3 +107,11 @@ def test_the_status_line_says_what_the_plan_switches_and_what_its_pane_refuses(
     assert user.message == "Tolerance cannot be little."
     application.settings.set_tolerance(-1.0)
     assert user.message.startswith("Tolerance cannot be -1")
+
+
+@pytest.mark.whole
+def test_each_preset_says_nothing(application: Application, user: User) -> None:
+    for _ in occ.presets():
+        name = user.choose_next_preset()
+        assert user.message == "", name
+        assert application.store.scene == occ.load_preset(name)

@@ -1,11 +1,12 @@
 """Who hears the window finds each control by name, its value with unit, in the order it is read."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import pytest
 from gui.kinds import not_none
 from gui.user import User
-from PySide6.QtCore import QObject
+from PySide6.QtCore import QObject, QPoint
 from PySide6.QtGui import QAccessible, QAccessibleInterface
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
@@ -24,6 +25,7 @@ HANDLED = {
 }  # fmt: skip
 """Roles of what a user handles."""
 
+ROW = 40
 """Pixels: a slider and the button above it are read as one row."""
 
 
@@ -109,3 +111,17 @@ def test_a_slider_and_its_field_tell_the_value_with_its_unit(
     user.enter("exposure_time", "250 us")
     slider = application.controls.main_rows()["exposure_time"].slider
     assert face_of(slider).text(DESCRIPTION) == "250 µs"
+
+
+def test_the_tab_key_goes_through_the_story_as_it_is_read(
+    application: Application, user: User
+) -> None:
+    user.wait_until_idle()
+    window, story = application.window, application.story
+    story.decoder.setFocus()
+    tops = []
+    while (widget := window.focusWidget()) is not None and story.isAncestorOf(widget):
+        tops.append(widget.mapTo(window, QPoint()).y())
+        window.focusNextChild()
+    assert len(tops) == 10
+    assert all(after >= before - ROW for before, after in pairwise(tops)), tops

@@ -26,6 +26,7 @@ WITHOUT_FILES = {
     "bench --scheme morse": "line_code is 'morse'",
     "bench --exposure -1": "exposure in symbols is -1",
     "bench --rows 0": "rows a symbol is 0",
+    "limits --rate 101": "rate is 101.0 %",
     "room locate --room cellar": "There is no room 'cellar'",
     "room locate --set distance=2m": "A room has no distance: ",
     "sweep --vary distance=1,1": "distance is 1 m twice",

@@ -164,9 +164,9 @@ def test_the_palette_finds_an_entry_by_what_it_is_for_and_jumps_to_every_paramet
     ):
         palette.line.setText(words)
         listed = [palette.list.item(place).text() for place in range(palette.list.count())]
-        assert any(title in text for text in listed), listed
+        assert any(title in text for text in listed), (words, title, listed)
         named = [words in text.casefold() for text in listed]
-        assert named == sorted(named, reverse=True)  # those of the name first
+        assert named == sorted(named, reverse=True), words  # those of the name first
     (jump,) = [command for command in found if command.matches(["f-number", "main"])]
     (other,) = [command for command in found if command.matches(["panel and camera", "gamma"])][:1]
     window.activateWindow()

@@ -1,6 +1,6 @@
 """The packages that the project needs, and their licences, as the installed packages state them.
 
-``python tests/licences.py`` prints the tables of the page *Licences*.
+``python tests/licences.py`` prints the tables of the page *About*.
 """
 
 import re

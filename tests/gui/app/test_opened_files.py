@@ -88,6 +88,7 @@ def test_a_missing_recent_file_is_reported_and_removed(
     assert application.preferences.files == ()
     application.open_photo(photo_file)
     user.wait_until_idle()
+    assert photo_file.name in user.message
     assert application.preferences.files == (), "what could not be read is not remembered"
 
 

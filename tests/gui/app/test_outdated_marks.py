@@ -108,6 +108,7 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     user.wait_until_idle()
     qtbot.waitUntil(lambda: not any(mark.isHidden() for mark in marks(application)[:5]))
     assert application.view("picture")._frame is shown
+    assert application.story.verdict.title.text() == "No picture of this scene"
     earlier = f"Earlier scene: {RIGHT}"
     qtbot.waitUntil(lambda: application.view("decode").verdict.text() == earlier)
     text = "of an earlier scene: this one has no picture"
@@ -116,6 +117,7 @@ def test_after_a_refusal_the_last_picture_is_marked_as_older(
     assert application.store.scene == small_scene
     user.wait_until_idle()
     assert application.view("decode").verdict.text() == RIGHT
+    assert application.story.verdict.title.text() in RIGHT
     assert all(mark.isHidden() for mark in marks(application))
 
 

@@ -3,7 +3,7 @@
 import pickle
 from collections.abc import Callable, Iterator
 from typing import Any, ClassVar
-from unittest.mock import Mock
+from unittest.mock import Mock, create_autospec
 
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ from occ_gui.background.signals import WorkQueue
 from occ_gui.core.workspace import FIRST_SETTINGS
 from occ_gui.detection_map import map_controller as module
 from occ_gui.detection_map import map_schedule
-from occ_gui.detection_map.map_controller import DetectionMapController
+from occ_gui.detection_map.map_controller import DetectionMapController, MapPane
 from occ_gui.detection_map.rate_map import RateMap
 from occ_gui.detection_map.worker import IMAGE_EFFECTS
 from occ_model.parallel.job import Job, JobResult
@@ -59,7 +59,7 @@ class Bench:
         self.queue = WorkQueue(1, lambda: workers)
         self.scenes = store_of(scene)
         self.settings = self.scenes.settings
-        self.pane = Mock()
+        self.pane = create_autospec(MapPane, instance=True)
         self.controller = DetectionMapController(self.scenes, self.queue.channels[0], self.pane)
 
     def wait_until_idle(self) -> RateMap:

@@ -76,7 +76,7 @@ def test_where_a_plan_knows_an_effect_its_estimate_is_seldom_half_too_large(
 ) -> None:
     ratios = ratios_of(observable)
     known = ratios[ratios[:, 1] <= KNOWN * ratios[:, 0], 0]
-    assert len(known) > 0.6 * len(ratios)
+    assert len(known) > 0.5 * len(ratios)  # most of them
     assert np.mean(known > 1.5) <= most
 
 

@@ -62,5 +62,5 @@ def chips_if_longer(chips: ByteArray) -> tuple[int, int]:
     falling = rising[:-1] + bright
     together = math.gcd(*np.diff(rising).tolist(), *np.diff(falling).tolist())
     lengths = [part for part in range(1, together + 1) if together % part == 0]
-    most = max(part for part in lengths if min(bright) > bright[0] % part)
+    most = max((part for part in lengths if 0 < bright[0] % part < min(bright)), default=1)
     return most, bright[0] % most

@@ -70,6 +70,8 @@ def test_chips_whose_bright_runs_are_longer_by_as_much_may_be_fewer(
     assert (found, by) == (together, longer) or found > together
 
 
-@pytest.mark.parametrize("chips", ["111", "10", "1110", "1101001", "10100010", "1110100110"])
+@pytest.mark.parametrize(
+    "chips", ["111", "10", "1110", "1101001", "10100010", "1110100110", "1100110000"]
+)
 def test_chips_of_no_such_kind_are_no_fewer(chips: str) -> None:
     assert chips_if_longer(np.array(list(chips), dtype=np.uint8)) == (1, 0)

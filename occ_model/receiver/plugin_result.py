@@ -6,7 +6,7 @@ from numbers import Integral, Real
 import numpy as np
 
 from occ_model.errors import PluginError
-from occ_model.results.decoding import DecodeResult
+from occ_model.results.decoding import DecodeResult, Region, RunHistogram, Runs
 from occ_model.scene.payload import MAX_PAYLOAD_BITS
 from occ_model.transmitter.plugin_values import (
     MOST_CHIPS,
@@ -29,10 +29,14 @@ def checked_result(who: str, result: DecodeResult, columns: int) -> DecodeResult
         who, result, failure=str | None, code=Integral | None, payload=str,
         threshold=Real | None, chip_length=Real | None, correlation=Real | None,
         confidence=Real | None, folded=np.ndarray | None, model=np.ndarray | None,
+        region=Region | None, runs=Runs | None, histograms=tuple | None,
         **dict.fromkeys(lengths, np.ndarray | None),
     )  # fmt: skip
     check_places(who, "headers", result.headers, len(chips))
-    if not result.failure and (result.code is None or not bits.size):
+    for one in result.histograms or ():
+        if not isinstance(one, RunHistogram) or len(result.histograms or ()) != 2:
+            raise PluginError(f"{who} gives histograms that are not two of runs.")
+    if not result.failure and (result.code is None or result.code < 0 or not bits.size):
         raise PluginError(f"{who} gives neither a code with its bits nor a failure.")
     for name, length in lengths.items():
         values = getattr(result, name)

@@ -14,8 +14,9 @@ READ = occ.DecodeResult("own", code=1, bits=np.array([1]), chips=np.array([1, 0]
 RUBBISH: tuple[Any, ...] = (
     None, True, -1, 2**70, 1.5, float("nan"), "", "a\x1b[31m", b"\0", object(), [], [1], {}, (),
     (1, "2"), np.array(1), np.array([]), np.array([0.5, 1.0]), np.array([1, 0, 1]),
-    np.zeros((2, 2)), np.array(["1", "0"]), np.array([1, None]), np.array([1j, 0]), np.array([np.nan, 1.0]),
-    np.zeros(2, dtype=[("a", "u1")]), np.broadcast_to(np.uint8(0), 10**12), occ.Scene(), len,
+    np.zeros((2, 2)), np.array(["1", "0"]), np.array([1, None]), np.array([1j, 0]),
+    np.array([np.nan, 1.0]), np.zeros(2, dtype=[("a", "u1")]), np.broadcast_to(np.uint8(0), 10**12),
+    occ.Scene(), len,
 )  # fmt: skip
 
 

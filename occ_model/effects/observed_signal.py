@@ -133,8 +133,8 @@ def _doubt_large_steps(pixels: SampledPixels, found: Observed) -> None:
     profile = _seen_profile(pixels)
     middles = np.asarray(large + 0.5, dtype=np.float64)[:, None]
     noise = pixels.noise_at(pixels.names, profile)  # a full pixel has none
-    moves = np.sqrt(pixels.mean_of_rows((pixels.stack[1:] - pixels.whole) ** 2)).max(axis=1)
-    moved = moves.tolist()
+    squares = pixels.mean_of_rows((pixels.stack[1:] - pixels.whole) ** 2)
+    moved = np.sqrt(squares.max(axis=1)).tolist()
     reach = max(2.0 * float(noise.max()), *moved, _ROUNDING_MARGIN)
     close = (np.abs(profile - middles) < reach).any(axis=0)
     profile, missed, noise = profile[close], missed[close], noise[close]
@@ -167,11 +167,9 @@ def _seen_profile(pixels: SampledPixels) -> FloatArray:
     """Return the profile of the panel as the lens dims it."""
     region, columns = pixels.view.region, pixels.sample.columns
     profile = pixels.profile(pixels.names)
-    order = np.argsort(columns)
     seen = pixels.whole[:, pixels.sample.inner].mean(axis=1)
     gain = seen / np.maximum(profile[columns - region.first_column], 1.0)
-    places = np.arange(region.first_column, region.last_column)
-    return np.asarray(profile * np.interp(places, columns[order], gain[order]))
+    return profile * pixels.over_columns(gain)
 
 
 def _doubt_a_cut_file(pixels: SampledPixels, found: Observed) -> None:

@@ -253,10 +253,13 @@ class SampledPixels:
         """The difference of the brightest and the darkest pixel of the sample."""
         return float(self.levels[-1] - self.levels[0])
 
-    def profile(self, included: Names) -> FloatArray:
-        """Return the values on the panel of all columns of the region."""
+    def profile(self, included: Names, factor: FloatArray | None = None) -> FloatArray:
+        """Return the values on the panel of all columns of the region, dimmed by factors."""
         region = self.view.region
-        return self.columns.profile(included)[region.first_column : region.last_column]
+        span = slice(region.first_column, region.last_column)
+        if factor is None:
+            return self.columns.profile(included)[span]
+        return self.columns.dimmed(included, span, factor)
 
     @cached_property
     def unsampled(self) -> FloatArray | None:
@@ -272,9 +275,22 @@ class SampledPixels:
         inside = self.inside([self.names])
         if inside is None:
             return lacking
-        order, share = np.argsort(columns), self.mean_of_rows(inside[0])
+        return np.where(self.over_columns(self.mean_of_rows(inside[0])) > 0.0, lacking, 0.0)
+
+    def over_columns(self, sampled: FloatArray) -> FloatArray:
+        """Interpolate values of the sample's columns over all columns of the region."""
+        region, columns = self.view.region, self.sample.columns
+        order = np.argsort(columns)
         places = np.arange(region.first_column, region.last_column)
-        return np.where(np.interp(places, columns[order], share[order]) > 0.0, lacking, 0.0)
+        return np.interp(places, columns[order], sampled[order])
+
+    def dimming(self, name: str) -> FloatArray | None:
+        """Return by what a lens dims each column of the sample in the mean, None for nothing."""
+        if name in self._dimmed:
+            return self.mean_of_rows(self._dimmed[name])
+        gain = self.sample.emission.get(name)
+        power = 1.0 / self.scene.camera.gamma
+        return None if gain is None else self.mean_of_rows(fast_power(gain, power))
 
     def mean_of_rows(self, seen: FloatArray) -> FloatArray:
         """Return the mean of each column over its rows."""

@@ -60,15 +60,15 @@ class SimulatedColumns:
         """Return the values of all columns on the panel."""
         key = included & self._of_value
         if key not in self._profile:
-            self._profile[key] = self.dimmed(key)
+            self._profile[key] = self.dimmed(key, slice(None), 1.0)
         return self._profile[key]
 
-    def dimmed(self, included: Names, factor: FloatArray | float = 1.0) -> FloatArray:
-        """Return these times factors, as a lens dims columns before they are full or white."""
+    def dimmed(self, included: Names, columns: slice, factor: FloatArray | float) -> FloatArray:
+        """Return those of some columns as a lens dims them, before they are full or white."""
         light, view = self.light(included), self._view
         is_known = light is view.light
         values = view.values if is_known else panel_values(view.scene, light, fast_power)
-        values = values * factor
+        values = values[columns] * factor
         for limit in self._limits:
             if limit.name in included:
                 values = limit.apply(view.scene, values)

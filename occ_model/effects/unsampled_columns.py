@@ -3,7 +3,6 @@
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.photometry import fast_power
 from occ_model.effects.observed import Observed
 from occ_model.effects.sampled_pixels import SampledPixels
 from occ_model.effects.smoothed_curves import LEAST_SMOOTHING_NOISE, SmoothedCurves
@@ -21,8 +20,14 @@ def add_unsampled(
     shows in the few that are not, and where little noise spreads the rounding, so does noise. All
     columns of a profile cost microseconds, without the enhancement's curves.
     """
-    if pixels.unsampled is None:
+    lacking = pixels.unsampled
+    if lacking is None:
         return
+
+    def add(name: str, seen: FloatArray) -> None:
+        missed = float((seen[1] - seen[0]) ** 2 @ lacking)
+        found.alone[name] = found.alone.get(name, 0.0) + max(missed, 0.0)
+
     for effect in (*pixels.lights, *pixels.limits, *pixels.lenses):
         profiles = _profiles(pixels, effect.name)
         if profiles is None:
@@ -34,21 +39,16 @@ def add_unsampled(
             levels = [pixels.columns.enhancement(one)(own) for one, own in pairs]
             changed = np.array(levels, dtype=np.float64)
         squares = (changed[1] - changed[0]) ** 2
-        if squares @ pixels.unsampled <= _MISSED_FRACTION * squares.mean():
+        if squares @ lacking <= _MISSED_FRACTION * squares.mean():
             continue
         if curves is not None:
             changed = curves.enhanced(sets, profiles)
-        _add(pixels, found, effect.name, changed)
+        add(effect.name, changed)
     if curves is not None and pixels.least_noise(pixels.names) < LEAST_SMOOTHING_NOISE:
         profiles = np.stack([pixels.profile(pixels.names)] * 2)
         for noise in pixels.noises:
             sets = [pixels.names, pixels.names - {noise.name}]
-            _add(pixels, found, noise.name, curves.enhanced(sets, profiles))
-
-
-def _add(pixels: SampledPixels, found: Observed, name: str, seen: FloatArray) -> None:
-    missed = float((seen[1] - seen[0]) ** 2 @ pixels.unsampled)
-    found.alone[name] = found.alone.get(name, 0.0) + max(missed, 0.0)
+            add(noise.name, curves.enhanced(sets, profiles))
 
 
 def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:
@@ -56,15 +56,8 @@ def _profiles(pixels: SampledPixels, name: str) -> FloatArray | None:
 
     What dims each pixel otherwise is taken for its mean over the rows.
     """
-    sample, region = pixels.sample, pixels.view.region
-    gain = sample.emission.get(name, sample.transmission.get(name))
-    whole = pixels.profile(pixels.names)
-    if gain is None:
-        is_rim = name in sample.outline
+    whole, dimming = pixels.profile(pixels.names), pixels.dimming(name)
+    if dimming is None:
+        is_rim = name in pixels.sample.outline
         return None if is_rim else np.stack([whole, pixels.profile(pixels.names - {name})])
-    order = np.argsort(sample.columns)
-    dimmed = pixels.mean_of_rows(fast_power(gain, 1.0 / pixels.scene.camera.gamma))
-    places = np.arange(pixels.scene.camera.columns)
-    factor = np.interp(places, sample.columns[order], dimmed[order])
-    seen = pixels.columns.dimmed(pixels.names, factor)[region.first_column : region.last_column]
-    return np.stack([seen, whole])
+    return np.stack([pixels.profile(pixels.names, pixels.over_columns(dimming)), whole])

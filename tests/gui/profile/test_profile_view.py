@@ -174,10 +174,8 @@ def test_neither_one_edge_nor_the_scene_before_sets_the_axis_of_the_residual(
     ends = []
     for height, is_outdated in ((190.0, True), (4.0, False), (40.0, False), (4.0, False)):
         comparison = Comparison(0, np.full(300, 100.0 + height), np.full(300, 100.0), 0.9)
-        profile = PhotoProfile(
-            comparison, photo.profile, photo=photo, is_outdated=is_outdated
-        )  # fmt: skip
-        view.show_photo_profile(profile)
+        shown = PhotoProfile(comparison, photo.profile, photo=photo, is_outdated=is_outdated)
+        view.show_photo_profile(shown)
         ends.append(view.residual.plot.getViewBox().viewRange()[1][1])
     assert ends == pytest.approx([1.4 * 200.0, 1.4 * 5.0, 1.4 * 50.0, 1.4 * 50.0])
 

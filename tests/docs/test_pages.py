@@ -8,14 +8,12 @@ from pathlib import Path
 import pytest
 from documents import FOLDER, PAGES, README, ROOT, blocks, links, text_of, without_code
 
-import occ_model as occ
 from occ_gui.app.command_line import read_command_line as read_gui_line
 from occ_gui.help.pages import CONTENTS, heading_id, pages
 from occ_model.commands.codes import framing_table, line_code_table
 from occ_model.commands.command_line import read_command_line
 from occ_model.commands.listing import parameter_table
 from occ_model.effects.registry import EFFECTS
-from occ_model.receiver.decoder import Decoder
 from occ_model.scene.preset_file import preset_from
 
 every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -145,19 +143,8 @@ def test_the_measurements_have_every_law_door_and_cost(folder: str, name: str, l
 
 
 def test_the_preset_of_the_manual_can_be_loaded() -> None:
-    (text,) = blocks(page_named("extending"), "toml")
+    text, _ = blocks(page_named("extending"), "toml")
     preset = preset_from("my-camera", text)
     assert preset.scene.camera.readout_time == 9.2e-6
     assert preset.scene.camera.exposure_time == 136e-6
     assert set(preset.assumed) >= {"f_number"}
-
-
-def test_the_decoder_of_the_manual_is_one() -> None:
-    (code,) = blocks(page_named("extending"), "python")
-    names: dict[str, object] = {"__name__": "example"}
-    exec(compile(code, "extending.md", "exec"), names)
-    decoder = names["DECODER"]
-    assert isinstance(decoder, Decoder)
-    scene = occ.load_preset("phone-68us")
-    result = decoder.read(occ.column_profile(scene), scene)
-    assert (result.code, result.failure) == (None, "No code was looked for.")

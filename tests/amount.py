@@ -1,4 +1,4 @@
-"""How much is tried: a sample every day, all of it in CI and with ``--whole``."""
+"""How much is tried: a sample every day, all of it with ``--whole``."""
 
 import os
 

@@ -61,8 +61,8 @@ def photos() -> Path:
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the options of the tests themselves."""
     parser.addoption(
-        "--whole", action="store_true", default=bool(os.environ.get("CI")),
-        help="run the tests marked `whole` too, as CI does",
+        "--whole", action="store_true",
+        help="run the tests marked `whole` too, and all cases of which the others try a sample",
     )  # fmt: skip
     parser.addoption(
         "--renew-snapshots", action="store_true",
@@ -93,7 +93,7 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Begin with what takes long in one piece, and leave out what only CI runs whole.
+    """Begin with what takes long in one piece, and leave out what runs with ``--whole`` only.
 
     What is left out counts as deselected, not as skipped.
     """

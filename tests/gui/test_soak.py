@@ -1,6 +1,6 @@
 """Whatever is done in whatever order, the window lives, and its memory stays what it was.
 
-It runs in CI, and with ``--whole``: each action about once, or ``OCC_SOAK=20000`` of them. ``-rP``
+It runs with ``--whole``: each action about once, or ``OCC_SOAK=20000`` of them. ``-rP``
 prints by how much the memory grew; with ``-s`` nobody would look for Qt's warnings.
 """
 

@@ -1,6 +1,6 @@
 """Ctrl-C at any moment: one line, an exit code, and no process that lives on.
 
-``OCC_INTERRUPTS=200`` does as many a command; every day it is three, in CI five.
+``OCC_INTERRUPTS=200`` does as many a command; every day it is three, with ``--whole`` five.
 """
 
 import re

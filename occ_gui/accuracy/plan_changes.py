@@ -6,7 +6,7 @@ from occ_gui.simulation.snapshot import Snapshot
 from occ_model.results.frame import Frame
 from occ_model.results.plan import Decision
 
-_NEW_MS = 8000  # for how long what the plan has switched is marked, and told in the status line
+_NEW_MS = 8000  # for how long what the plan has switched is marked, and stated in the status line
 
 
 class PlanChanges:

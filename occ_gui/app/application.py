@@ -165,7 +165,7 @@ class Application(QObject):
         return self.measuring.is_idle and self.shell.is_measured
 
     def view(self, name: str) -> Any:
-        """Give the view of a pane, which is made if it has never been seen."""
+        """Return the view of a pane, which is made if it has never been seen."""
         return self.shell.pane(name).view
 
     def open_photo(self, path: Path, match: bool = False, front: bool = True) -> None:

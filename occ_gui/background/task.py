@@ -20,7 +20,7 @@ ends work that is not wanted by raising an exception."""
 
 
 class Superseded(Exception):  # noqa: N818 - no error: nobody waits for it any more
-    """Ends work whose result is not needed any more; nothing is told of it."""
+    """Ends work whose result is not needed any more; nothing is reported of it."""
 
 
 class _Run:

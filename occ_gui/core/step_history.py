@@ -37,7 +37,7 @@ class History:
     done: int = 0
 
     def states(self) -> Iterator[Step]:
-        """Give the state before each step and that after the last; errors as `Scene.replace`."""
+        """Return the state before each step and that after the last; errors as `Scene.replace`."""
         scene = self.first.scene
         yield self.first
         for step in self.steps:

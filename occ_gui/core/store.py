@@ -30,11 +30,11 @@ class Store(QObject):
     """Holds the workspace.
 
     All hear of a change in the order in which they have selected, and of one change after the
-    other: what a listener changes in turn is told when the last one has heard of the change before.
+    other: what a listener changes in turn is announced when all have heard of the change before.
     """
 
     step_begun = Signal(object)
-    """The workspace that a new step, an undo or a redo has left; emitted before it is told."""
+    """The workspace that a new step, an undo or a redo has left; emitted before it is announced."""
 
     def __init__(self, workspace: Workspace) -> None:
         super().__init__()
@@ -44,7 +44,7 @@ class Store(QObject):
         self._is_telling = self._is_resuming = False
         self._selections: list[Selection[object]] = []
         self.undo_stack = QUndoStack(self, undoLimit=MOST_STEPS)
-        # Told when the stack has finished: a listener that edits in turn puts its step on top.
+        # Announced when the stack has finished: a listener that edits in turn puts its step on top.
         self.undo_stack.indexChanged.connect(self._on_index)
 
     def select(self, of: Callable[[Workspace], T]) -> Selection[T]:
@@ -57,7 +57,7 @@ class Store(QObject):
         left, self.workspace = self.workspace, workspace
         if workspace.step != left.step:
             self._keep_step(left, title, gesture)
-        if self._is_telling:  # it is told when the last one has heard of the change before
+        if self._is_telling:  # it is announced when the last one has heard of the change before
             return
         self._is_telling = True
         try:

@@ -32,7 +32,7 @@ class Step:
     preset: str = field(default="", compare=False)  # it follows from how the scene was changed
 
     def laid_over(self, workspace: "Workspace") -> "Workspace":
-        """Give a workspace that has this part, and else is as before."""
+        """Return a workspace that has this part, and else is as before."""
         laid = replace(workspace, scene=self.scene, room=self.room, preset=self.preset)
         return laid.with_force(self.force)
 
@@ -63,5 +63,5 @@ class Workspace:
         return Step(self.scene, dict(self.settings.force), self.room, self.preset)
 
     def with_force(self, force: Mapping[str, bool]) -> Self:
-        """Give a workspace in which exactly these effects are switched by hand."""
+        """Return a workspace in which exactly these effects are switched by hand."""
         return replace(self, settings=replace(self.settings, force=dict(force)))

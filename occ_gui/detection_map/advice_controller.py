@@ -41,7 +41,7 @@ class AdviceRequest:
     with_image_effects: bool
 
     def along(self, name: str) -> "AdviceRequest":
-        """Give the request without the value of a parameter, which its limits do not depend on."""
+        """Return the request without a parameter's value, which its limits do not depend on."""
         scene = self.scene.replace(**{name: quantity(name).default})
         return replace(self, scene=scene)
 

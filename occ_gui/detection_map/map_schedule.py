@@ -45,7 +45,7 @@ def map_request(
 def map_stages(
     requests: tuple[SweepRequest, ...], images: IndexArray, with_theory: bool, slow: bool
 ) -> Iterator[Stage]:
-    """Give the stages of a map.
+    """Return the stages of a map.
 
     ``images``: shape (points along x, points along y): images that were read at each point
     already.

@@ -30,7 +30,7 @@ class MostBitsRequest:
     frames_a_second: float
 
     def stages(self) -> Iterator[Stage]:
-        """Give one job for each decoder, one after the other: other work keeps its process."""
+        """Return one job for each decoder, one after the other: other work keeps its process."""
         for decoder in DECODERS:
             job = Job(carry_most, (self.scene, decoder, self.frames_a_second), _COUNTER)
             yield Stage(_RANK, (job,))

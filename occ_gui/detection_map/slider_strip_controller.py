@@ -29,7 +29,7 @@ class SliderStripPane(Protocol):
 def strip_stages(
     missing: Mapping[str, tuple[RateRequest, set[int]]], present: RateRequest
 ) -> Iterator[Stage]:
-    """Give the stages of the work that is left.
+    """Return the stages of the work that is left.
 
     ``present``: the request for the scene. Where its points take long, each is a job that a newer
     request ends; that is found out when the work begins, and holds up no slider.
@@ -119,7 +119,7 @@ def _share(point: SweepPoint) -> float | None:
 
 
 def _nearest(shares: Mapping[int, float | None], place: int) -> float | None:
-    """Give a position's share, or that of the known one on the coarser lattice beside it."""
+    """Return a position's share, or that of the known one on the coarser lattice beside it."""
     if place in shares:
         return shares[place]
     return shares.get(round(place / STRIDES[0]) * STRIDES[0])

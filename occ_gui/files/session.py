@@ -18,7 +18,7 @@ LONGEST_WAIT_MS = 1000
 def restored(
     file: SessionFile, first: Workspace, *, is_scene_asked: bool, are_settings_asked: bool
 ) -> Workspace:
-    """Give the workspace that a window begins with: that of the last session.
+    """Return the workspace that a window begins with: that of the last session.
 
     ``first``: what the command line asks for. A scene or settings that it names win.
     """

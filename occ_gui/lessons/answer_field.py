@@ -13,7 +13,7 @@ from occ_model.results.lessons import CheckedAnswer
 _LONGEST = 300  # characters of an answer
 
 _SIGNS = {"right": "✓", "near": "≈", "wrong": "✗", "unreadable": "?", None: "→"}
-"""The outcome as a sign, so that it is not told by colour alone."""
+"""The outcome as a sign, so that colour alone does not show it."""
 
 
 class AnswerField(QWidget):

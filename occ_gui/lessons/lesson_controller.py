@@ -201,7 +201,7 @@ class LessonController(QObject):
         self.pane_wanted.emit(step.pane)
 
     def _photo_of(self, step: Step, users: PhotoChoice) -> PhotoChoice:
-        """Give the photo of a step: the sample that it names, the user's own, or none."""
+        """Return the photo of a step: the sample that it names, the user's own, or none."""
         present = self._store.workspace.photo
         samples = {path.stem: path for path in sample_photos()}
         if step.own_photo and is_own(users):

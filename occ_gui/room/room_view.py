@@ -77,7 +77,7 @@ class RoomView(QWidget):
             widget.hide()
         self.measure = push_button(
             "&Measure the floor",
-            "Take a picture at each of 25 places below the lamps, and see where the place is told.",
+            "Take a picture at each of 25 places below the lamps, and where the place is found.",
             self.map_asked,
         )
         self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()
@@ -100,7 +100,7 @@ class RoomView(QWidget):
         self.rooms.setCurrentIndex(self.rooms.findText(name))
 
     def show_plan(self, room: Room, plan: RoomPlan, *, is_new: bool) -> None:
-        """Show where lamps and camera are; what the last picture told is out of date."""
+        """Show where lamps and camera are; what the last picture has shown is out of date."""
         self.plan.show_plan(plan, room.camera, is_new=is_new)
         self.plan.show_located(None, room.camera)
         self.headline.setText("Looking…")
@@ -141,7 +141,7 @@ class RoomView(QWidget):
 
 def _headline(reading: RoomReading) -> str:
     if reading.located is None:
-        return "The place is not told"
+        return "The place is not determined"
     place, errors = reading.located.place, reading.located.errors
     text = ", ".join(
         f"{name} {getattr(place, name):.4f} m ± {_length(error)}"
@@ -183,7 +183,7 @@ def _floor(found: FloorMap) -> str:
         sum(getattr(point, count) for point in points) for count in ("named", "shown", "wrong")
     )
     text = (
-        f"Map of the floor: {len(sure)} of {len(points)} places told (blue; not orange), "
+        f"Map of the floor: {len(sure)} of {len(points)} places determined (blue, else orange), "
         f"{named} of {shown} whole lamps named, {wrong} lamps named wrongly."
     )
     if sure:

@@ -100,7 +100,7 @@ class SliderScale(QWidget):
         """Return the end values and the marks' names, each with its place.
 
         An end value that leaves a mark no place for its name is left out: where the slider ends is
-        seen, but what a mark is told by nothing else.
+        seen, but nothing else says what a mark is.
         """
         low, high = self._ends(metrics)
         choices: tuple[list[_Text], ...] = ([low, high], [low], [high], [])

@@ -62,7 +62,7 @@ class Results:
 
 
 MadeOf: TypeAlias = Callable[[Results], SimulationRequest | None]
-"""Gives what a part of the results was computed from; None where there is no such part."""
+"""Returns what a part of the results was computed from; None where there is no such part."""
 
 
 def of_snapshot(results: Results) -> SimulationRequest | None:
@@ -70,7 +70,7 @@ def of_snapshot(results: Results) -> SimulationRequest | None:
 
 
 def of_reading(results: Results) -> SimulationRequest | None:
-    """Give what the reading was computed from, which comes before the exact picture."""
+    """Return what the reading was computed from, which comes before the exact picture."""
     return None if results.reading is None else results.reading.request
 
 

@@ -65,7 +65,7 @@ class Shell(QObject):
         return place
 
     def pane(self, name: str) -> Any:
-        """Give a pane or a service, which is made if it has never been seen or wanted."""
+        """Return a pane or a service, which is made if it has never been seen or wanted."""
         if name in self._places:
             return self._places[name].made()
         if name not in self._services:

@@ -11,7 +11,7 @@ Use = Callable[[Snapshot], None]
 
 
 class PresentResults(QObject):
-    """Gives the results of the present scene to those who ask, as soon as the panes show them.
+    """Returns the results of the present scene to those who ask, as soon as the panes show them.
 
     Results of an earlier scene are never given: whoever asks while a scene is computed waits for
     it. Where a scene has no picture, they are told so, and what they asked for is not done.

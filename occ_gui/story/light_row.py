@@ -39,7 +39,7 @@ _LEAST_CHIP = 1.5  # fewest pixels of a chip that is drawn
 
 _LEAST_FOR_DIGIT = 9
 
-_MOST_LETTERS = 60  # letters of a payload that is told in words
+_MOST_LETTERS = 60  # letters of a payload that is described in words
 _GRIP = 6  # pixels beside the window that still belong to it
 
 

@@ -45,7 +45,7 @@ class FoundMatch:
     is_listed: bool = False
 
     def refusal_of(self, part: "Lamp | Region | None") -> tuple[str, ...]:
-        """Give the reasons why there is no match of this part; empty where it was not refused."""
+        """Return the reasons why there is no match of this part; empty where it was not refused."""
         return self.refusal if part == self.refused_part else ()
 
 

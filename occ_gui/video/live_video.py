@@ -83,7 +83,7 @@ class LiveVideo(Video):
             self._orders.append(lambda: answer(self.source.lock_exposure(on)))
 
     def frames(self, first: int = 0) -> Iterator[VideoFrame]:  # noqa: ARG002 - as of any film
-        """Give the newest picture whenever one is asked for, until there are no more.
+        """Return the newest picture whenever one is asked for, until there are no more.
 
         Each is given once. ``first`` is not used: what has passed has passed.
         """

@@ -79,7 +79,7 @@ class MainWindow(QMainWindow):
         self.reading, self.filming, self.pointed = line.reading, line.filming, line.pointed
         self.show_timing = self._status_line.show_timing
         self.show_plan_change = self._status_line.show_plan_change
-        self.modes.changed.connect(lambda mode: line.tell_times("controls" in MODES[mode].panes))
+        self.modes.changed.connect(lambda mode: line.show_times("controls" in MODES[mode].panes))
         self.resize(_FIRST_SIZE)
 
     def _dock(self, name: str, title: str, content: QWidget) -> Dock:

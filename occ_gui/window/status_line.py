@@ -30,7 +30,7 @@ class StatusLine(QStatusBar):
     def __init__(self) -> None:
         super().__init__()
         self._message = self._plan_change = self._times = ""
-        self._are_told = True
+        self._shows_times = True
         self._others: list[QLabel] = []
         self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -68,7 +68,7 @@ class StatusLine(QStatusBar):
             self._show_sentence()
         return super().eventFilter(watched, event)
 
-    def _is_told_elsewhere(self) -> bool:
+    def _is_shown_elsewhere(self) -> bool:
         texts = (each.text() for each in self._others if each.isVisible())
         return bool(self._message) and any(self._message in _in_one_line(text) for text in texts)
 
@@ -80,12 +80,12 @@ class StatusLine(QStatusBar):
     def show_timing(self, simulation: float, reading: float) -> None:
         """Show the computing times in seconds of the last simulation and its decoding."""
         self._times = f"simulated in {1e3 * simulation:.1f} ms, read in {1e3 * reading:.1f} ms"
-        self.tell_times(self._are_told)
+        self.show_times(self._shows_times)
 
-    def tell_times(self, told: bool) -> None:
+    def show_times(self, shown: bool) -> None:
         """Show the computing times, or leave them out where nothing of the scene is shown."""
-        self._are_told = told
-        self._timing.set_full_text(self._times if told else "")
+        self._shows_times = shown
+        self._timing.set_full_text(self._times if shown else "")
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
@@ -98,8 +98,8 @@ class StatusLine(QStatusBar):
         return QSize(self.reading.minimumSizeHint().width(), super().minimumSizeHint().height())
 
     def _show_sentence(self) -> None:
-        is_told = self._is_told_elsewhere()
-        self._sentence.set_full_text("" if is_told else self._message or self._plan_change)
+        is_shown = self._is_shown_elsewhere()
+        self._sentence.set_full_text("" if is_shown else self._message or self._plan_change)
 
 
 def _in_one_line(text: str) -> str:

@@ -24,7 +24,7 @@ _ROUNDING = 1.0 + 1e-9
 """Factor on an error that is compared with one whose sums were rounded otherwise."""
 
 _CLEARLY = 1.3
-"""Times an estimate that a limit is to be for both to be told."""
+"""Ratio of limit to estimate from which both are stated."""
 
 
 def plan(

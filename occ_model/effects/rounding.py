@@ -57,7 +57,7 @@ def rounding_mean(x: FloatArray, s: FloatArray) -> FloatArray:
 
 
 def _harmonics(x: FloatArray, s: FloatArray) -> Iterator[tuple[int, Pixels, Pixels]]:
-    """Give the number n, the angle and (-1)^n times the damping, of those that noise leaves."""
+    """Return the number n, the angle and (-1)^n times the damping, of those that noise leaves."""
     least = max(float(s.min()), SHARP)
     turn = ((x - np.rint(x)) * (2.0 * math.pi)).astype(np.float32)
     square = (-DAMPING * np.square(s)).astype(np.float32)

@@ -13,7 +13,7 @@ from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import NoiseSource
 
 Drawn: TypeAlias = Callable[[], Sequence[tuple[Sequence[NoiseEffect], Pixels]]]
-"""Gives numbers of the standard normal distribution, shape (rows, columns), which are the caller's
+"""Return numbers of the standard normal distribution, shape (rows, columns), which are the caller's
 own, and the effects whose noise they are together."""
 
 _PLANE_SIZE = 2**21  # numbers in the plane: eight megabytes, which fit the processor's cache

@@ -63,7 +63,7 @@ class _Band:
 
 
 class MeanRows(Protocol):
-    """Gives the mean pixel values of any rows of a picture."""
+    """Returns the mean pixel values of any rows of a picture."""
 
     def of(self, place: range, stage_ended: Callable[[str], object], /) -> Rows:
         """Compute some rows; each stage is reported as it ends."""

@@ -17,7 +17,7 @@ frequencies = np.linspace(1e3, 40e3, 157)
 
 
 def swing(frequency):
-    """Give half the difference between the longest and the shortest time in the light."""
+    """Return half the difference between the longest and the shortest time in the light."""
     lit = occ.on_time(scene.replace(switching_frequency=frequency)) / exposure
     return np.ptp(lit) / 2
 

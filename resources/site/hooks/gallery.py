@@ -104,7 +104,7 @@ def _run_cell(code: str, example: Example) -> list[str]:
 
 
 def _drawn(example: Example) -> Iterator[tuple[str, bytes]]:
-    """Give name and content of each figure that is open, and close it."""
+    """Return name and content of each figure that is open, and close it."""
     for number in plt.get_fignums():
         content = io.BytesIO()
         plt.figure(number).savefig(content, dpi=DOTS_PER_INCH)

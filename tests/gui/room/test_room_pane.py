@@ -222,7 +222,7 @@ def test_the_map_is_that_of_the_study(
     qtbot.waitUntil(lambda: pane.is_idle and "Map of the floor" in pane.view.floor.text())
     found = map_room(pane.room, lambda _: None)
     sure = sum(bool(point.sure) for point in found.points)
-    assert f"{sure} of 4 places told" in pane.view.floor.text()
+    assert f"{sure} of 4 places determined" in pane.view.floor.text()
     assert len(pane.view.plan.floor.points()) == 4
 
 
@@ -301,7 +301,7 @@ def test_another_room_is_looked_for_in_the_photo_and_dragging_leaves_it(
     assert "the photo has no EXIF data of it" in pane.view.sentences.text()
     pane.take("other", ROOM.with_sent(code=900))
     looked(qtbot, pane)
-    assert pane.view.headline.text() == "The place is not told"
+    assert pane.view.headline.text() == "The place is not determined"
     pane.view.plan.camera.setPos(0.3, 0.5)
     assert pane.look is not None
     assert pane.look.photo is None

@@ -107,10 +107,10 @@ def test_a_readout_is_whole_where_there_is_space(line: StatusLine) -> None:
 
 def test_times_are_shown_in_milliseconds(line: StatusLine) -> None:
     line.resize(1600, 24)
-    line.tell_times(False)
+    line.show_times(False)
     line.show_timing(0.01234, 2.5)
     assert line._timing.isHidden()
-    line.tell_times(True)
+    line.show_times(True)
     QApplication.processEvents()
     texts = [label.text() for label in line.findChildren(QLabel)]
     assert "simulated in 12.3 ms, read in 2500.0 ms" in texts

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 from occ_model.effects.defocus import Defocus
 from occ_model.effects.distortion import Distortion
-from occ_model.effects.effect import Effect, NoiseEffect
+from occ_model.effects.effect import Effect
 from occ_model.effects.emission import Emission
 from occ_model.effects.flicker import Flicker
 from occ_model.effects.jpeg import Jpeg
@@ -27,8 +27,6 @@ EFFECTS: tuple[Effect, ...] = (
     SensorNoise(),
     Jpeg(),
 )
-
-NOISES = tuple(effect for effect in EFFECTS if isinstance(effect, NoiseEffect))
 
 NAMES: tuple[str, ...] = tuple(effect.name for effect in EFFECTS)
 

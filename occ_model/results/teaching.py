@@ -73,12 +73,6 @@ class LightCurve:
     lit: ByteArray  # Shape (chips,): whether the LED is on in each
     places: IndexArray  # Shape (chips,): the number of each chip within the period sent, from 0
 
-    def chip_at(self, column: float) -> int | None:
-        """Return the index of the chip that is sent at a column, None outside the curve."""
-        if not self.edges[0] <= column < self.edges[-1]:
-            return None
-        return int(np.searchsorted(self.edges, column, side="right")) - 1
-
     def light_at(self, column: float) -> float:
         after = int(np.searchsorted(self.columns, column, side="right"))
         after = min(max(after, 1), len(self.columns) - 1)

@@ -62,12 +62,6 @@ class Provenance:
         return "\n".join(self.lines())
 
 
-def scenes_in(text: str) -> dict[str, Scene]:
-    """Read the scenes, by name, from a text that :meth:`Provenance.text` wrote."""
-    _before, *parts = _SCENE.split(text)  # names and texts in turn
-    return {name: Scene.from_toml(toml) for name, toml in zip(parts[::2], parts[1::2], strict=True)}
-
-
 def first_scene_in(text: str) -> Scene | None:
     """Read the first scene from a text that :meth:`Provenance.text` wrote, None without any."""
     start = _SCENE.search(text)

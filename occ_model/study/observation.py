@@ -13,7 +13,7 @@ import numpy as np
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.enhancement import Enhancement, share_above, to_bytes
 from occ_model.camera.projection import panel_corners, row_spans
-from occ_model.effects.paper_view import PaperView, paper_view_of
+from occ_model.effects.paper_view import PaperView
 from occ_model.receiver.decode import decode
 from occ_model.receiver.locate import bright_level, locate
 from occ_model.receiver.signal import column_means
@@ -64,24 +64,12 @@ class Observation:
         return result if self.region is None else replace(result, region=self.region)
 
 
-def decode_profile(
-    scene: Scene, decoder: str, plan: Plan, random: np.random.Generator
-) -> DecodeResult | None:
-    """Decode the column means of an image without the image; None where rows differ.
-
-    The region is drawn as it is found in the image: see :mod:`occ_model.study.drawn_region`.
-    """
-    span = panel_span(scene)
-    if span is None or "image" in plan.kinds:
-        return None
-    return observe_profile(paper_view_of(scene), span, plan, random).read(scene, decoder)
-
-
 def observe_profile(
     view: PaperView, span: Region, plan: Plan, random: np.random.Generator
 ) -> Observation:
     """Compute the column means that every decoder reads, without the image.
 
+    The region is drawn as it is found in the image: see :mod:`occ_model.study.drawn_region`.
     ``span``: that of :func:`panel_span`, which is the same at any start time.
     """
     columns = expose_columns(view, plan)

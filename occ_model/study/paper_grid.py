@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from occ_model.results.sweep import SweepTable
 from occ_model.results.sweep_request import RateSettings, SweepRequest
 from occ_model.scene.presets import load_preset
-from occ_model.scene.scene import Scene
 from occ_model.study.sweep.request_check import checked_request
 
 FREQUENCIES = tuple(2000.0 * step for step in range(1, 11))  # 2 to 20 kHz (II.A)
@@ -16,10 +15,6 @@ DEVICES = {  # the presets of each device, its lowest exposure time first
     "phone": ("phone-68us", "phone-136us"),
     "tablet": ("tablet-61us", "tablet-122us"),
 }
-
-
-def point_scene(preset: str, switching_frequency: float, distance: float) -> Scene:
-    return load_preset(preset).replace(switching_frequency=switching_frequency, distance=distance)
 
 
 def grid_request(

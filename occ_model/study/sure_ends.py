@@ -52,19 +52,6 @@ def images_about_an_end(rate: float) -> int:
     return sure and sure + _ROUNDS * len(_PARTS) * PICTURES
 
 
-def with_sure_ends(
-    scene: Scene,
-    found: WorkingRange,
-    rate: float,
-    settings: RateSettings,
-    heartbeat: Heartbeat = lambda: None,
-) -> WorkingRange:
-    """Find, for each bisected end, values on both sides that are sure, and its interval."""
-    name = found.parameter
-    ends = [sure_end(scene, name, rate, settings, pair, heartbeat) for pair in pairs_of(found)]
-    return with_ends(found, ends)
-
-
 def pairs_of(found: WorkingRange) -> list[tuple[RangeEnd, RangeEnd]]:
     """Return each end of a range's intervals, with the other end of its interval."""
     return [

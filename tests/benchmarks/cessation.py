@@ -12,8 +12,9 @@ import numpy as np
 
 import occ_model as occ
 from occ_model.camera.photometry import level_values
+from occ_model.effects.effect import NoiseEffect
 from occ_model.effects.noise_spread import NoiseSpread
-from occ_model.effects.registry import NOISES
+from occ_model.effects.registry import NAMES, named
 from occ_model.scene.scene import Scene
 from occ_model.study import theory
 
@@ -33,7 +34,7 @@ def with_noise(scene: Scene, levels: float) -> Scene:
     low, high = 1e-7, 1e-4  # much noise, and little
     for _ in range(40):
         middle = (low * high) ** 0.5
-        found = float(NoiseSpread(NOISES, of_pitch(middle))(lit)[0, 0])
+        found = float(NoiseSpread(named(NAMES, NoiseEffect), of_pitch(middle))(lit)[0, 0])
         low, high = (middle, high) if found > levels else (low, middle)
     return of_pitch(high)
 

@@ -258,7 +258,8 @@ def _images_of_search(scene: Scene, settings: RateSettings) -> Counter[float]:
         mock.patch.object(sure_ends, "right_bits_at", counting),
     ):
         found = working_range.working_range(scene, "switching_frequency", 99.0, settings)
-        sure_ends.with_sure_ends(scene, found, 99.0, settings)
+        for pair in sure_ends.pairs_of(found):
+            sure_ends.sure_end(scene, found.parameter, 99.0, settings, pair, lambda: None)
     return counted
 
 

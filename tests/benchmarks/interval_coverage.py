@@ -18,7 +18,7 @@ import occ_model as occ
 from occ_model.results.sweep_request import RateSettings
 from occ_model.study.confidence import interval_of_pictures
 from occ_model.study.success_rate import right_bits_of_images
-from occ_model.study.sure_ends import with_sure_ends
+from occ_model.study.sure_ends import pairs_of, sure_end
 from occ_model.study.working_range import working_range
 
 EDGES: tuple[tuple[str, str, float], ...] = (
@@ -54,9 +54,12 @@ def ends_of(preset: str, decoder: str, seed: int) -> list[tuple[float, float] | 
     """Search for both ends of a range of frequencies, and give their intervals."""
     scene, settings = occ.load_preset(preset), RateSettings(20, (decoder,), seed)
     found = working_range(scene, "switching_frequency", RATE, settings)
-    sure = with_sure_ends(scene, found, RATE, settings)
-    ends = [end for end in (sure.lowest, sure.highest) if end is not None and end.fails]
-    return [end.interval for end in ends]
+    pairs = pairs_of(found)
+    ends = [
+        sure_end(scene, found.parameter, RATE, settings, pair, lambda: None)
+        for pair in (*pairs[:1], *pairs[-1:])
+    ]
+    return [end.interval for end in ends if end.fails]
 
 
 def true_end(preset: str, decoder: str, within: tuple[float, float], falls: bool) -> float:

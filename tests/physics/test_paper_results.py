@@ -15,7 +15,6 @@ from occ_model.study.paper_grid import (
     FREQUENCIES,
     ceases_at,
     grid_request,
-    point_scene,
 )
 from occ_model.study.sweep.sweep import run_sweep
 from occ_model.transmitter.framings.paper import HEADER
@@ -29,8 +28,7 @@ def grid(preset: str, decoder: str) -> SweepTable:
 
 
 def scene_of(preset: str, row: SweepRow) -> Scene:
-    frequency, distance = row.point["switching_frequency"], row.point["distance"]
-    return point_scene(preset, float(frequency), float(distance))
+    return occ.load_preset(preset).replace(**row.point)
 
 
 def two_headers_fit(preset: str, row: SweepRow) -> bool:
@@ -76,7 +74,7 @@ def test_detection_ends_one_step_after_the_papers_frequency(preset: str, paper: 
     ("preset", "last"), [("phone-136us-real", 12e3), ("tablet-122us-real", 14e3)]
 )
 def test_a_real_lens_ends_detection_where_the_experiment_ended(preset: str, last: float) -> None:
-    scene = point_scene(preset, last, 1.2)
+    scene = occ.load_preset(preset).replace(switching_frequency=last, distance=1.2)
     assert occ.success_rate(scene, 1) == 100.0
     beyond = scene.replace(switching_frequency=last + 2e3)
     assert occ.success_rate(beyond, 1) == 0.0

@@ -8,8 +8,8 @@ from occ_model.effects.paper_view import paper_view_of
 from occ_model.effects.registry import EFFECTS
 from occ_model.receiver.decoders import QUICK_DECODERS
 from occ_model.scene.scene import Scene
-from occ_model.study.observation import decode_profile
-from occ_model.study.paper_grid import DISTANCES, FREQUENCIES, point_scene
+from occ_model.study.observation import observe_profile, panel_span
+from occ_model.study.paper_grid import DISTANCES, FREQUENCIES
 
 COLUMNS_ONLY = {"sensor-noise": False, "fixed-pattern": False}
 
@@ -101,15 +101,17 @@ def test_profile_and_image_paths_decode_alike_on_the_whole_grid(
     random = np.random.default_rng(1)
     for frequency in FREQUENCIES:
         for distance in DISTANCES:
-            scene = point_scene(exposure, frequency, distance)
+            scene = occ.load_preset(exposure)
+            scene = scene.replace(switching_frequency=frequency, distance=distance)
             start = float(random.uniform(0.0, 24.0 / frequency))
             # All rows of a level panel are alike: a few show as much as 4,608 do.
             scene = scene.replace(start_time=start, **few_rows(scene), **light)
             plan = occ.plan(scene, 0.0, "profile", COLUMNS_ONLY)
             assert plan.kinds == ({"column"} if light else set())
             image = occ.render(scene, tolerance=0.0, force=COLUMNS_ONLY).image
+            seen = observe_profile(paper_view_of(scene), panel_span(scene), plan, random)
             for decoder in QUICK_DECODERS:
-                by_profile = decode_profile(scene, decoder, plan, random)
+                by_profile = seen.read(scene, decoder)
                 by_image = occ.decode(image, scene, decoder)
                 assert by_profile.region == by_image.region
                 assert (by_profile.code, by_profile.failure) == (by_image.code, by_image.failure)

@@ -94,8 +94,9 @@ def test_rates_carry_their_seed_and_stand_in_the_table(folder: Path) -> None:
     table = rows(folder / "figure-5.csv")
     assert len(table) == 2 * 2 * len(paper_grid.FREQUENCIES) * len(paper_grid.DISTANCES)
     one = table[len(table) // 3]
-    scene = paper_grid.point_scene(
-        one["preset"], float(one["switching frequency (Hz)"]), float(one["distance (m)"])
+    scene = occ.load_preset(one["preset"]).replace(
+        switching_frequency=float(one["switching frequency (Hz)"]),
+        distance=float(one["distance (m)"]),
     )
     again = occ.success_rate(scene, 1, one["decoder"], int(one["seed"]))
     assert again == float(one["success rate (%)"])

@@ -7,7 +7,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
-from occ_model.effects.registry import NOISES
+from occ_model.effects.sensor_effects import SensorNoise
 from occ_model.receiver.locate import locate
 from occ_model.receiver.signal import column_means
 from occ_model.results.decoding import Region
@@ -75,8 +75,7 @@ def test_the_samples_column_means_are_those_of_the_picture(number: int) -> None:
 
 def test_noise_spread_over_the_bands_leaves_their_mean() -> None:
     scene = occ.load_preset("phone-136us").replace(columns=600)
-    (effect,) = (e for e in NOISES if e.name == "sensor-noise")
-    source = SystematicNoise([effect], scene, 3)
+    source = SystematicNoise([SensorNoise()], scene, 3)
     blocks = np.stack([source.draw(BAND)()[0][1] for _ in range(BANDS)])
     assert abs(blocks.mean()) < 0.02
     assert blocks.std() == pytest.approx(1.0, abs=0.02)

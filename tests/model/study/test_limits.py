@@ -30,7 +30,8 @@ from occ_model.study.sure_ends import (
     PICTURES,
     _until_refuted,
     images_to_be_sure,
-    with_sure_ends,
+    pairs_of,
+    sure_end,
 )
 from occ_model.study.working_range import FEW_IMAGES, NEAR, STEP
 
@@ -363,21 +364,21 @@ def test_the_stated_interval_of_an_end_holds_it(
     for seed in range(200):
         settings = RateSettings(20, ("threshold",), seed)
         along = module.working_range(SCENE, "switching_frequency", 99.0, settings)
-        found.append(with_sure_ends(SCENE, along, 99.0, settings).highest)
-    intervals = [end.interval for end in found if end is not None and end.interval is not None]
+        highest = pairs_of(along)[-1]
+        found.append(sure_end(SCENE, along.parameter, 99.0, settings, highest, lambda: None))
+    intervals = [end.interval for end in found if end.interval is not None]
     assert len(intervals) >= 0.99 * len(found)
     held = sum(low <= 10e3 <= high for low, high in intervals)
     assert 0.92 * len(found) <= held <= 0.99 * len(found)
     # 381 images that are surely read and 200 that surely are not lie 2 to 5 % apart.
     assert np.median([high / low for low, high in intervals]) < widest
     # The last values that twenty images call read are no such ends: they lie beyond the true one.
-    known = [end for end in found if end is not None]
-    assert sum(end.works.value > 10e3 for end in known) > 0.3 * len(found)
+    assert sum(end.works.value > 10e3 for end in found) > 0.3 * len(found)
     # No place states an end that its own interval refutes.
     assert all(end.interval is None or min(end.interval) <= end.value <= max(end.interval)
-               for end in known)  # fmt: skip
-    refuted = [end for end in known if end.value != end.works.value]
-    assert 0 < len(refuted) < len(known)
+               for end in found)  # fmt: skip
+    refuted = [end for end in found if end.value != end.works.value]
+    assert 0 < len(refuted) < len(found)
     assert all(end_text("switching_frequency", end).startswith("at ") for end in refuted)
 
 

@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 
 import occ_model as occ
+from occ_model.effects.paper_view import paper_view_of
 from occ_model.receiver.locate import locate
 from occ_model.results.sweep_request import RateSettings
 from occ_model.scene.scene import Scene
-from occ_model.study.observation import decode_profile
+from occ_model.study.observation import observe_profile, panel_span
 
 
 @pytest.fixture
@@ -82,7 +83,7 @@ def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None
     for distance in (0.5, 1.0, 2.5):
         at = scene.replace(distance=distance)
         bare = occ.plan(at, tolerance=np.inf)
-        by_profile = decode_profile(at, "threshold", bare, random)
+        by_profile = observe_profile(paper_view_of(at), panel_span(at), bare, random)
         image = occ.render(at, tolerance=np.inf).image
         found = locate(image, at.receiver.bright_fraction)
         assert by_profile.region == found.region
@@ -91,7 +92,8 @@ def test_profile_path_sees_the_region_that_the_image_shows(scene: Scene) -> None
 def test_the_profile_path_sees_the_images_signal_with_noise(scene: Scene) -> None:
     noisy = {"sensor-noise": True}
     chosen = occ.plan(scene, tolerance=np.inf, force=noisy)
-    by_profile = decode_profile(scene, "threshold", chosen, np.random.default_rng(2))
+    random = np.random.default_rng(2)
+    by_profile = observe_profile(paper_view_of(scene), panel_span(scene), chosen, random)
     assert by_profile.region is not None
     region = by_profile.region
     image = occ.render(scene, tolerance=np.inf, force=noisy, seed=3).image.astype(float)

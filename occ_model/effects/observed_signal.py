@@ -58,7 +58,7 @@ def observed_signal(pixels: SampledPixels) -> Observed:
         return pixels.mean_of_rows(found) * weights
 
     found = Observed(pixels.names, seen, sorted(pixels.names))
-    sampling = SignalSampling(pixels)
+    sampling = SignalSampling(pixels, curves)
     found.alone.update(sampling.of_effects())
     add_unsampled(pixels, found, curves)
     fluctuations = sampling.fluctuations()

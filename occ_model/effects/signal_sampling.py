@@ -6,9 +6,8 @@ from functools import cached_property
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.camera.enhancement import PassedSteps
-from occ_model.camera.photometry import WHITE
 from occ_model.effects.sampled_pixels import SampledPixels
+from occ_model.effects.smoothed_curves import SmoothedCurves
 
 SURE_DEVIATIONS = 3.5
 """Standard deviations by which the mean square of few columns may exceed its expectation."""
@@ -21,12 +20,14 @@ class SignalSampling:
     over the rows. Where the steps are even, a change of a whole step passes no more than one.
     """
 
-    def __init__(self, pixels: SampledPixels) -> None:
+    def __init__(self, pixels: SampledPixels, curves: SmoothedCurves) -> None:
         self._pixels = pixels
         self._rows = pixels.view.region.rows
-        self._spread = spread = pixels.spread(pixels.names)
-        passed = PassedSteps.of(np.clip(pixels.levels, 0.0, WHITE), spread)
-        curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).smoothed(passed)
+        noise = curves.noise(pixels.names - curves.files)
+        self._spread = spread = noise.spread
+        curve, self._deviation, jumps = pixels.columns.enhancement(pixels.names).smoothed(
+            noise.passed
+        )
         self._even = pixels.table.slope(curve) ** 2
         self._uneven = np.maximum(pixels.table.slope(jumps) - self._even, 0.0)
         inside = pixels.inside([pixels.names])

@@ -28,6 +28,7 @@ class SimulatedColumns:
         self._of_light = frozenset(effect.name for effect in lights)
         self._of_value = self._of_light.union(effect.name for effect in limits)
         self._light: dict[Names, ColumnLight] = {}
+        self._exposed: dict[Names, FloatArray] = {}
         self._profile: dict[Names, FloatArray] = {}
         self._enhancement: dict[Names, Enhancement] = {}
 
@@ -65,14 +66,22 @@ class SimulatedColumns:
 
     def dimmed(self, included: Names, columns: slice, factor: FloatArray | float) -> FloatArray:
         """Return those of some columns as a lens dims them, before they are full or white."""
-        light, view = self.light(included), self._view
-        is_known = light is view.light
-        values = view.values if is_known else panel_values(view.scene, light, fast_power)
-        values = values[columns] * factor
+        values = self._exposed_by(included)[columns] * factor
         for limit in self._limits:
             if limit.name in included:
-                values = limit.apply(view.scene, values)
+                values = limit.apply(self._view.scene, values)
         return saturate(values)
+
+    def _exposed_by(self, included: Names) -> FloatArray:
+        """Return the values of all columns by their light alone."""
+        key = included & self._of_light
+        if key not in self._exposed:
+            light, view = self.light(key), self._view
+            is_known = light is view.light
+            self._exposed[key] = (
+                view.values if is_known else panel_values(view.scene, light, fast_power)
+            )
+        return self._exposed[key]
 
     def enhancement(self, included: Names) -> Enhancement:
         """Return the receiver's enhancement of the profile."""

@@ -34,7 +34,7 @@ class SmoothedCurves:
         self._levels = np.clip(pixels.levels, 0.0, WHITE)
         self._moving = frozenset(pixels.moving)
         self._lenses = frozenset(effect.name for effect in pixels.lenses)
-        self._files = frozenset(effect.name for effect in pixels.files)
+        self.files = frozenset(effect.name for effect in pixels.files)
         self._noises: dict[Names, _Noise] = {}
         self._curves: dict[Names, FloatArray] = {}
 
@@ -43,7 +43,7 @@ class SmoothedCurves:
         key = included - self._moving
         if key not in self._noises:
             spread, file = self._pixels.spread(included), self._pixels.file
-            if file is not None and self._files & included:
+            if file is not None and self.files & included:
                 spread = file.spread(spread)
             passed = PassedSteps.of(self._levels, spread)
             self._noises[key] = _Noise(spread, float(spread.min()), passed)
@@ -66,7 +66,7 @@ class SmoothedCurves:
             noise = self.noise(included)
             if noise.least < tabulated:
                 flat = np.clip(own, 0.0, WHITE)
-                filed = self._files & included
+                filed = self.files & included
                 own_noise = (
                     pixels.table.look(noise.spread, flat)
                     if filed

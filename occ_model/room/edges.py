@@ -17,7 +17,7 @@ from occ_model.camera.photometry import luminance_of
 from occ_model.camera.projection import image_points, image_rays
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Camera, Scene
-from occ_model.transmitter.packet import packet
+from occ_model.transmitter.packet import sent_chips
 
 _EDGE_REACH = 7  # pixels on either side of an edge that is expected: its light is summed there
 _LEVEL_PIXELS = 10  # further pixels that give the light of the lamp, and of its surroundings
@@ -116,14 +116,8 @@ class EdgeFinder:
 
     def _own_light(self, corners: FloatArray, lamp: RoomLamp) -> _OwnLight:
         """Return the lamp's light in every column of the picture, repeated with its packet."""
-        sent = self._scene.replace(
-            switching_frequency=lamp.transmitter.switching_frequency,
-            bits=lamp.transmitter.bits, code=lamp.transmitter.code,
-            line_code=lamp.transmitter.line_code, framing=lamp.transmitter.framing,
-            pattern=lamp.transmitter.pattern, payload=lamp.transmitter.payload,
-        )  # fmt: skip
-        period = len(packet(sent)) * sent.transmitter.switching_period
-        period /= sent.camera.readout_time
+        sent = lamp.transmitter
+        period = len(sent_chips(sent)) * sent.switching_period / self._scene.camera.readout_time
         shown, light, fall = self._inner_light(corners)
         place = np.arange(self._image.shape[1], dtype=np.float64)
         if not len(shown):

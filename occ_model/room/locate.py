@@ -79,7 +79,7 @@ def read_room(image: NDArray[Any], room: Room, focal_share: float = 0.0) -> Room
     DecodeInputError
         The array is not a picture of the room's camera.
     ParameterError
-        The share is none from 0 to 1.
+        The fraction is not from 0 to below 1.
     """
     check_room(room)
     if not 0.0 <= focal_share < 1.0:

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from small_rooms import small_room
 
 import occ_model as occ
 from occ_model.room import locate
@@ -66,6 +67,16 @@ def test_the_place_lies_within_its_stated_error_and_no_lamp_is_named_wrongly(see
     deviation = _off(reading.located.place, room.camera) / reading.located.errors
     assert np.abs(deviation).max() < 4.5
     assert reading.located.errors[:2].max() < 0.02
+
+
+def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> None:
+    room = small_room(framing="preamble", preamble="11110000111100110")
+    image = occ.render_room(room, seed=1).camera_image
+    other = dataclasses.replace(room, scene=room.scene.replace(framing="paper", preamble=""))
+    found, again = occ.read_room(image, room), occ.read_room(image, other)
+    assert found.is_sure
+    assert found.located.place == again.located.place
+    assert found.located.deviations == again.located.deviations
 
 
 # At the last, a single column of the next lit chip is in the picture.

@@ -186,5 +186,5 @@ def _null(scene: Scene) -> Equation:
         (Term("2 /"), Term("t", ("exposure_time",))),
         (Term("2 /"), _shown(scene, "exposure_time")),
         f"{result_text(HERTZ, 2.0 / exposure)}; here, at {in_chips:.3g} chips an exposure, "
-        f"{100.0 * contrast:.0f} % of its contrast are left",
+        f"{100.0 * contrast:.0f} % of its contrast is left",
     )

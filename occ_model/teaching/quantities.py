@@ -15,7 +15,7 @@ from occ_model.scene.units import HERTZ, METRE, NONE, SECOND, Unit
 from occ_model.study.bands.advice import band_advice
 from occ_model.study.bands.depth import band_depth
 from occ_model.study.theory import band_model_frequency, null_frequency, panel_readout_time
-from occ_model.transmitter.packet import packet, packet_length
+from occ_model.transmitter.packet import sent_chips
 
 FRAME_RATE = 30.0  # frames a second of the film that a question about films means
 
@@ -68,7 +68,7 @@ def _matched(scene: Scene, photo: str | Match) -> Scene:
     return match_photo(load_photo(resource_path("photos", f"{photo}.jpg")), scene).scene
 
 
-def _chip_columns(scene: Scene, _photo: str | Match = "") -> float:
+def _chip_columns(scene: Scene) -> float:
     return scene.transmitter.switching_period / scene.camera.readout_time
 
 
@@ -82,12 +82,14 @@ def _exposure_chips(scene: Scene) -> float:
     return scene.camera.exposure_time * scene.transmitter.switching_frequency
 
 
-def _bit_rate(scene: Scene, _photo: str | Match = "") -> float:
-    transmitter = scene.transmitter
-    return transmitter.bits * transmitter.switching_frequency / packet_length(transmitter.bits)
+def _bit_rate(scene: Scene) -> float:
+    sent = scene.transmitter
+    if sent.pattern:
+        raise OccError("A raw pattern holds no bits.")
+    return sent.payload_length * sent.switching_frequency / len(sent_chips(sent))
 
 
-def _share_seen(scene: Scene, _photo: str | Match = "") -> float:
+def _share_seen(scene: Scene) -> float:
     return min(1.0, FRAME_RATE * panel_readout_time(scene))
 
 
@@ -96,7 +98,7 @@ QUANTITIES: dict[str, LessonQuantity] = {  # by the name that a lesson's file us
         "columns that are read out while a chip lasts, t_LED / t_r",
         COLUMN,
         "columns",
-        _chip_columns,
+        lambda scene, _: _chip_columns(scene),
     ),
     "slope-columns": LessonQuantity(
         "columns of a slope between two states, t / t_r",
@@ -114,10 +116,10 @@ QUANTITIES: dict[str, LessonQuantity] = {  # by the name that a lesson's file us
         "columns of a packet",
         COLUMN,
         "columns",
-        lambda scene, _: len(packet(scene)) * _chip_columns(scene),
+        lambda scene, _: len(sent_chips(scene.transmitter)) * _chip_columns(scene),
     ),
     "frame-time": LessonQuantity(
-        "time from the first column's start to the last one's, columns times t_r",
+        "time to read out a picture, columns times t_r",
         SECOND,
         "ms",
         lambda scene, _: scene.camera.columns * scene.camera.readout_time,
@@ -180,13 +182,13 @@ QUANTITIES: dict[str, LessonQuantity] = {  # by the name that a lesson's file us
         "bits sent a second, f times the bits over the chips of a packet",
         _BITS_A_SECOND,
         "bit/s",
-        _bit_rate,
+        lambda scene, _: _bit_rate(scene),
     ),
     "share-seen": LessonQuantity(
         f"fraction of the time in which a film of {FRAME_RATE:g} frames a second sees the panel",
         _PERCENT,
         "%",
-        _share_seen,
+        lambda scene, _: _share_seen(scene),
     ),
     "bit-rate-seen": LessonQuantity(
         f"bits a second that a film of {FRAME_RATE:g} frames a second sees",

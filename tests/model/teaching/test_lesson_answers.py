@@ -353,6 +353,17 @@ def test_the_columns_of_chips_and_packets_are_those_of_the_picture() -> None:
     np.testing.assert_allclose(profile[1500:3000], profile[:1500], atol=1e-6)
 
 
+@pytest.mark.parametrize(
+    "sent",
+    [{}, {"line_code": "4b6b", "framing": "c-ook"}, {"payload": "any text", "framing": "raw"}],
+)
+def test_bits_a_second_are_those_of_the_chips_sent(sent: dict[str, str]) -> None:
+    scene = occ.Scene().replace(**sent)
+    seconds = len(occ.packet(scene)) / scene.transmitter.switching_frequency
+    bits = scene.transmitter.payload_length / seconds
+    assert QUANTITIES["bit-rate"].compute(scene, "") == pytest.approx(bits, rel=1e-12)
+
+
 def test_the_bars_of_a_dimmed_lamp_are_as_deep_as_said() -> None:
     asked = step(8, 1)
     assert "67 %" in asked.answer

@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 
 from occ_model.arrays import ByteArray, IndexArray
-from occ_model.errors import ParameterError
+from occ_model.errors import ParameterError, ProjectionError
 from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.room.room import Room
 from occ_model.room.view import lamps_in_view
@@ -141,7 +141,11 @@ def _shown_columns(request: RoomMapRequest) -> float:
     columns = []
     for index in range(request.points):
         x, y = request.place(index)
-        for seen in lamps_in_view(request.room.replace(x=x, y=y)):
+        try:
+            in_view = lamps_in_view(request.room.replace(x=x, y=y))
+        except ProjectionError:  # no picture is taken there
+            continue
+        for seen in in_view:
             low, high = seen.view.corners.min(axis=0), seen.view.corners.max(axis=0)
             if low.min() >= 0 and high[0] < camera.columns and high[1] < camera.rows:
                 columns.append(float(high[0] - low[0]))

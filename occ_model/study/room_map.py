@@ -4,7 +4,6 @@ import csv
 import math
 from collections.abc import Generator, Iterable, Sequence
 from concurrent.futures import Executor
-from contextlib import ExitStack, closing
 from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter
@@ -15,16 +14,13 @@ from occ_model.errors import OccError
 from occ_model.parallel.job import Heartbeat, Job
 from occ_model.results.decoding import Region
 from occ_model.results.sweep_csv import csv_row, one_line
-from occ_model.results.sweep_request import MOST_JOBS
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.reading import ReadLamp
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Room, check_room
 from occ_model.scene.argument_checks import check_count, check_seed
 from occ_model.scene.simulation_settings import TOLERANCE
-from occ_model.study.sweep.results_file import ResultsFile
-from occ_model.study.sweep.sweep import Clock, Progress
-from occ_model.study.sweep.workers import measure_anywhere
+from occ_model.study.sweep.sweep import Progress, measure_study
 from occ_model.version import __version__
 
 MOST_PLACES = 10_000
@@ -240,25 +236,15 @@ def room_map(
 
     ``executor``, ``jobs``, ``progress``, ``results`` and errors: as for :func:`occ_model.sweep`.
     """
-    check_count("jobs", jobs, 1, MOST_JOBS)
-    found: dict[int, RoomPoint] = {}
-    clock = Clock(request.points, progress)
+    found: list[RoomPoint] = []
     text = RoomMapText(request)
-    with ExitStack() as stack:
-        file = stack.enter_context(ResultsFile(Path(results), text)) if results else None
-        if file is not None:
-            found |= {point.index: point for point in file.points_there()}
-            clock.start(len(found))
-        todo = (index for index in range(request.points) if index not in found)
-        jobs = min(jobs, max(request.points - len(found), 1))
-        points = measure_anywhere(_Work(request), todo, executor, jobs, clock.show_life)
-        stack.enter_context(closing(points))
-        for point in points:
-            if file is not None:
-                file.append(point)
-            found[point.index] = point
-            clock.count()
-        whole = tuple(found[index] for index in range(request.points))
-        if file is not None:
-            file.finish([text.header, *map(text.text, whole)])
-    return whole
+
+    def in_order() -> list[RoomPoint]:
+        return sorted(found, key=lambda point: point.index)
+
+    measure_study(
+        _Work(request), text, range(request.points), found.append,
+        lambda: [text.header, *map(text.text, in_order())],
+        executor=executor, jobs=jobs, progress=progress, results=results,
+    )  # fmt: skip
+    return tuple(in_order())

@@ -18,27 +18,19 @@ class Counts:
     def __init__(self, request: SweepRequest) -> None:
         self._request = request
         decoders = len(request.settings.decoders)
-        self._there = np.zeros(request.points, dtype=np.bool_)
         self._sent = np.zeros(request.points, dtype=np.int64)
         self._right = np.zeros((request.points, decoders), dtype=np.int64)
         self._whole = np.zeros((request.points, decoders), dtype=np.int64)
         self._ends = np.zeros((request.points, decoders, 2))
         self._notes: dict[int, str] = {}
-        self.entered = 0
-
-    def has(self, index: int) -> bool:
-        """Return whether a point has been entered."""
-        return bool(self._there[index])
 
     def enter(self, point: SweepPoint) -> None:
-        self._there[point.index] = True
         self._sent[point.index] = point.sent
         self._right[point.index] = point.right
         self._whole[point.index] = point.whole
         self._ends[point.index] = rate_intervals(point, self._request.settings.images)
         if point.note:
             self._notes[point.index] = point.note
-        self.entered += 1
 
     def table(self) -> SweepTable:
         """Make the table, in the order of the axes."""

@@ -53,15 +53,6 @@ def measure_points(
     return MeasuredPoints(found, settings.images, perf_counter() - start)
 
 
-def measure_here(
-    request: SweepRequest, indices: Iterable[int], heartbeat: Heartbeat = lambda: None
-) -> Generator[SweepPoint, None, None]:
-    """Measure points in this process, one after the other."""
-    for index in indices:
-        values = request.values(index)
-        yield measure_point(request.scene, request.settings, index, values, heartbeat)
-
-
 class SweepWork:
     """The points of a sweep as jobs of workers."""
 
@@ -78,4 +69,7 @@ class SweepWork:
         self, indices: Iterable[int], heartbeat: Heartbeat
     ) -> Generator[SweepPoint, None, None]:
         """Measure points in this process."""
-        return measure_here(self._request, indices, heartbeat)
+        request = self._request
+        for index in indices:
+            values = request.values(index)
+            yield measure_point(request.scene, request.settings, index, values, heartbeat)

@@ -1,14 +1,13 @@
 """Measure success rates at all combinations of some parameters' values."""
 
 import math
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import ExitStack, closing
 from pathlib import Path
 from time import perf_counter
 from typing import TypeAlias
 
-from occ_model.parallel.job import Heartbeat
 from occ_model.receiver.decoders import PAPER_DECODER
 from occ_model.results.bit_errors import FRAMES_A_SECOND
 from occ_model.results.sweep import SweepTable
@@ -27,8 +26,8 @@ from occ_model.scene.simulation_settings import TOLERANCE
 from occ_model.study.sweep.counts import Counts, rate_intervals
 from occ_model.study.sweep.points import SweepWork
 from occ_model.study.sweep.request_check import checked_request, decoders_of, processes_for
-from occ_model.study.sweep.results_file import ResultsFile
-from occ_model.study.sweep.workers import measure_anywhere
+from occ_model.study.sweep.results_file import Point, ResultsFile, TableText
+from occ_model.study.sweep.workers import Work, measure_anywhere
 
 Progress: TypeAlias = Callable[[int, int, float], object]  # points done, of all, seconds left
 _BEAT = 0.2  # seconds between two calls of the progress while a point takes long
@@ -110,60 +109,55 @@ def run_sweep(
     what is done. Where it holds a part of this same sweep, also one that was killed, only the
     remainder is measured; a complete file is in the order of the axes.
     """
-    check_count("jobs", jobs, 1, MOST_JOBS)
-    with ExitStack() as stack:
-        file = None
-        if results is not None:
-            file = stack.enter_context(ResultsFile(Path(results), _SweepText(request)))
-        return _measured_table(request, file, executor, jobs, progress)
+    counts = Counts(request)
+    measure_study(
+        SweepWork(request), _SweepText(request), request.in_order_of_work(), counts.enter,
+        lambda: counts.table().csv(),
+        executor=executor, jobs=jobs, progress=progress, results=results,
+    )  # fmt: skip
+    return counts.table()
 
 
-def _measured_table(
-    request: SweepRequest,
-    file: ResultsFile[SweepPoint] | None,
+def measure_study(  # noqa: PLR0913 - what a study is, and how it is measured
+    work: Work[Point],
+    table: TableText[Point],
+    order: Iterable[int],
+    enter: Callable[[Point], object],
+    whole: Callable[[], Iterable[str]],
+    *,
     executor: Executor | None,
     jobs: int,
     progress: Progress | None,
-) -> SweepTable:
-    """Measure the points that the file does not hold yet, append them, and give all of them."""
-    counts = Counts(request)
-    clock = Clock(request.points, progress)
-    if file is not None:
-        for point in file.points_there():
-            counts.enter(point)
-        clock.start(counts.entered)
-    remainder = (index for index in request.in_order_of_work() if not counts.has(index))
-    jobs = processes_for(jobs, request.points - counts.entered)
-    # Closed here, whatever ends it: workers that are not closed would go on.
-    with closing(
-        measure(request, remainder, executor=executor, jobs=jobs, heartbeat=clock.show_life)
-    ) as points:
+    results: str | Path | None,
+) -> None:
+    """Measure the points of a study, in some order, that a results file does not hold yet.
+
+    ``enter``: takes each point, also those of the file; ``whole``: the lines of all of them in the
+    order of the study. See :func:`run_sweep`.
+    """
+    check_count("jobs", jobs, 1, MOST_JOBS)
+    clock, there = Clock(table.points, progress), bytearray(table.points)
+    with ExitStack() as stack:
+        file = (
+            stack.enter_context(ResultsFile(Path(results), table)) if results is not None else None
+        )
+        if file is not None:
+            for point in file.points_there():
+                there[point.index] = True
+                enter(point)
+            clock.start(sum(there))
+        todo = (index for index in order if not there[index])
+        jobs = processes_for(jobs, table.points - sum(there))
+        points = measure_anywhere(work, todo, executor, jobs, clock.show_life)
+        # Closed here, whatever ends it: workers that are not closed would go on.
+        stack.enter_context(closing(points))
         for point in points:
             if file is not None:
                 file.append(point)
-            counts.enter(point)
+            enter(point)
             clock.count()
-    table = counts.table()
-    if file is not None:
-        file.finish(table.csv())
-    return table
-
-
-def measure(
-    request: SweepRequest,
-    indices: Iterable[int] | None = None,
-    *,
-    executor: Executor | None = None,
-    jobs: int = 1,
-    heartbeat: Heartbeat = lambda: None,
-) -> Generator[SweepPoint, None, None]:
-    """Measure points of a sweep, each given as soon as it is ready and then forgotten.
-
-    A bounded number is in flight: memory does not grow with the points. ``indices``: by default
-    all, in the order in which they take the least time.
-    """
-    todo = request.in_order_of_work() if indices is None else iter(indices)
-    return measure_anywhere(SweepWork(request), todo, executor, jobs, heartbeat)
+        if file is not None:
+            file.finish(whole())
 
 
 class _SweepText:

@@ -10,7 +10,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.room.room import Place
 from occ_model.study.code_length import CodeLength, code_lengths, least_distance
-from occ_model.study.room_map import RoomMapRequest
+from occ_model.study.room_map import RoomMapRequest, room_map
 from occ_model.transmitter.packet import sent_chips
 
 ROOM = small_room(2, turned=0.0, camera=Place(z=-0.2))
@@ -37,6 +37,14 @@ def test_lamps_are_read_as_long_as_a_packet_is_shown() -> None:
     assert (short.whole, short.named, short.misread) == (4, 4, 0)
     assert short.packets / long.packets == pytest.approx(long.chips / short.chips)
     assert long.packets < 2.0
+
+
+def test_a_place_without_a_picture_has_no_lamp_that_is_whole() -> None:
+    request = RoomMapRequest(ROOM.replace(z=2.3, pitch=0.9), (0.6,), (0.0,))
+    (point,) = room_map(request)
+    (found,) = code_lengths(request, 64, (6,))
+    assert "partly behind the camera" in point.note
+    assert (found.whole, found.packets) == (point.shown, 0.0) == (0, 0.0)
 
 
 def test_a_misread_code_is_another_lamp_s_as_often_as_codes_are_used() -> None:

@@ -33,29 +33,29 @@ class AdviceLine:
 def advice_lines(advice: Advice, frames_a_second: float = FRAMES_A_SECOND) -> list[AdviceLine]:
     """Write a title and a few lines on what was found."""
     lines = [AdviceLine(_title(advice.limits), is_title=True)]
-    for facts, low, high in (
-        (advice.frequency, "lowest frequency", _HIGHEST),
-        (advice.exposure, "shortest exposure", "longest exposure"),
+    for found, theory, low, high in (
+        (advice.limits.frequency, advice.frequency, "lowest frequency", _HIGHEST),
+        (advice.limits.exposure, advice.exposure, "shortest exposure", "longest exposure"),
     ):
-        parameter, lowest, highest = facts.found.parameter, facts.found.lowest, facts.found.highest
+        parameter, lowest, highest = found.parameter, found.lowest, found.highest
         if lowest is None or highest is None:
-            lines.append(AdviceLine(_nowhere(advice.limits, facts.found)))
+            lines.append(AdviceLine(_nowhere(advice.limits, found)))
         else:
             lines += [_line(parameter, low, lowest), _line(parameter, high, highest)]
-        if facts.found.gaps:
-            lines.append(AdviceLine(gaps_text(facts.found)))
-        if facts.found.most_chips is not None:
-            lines.append(AdviceLine(searched_to(facts.found)))
-        if facts.theory.two_packets is not None:
-            lines.append(AdviceLine(two_packets_text(facts.theory.two_packets)))
-        lines.append(AdviceLine(theory_text(parameter, facts.theory), is_common=True))
+        if found.gaps:
+            lines.append(AdviceLine(gaps_text(found)))
+        if found.most_chips is not None:
+            lines.append(AdviceLine(searched_to(found)))
+        if theory.two_packets is not None:
+            lines.append(AdviceLine(two_packets_text(theory.two_packets)))
+        lines.append(AdviceLine(theory_text(parameter, theory), is_common=True))
     lines.append(AdviceLine(own_text(advice.limits, frames_a_second)))
     lines += [AdviceLine(text, is_common=True) for text in how_tried(advice.limits)]
     return lines
 
 
 def line_on_highest_frequency(advice: Advice) -> AdviceLine:
-    found = advice.frequency.found
+    found = advice.limits.frequency
     if found.highest is None:
         return AdviceLine(_nowhere(advice.limits, found))
     return _line(found.parameter, _HIGHEST, found.highest)

@@ -90,7 +90,7 @@ class LimitCards(QWidget):
             bits = own_text(advice.limits, self.frames_a_second)
             to = "" if found.most_chips is None else searched_to(found)
             tip = "\n".join(text for text in (line.text, gaps_text(found), to, bits) if text)
-            card.show_limit(advice.frequency.found.highest, tip, advice.limits.rate)
+            card.show_limit(found.highest, tip, advice.limits.rate)
             card.show_range(found)
 
     def show_ended(self, why_not: str = "") -> None:

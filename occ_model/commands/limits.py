@@ -161,14 +161,14 @@ def sentences(answers: Sequence[Limits], frames_a_second: float = FRAMES_A_SECON
     for found in answers:
         for each in (found.frequency, found.exposure):
             lines += _on_range(found.decoder, each)
-        two_packets = advice_of(found).frequency.theory.two_packets
+        two_packets = advice_of(found).frequency.two_packets
         if two_packets is not None:
             lines.append(f"  {two_packets_text(two_packets)}")
         lines.append(f"  {own_text(found, frames_a_second)}")
-    advice = advice_of(answers[0])
     lines += dict.fromkeys(line for found in answers for line in how_tried(found))
-    for facts in (advice.frequency, advice.exposure):
-        lines.append(theory_text(facts.found.parameter, facts.theory))
+    advice = advice_of(answers[0])
+    lines.append(theory_text("switching_frequency", advice.frequency))
+    lines.append(theory_text("exposure_time", advice.exposure))
     return lines
 
 

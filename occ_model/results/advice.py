@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from occ_model.results.limits import Limits, WorkingRange
+from occ_model.results.limits import Limits
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,17 +19,10 @@ class TheoryLimits:
 
 
 @dataclass(frozen=True, slots=True)
-class RangeFacts:
-    """Values of one parameter at which a decoder reads a scene."""
-
-    found: WorkingRange
-    theory: TheoryLimits
-
-
-@dataclass(frozen=True, slots=True)
 class Advice:
     """How fast a scene can go with one decoder, and how long it can be exposed."""
 
     limits: Limits
-    frequency: RangeFacts
-    exposure: RangeFacts
+    # What theory says of each
+    frequency: TheoryLimits
+    exposure: TheoryLimits

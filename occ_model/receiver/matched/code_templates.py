@@ -26,7 +26,7 @@ class CodeTemplates:
     chips (:func:`sums_of_halves`).
     """
 
-    bits: int  # Int: bits of a code
+    bits: int
     # Shape (bins,): lit fraction of an exposure that starts in each bin, when chip 0 alone is lit
     response: FloatArray
     # Shape (codes,): sum of the squares of each code's profile about its mean; infinite where that

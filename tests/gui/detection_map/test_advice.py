@@ -61,14 +61,9 @@ def found(scene: Scene, decoder: str = "threshold", **_: Any) -> Limits:
 
 def advice_on(scene: Scene) -> Advice:
     """Put limits beside theory: numbers of a scene that is not the one given."""
-    facts = advice_of(found(scene))
     frequencies = TheoryLimits(7353.0, 14706.0, two_packets=3468.0)
     exposures = TheoryLimits(100e-6, 200e-6, saturation=1.17e-3)
-    return Advice(
-        facts.limits,
-        replace(facts.frequency, theory=frequencies),
-        replace(facts.exposure, theory=exposures),
-    )
+    return Advice(found(scene), frequencies, exposures)
 
 
 @pytest.fixture
@@ -124,11 +119,11 @@ def test_cards_and_page_count_bits_at_the_same_frame_rate(qtbot: QtBot, small_sc
 
 def test_an_end_with_errors_all_round_leads_nowhere(small_scene: Scene) -> None:
     advice = advice_on(small_scene)
-    found = advice.frequency.found
+    found = advice.limits.frequency
     ends = (found.intervals[0].lowest, found.intervals[-1].highest)
     interval = ReadInterval(*(replace(end, inside=None) for end in ends))
     only = replace(found, intervals=(interval,))
-    doubtful = replace(advice, frequency=replace(advice.frequency, found=only))
+    doubtful = replace(advice, limits=replace(advice.limits, frequency=only))
     line = advice_lines(doubtful)[2]
     assert line.text.endswith("No value inside is surely read.")
     assert line.destination is None

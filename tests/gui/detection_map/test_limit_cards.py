@@ -129,7 +129,7 @@ def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene
     """A window of 1280 pixels has some 910 beside the sliders."""
     cards = add_widget(qtbot, LimitCards(list(DECODERS)))
     for decoder, card in cards.cards.items():
-        end = advice_on(small_scene).frequency.found.highest
+        end = advice_on(small_scene).limits.frequency.highest
         assert end is not None
         works, inside = replace(end.works, value=58.82e3), replace(INSIDE, value=58.82e3)
         card.show_limit(replace(end, works=works, fails=None, inside=inside, interval=None), "", 99)

@@ -293,15 +293,15 @@ def test_advice_holds_both_ends_found_and_the_limits_of_theory(decoding: Decodin
     decoding(within((0.0, 20e3)))
     found = occ.limits(SCENE, images=1)
     advice = advice_of(found)
-    lowest = advice.frequency.found.lowest
+    lowest = advice.limits.frequency.lowest
     assert lowest is not None
     assert (lowest.value, lowest.fails) == (500.0, None)
-    assert advice.frequency.theory.band_model == theory.band_model_frequency(SCENE)
-    assert advice.frequency.theory.null == theory.null_frequency(SCENE)
-    assert advice.frequency.theory.two_packets == theory.two_packets_frequency(SCENE)
-    assert advice.frequency.theory.saturation is None
+    assert advice.frequency.band_model == theory.band_model_frequency(SCENE)
+    assert advice.frequency.null == theory.null_frequency(SCENE)
+    assert advice.frequency.two_packets == theory.two_packets_frequency(SCENE)
+    assert advice.frequency.saturation is None
     # Exposed as long as theory allows, the scene's own frequency is the limit of theory.
-    exposures = advice.exposure.theory
+    exposures = advice.exposure
     for exposure, limit in (
         (exposures.band_model, theory.band_model_frequency),
         (exposures.null, theory.null_frequency),

@@ -105,7 +105,7 @@ def _fit(
     found = _improved(signal, scene, detect(rows, known, brightness, words), light, words)
     if found[0].unexplained() <= _DOUBTFUL_FRACTION:
         return found
-    followed = follow_timing(rows, timing, brightness, words)
+    followed = follow_timing(rows, known, brightness, words)
     other = _improved(signal, scene, detect(rows, followed, brightness, words), light, words)
     return other if other[0].unexplained() < found[0].unexplained() else found
 

@@ -13,7 +13,6 @@ from occ_model.receiver.sequence.fit import (
     Brightness,
     Rows,
     detect,
-    find_phase,
     improve,
 )
 from occ_model.receiver.sequence.trellis import Word
@@ -25,9 +24,8 @@ _CONVERGED_CHIPS = 0.01  # motion of a part's ends in chips below which the fit 
 def follow_timing(
     rows: Rows, timing: Timing, brightness: Brightness, words: tuple[Word, ...]
 ) -> Timing:
-    """Improve a timing of any phase whose time from row to row may be some percent off."""
+    """Improve a timing that fits the middle, and may be some percent off from row to row."""
     count = len(rows.light)
-    timing = find_phase(rows, timing, brightness, words)
     size = round((TRIED_CHIPS + timing.exposure) / timing.step)
     while True:
         size = min(size, count)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.blurred_light import BLUR, REACH, blurred
 from occ_model.photo.fit.lit_columns import LitColumns
-from occ_model.photo.fit.normal_equations import NormalEquations, solved
+from occ_model.photo.fit.normal_equations import NormalEquations, at_least_one, solved
 from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
@@ -87,6 +87,8 @@ class LitProfile:
         self._equations = NormalEquations(shapes[self.kept], freedom)
         self._kept_shapes = np.ascontiguousarray(self._shapes[:, self.kept])
         self._clipped_shapes = np.ascontiguousarray(self._shapes[:, self.clipped])
+        # The clipped columns that were below white at last, from which the next levels are sought.
+        self._dark = np.zeros(self.clipped.size, dtype=bool)
         # Slopes are asked for where the residual has just been.
         self._fitted = lru_cache(maxsize=1)(self._fitted_to)
         self._of_levels = lru_cache(maxsize=1)(self._slopes_of_levels)
@@ -138,26 +140,19 @@ class LitProfile:
     def _fitted_to(self, seen: Seen) -> _Fitted:
         """Find the levels.
 
-        Clipped columns that they leave below white count as seen at white, for which they are found
-        anew, twice.
+        Clipped columns that they leave below white count as seen at white.
         """
         kept = LitColumns(self._kept_shapes, seen.lit[self.kept])
         light, slope = seen.table.light_of(self.data), seen.table.slope_at(self.data)
         own = self._equations.matrix(slope**2, kept.lit)
         sums = kept.sums(slope**2 * light)
         products, levels = own, solved(own, sums)
-        beyond, counts = self._beyond(seen), np.zeros(self.clipped.size, dtype=bool)
-        for _ in range(2):
-            dark = beyond.light(levels) < 1.0
-            if not dark.any():
-                break
-            counted = np.vstack([beyond.shapes, beyond.shapes * beyond.lit])[:, dark]
-            square = seen.table.steepness**2
-            products = own + square * counted @ counted.T
-            levels = solved(products, sums + square * counted.sum(axis=1))
-            counts = dark
+        if self.clipped.size:
+            beyond, weight = self._beyond(seen), seen.table.steepness**2
+            columns = np.vstack([beyond.shapes, beyond.shapes * beyond.lit])
+            products, levels, self._dark = at_least_one(own, sums, columns, weight, self._dark)
         shown = levels if seen.sharp is None else self._corrected(seen, seen.sharp, levels)
-        return _Fitted(kept, light - kept.light(levels), slope, products, levels, counts, shown)
+        return _Fitted(kept, light - kept.light(levels), slope, products, levels, self._dark, shown)
 
     def _slopes_of_kept(self, seen: Seen, rates: SeenSlopes) -> FloatArray:
         if seen.sharp is not None and rates.sharp is not None:
@@ -182,8 +177,7 @@ class LitProfile:
         by_tone = weight * by_light + 2.0 * error * fitted.slope * by_slope
         pulls = fitted.kept.pulls(fitted.levels, weight, error, by_lit, by_tone)
         if fitted.dark.any():
-            dark = self.clipped[fitted.dark]
-            counted = LitColumns(self._shapes[:, dark], seen.lit[dark])
+            dark, counted = self.clipped[fitted.dark], self._at_white(seen, fitted.dark)
             error = 1.0 - counted.light(fitted.levels)
             weight = np.full(dark.size, seen.table.steepness**2)
             by_tone = error * (2.0 * seen.table.steepness * rates.tone.of_steepness)[:, None]
@@ -196,8 +190,9 @@ class LitProfile:
         Their shapes are so smooth that blur does not change them.
         """
         light = LitColumns(self._wide_shapes, sharp).light(levels)
-        steep, columns = self._steep(seen, sharp, light)
-        return levels + self._explained(steep, columns, self._less_blurred(seen, light))
+        kept, white = self._steep(seen, sharp, light), self._at_white(seen, self._dark)
+        missing = self._less_blurred(seen, light), 1.0 - white.light(levels)
+        return levels + self._explained(seen, kept, white, missing)
 
     def _slopes_of_blurred(
         self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray
@@ -209,9 +204,16 @@ class LitProfile:
         slopes = -blurred(by_values, seen.kernel)
         slopes[BLUR] -= blurred(values, rates.kernel)
         slopes = slopes[:, self.kept]
-        steep, columns = self._steep(seen, sharp, light)
-        moved = self._explained(steep, columns, slopes)
+        (steep, columns), dark = self._steep(seen, sharp, light), self._fitted(seen).dark
+        white, of_white = self._at_white(seen, dark), np.zeros((rates.parameters, dark.sum()))
+        of_white[: len(rates.lit)] = -white.swing(levels) * rates.lit[:, self.clipped[dark]]
+        moved = self._explained(seen, (steep, columns), white, (slopes, of_white))
         return slopes - steep * columns.light(moved)
+
+    def _at_white(self, seen: Seen, dark: NDArray[np.bool_]) -> LitColumns:
+        """Return those of the clipped columns that count as seen at white."""
+        place = self.clipped[dark]
+        return LitColumns(self._shapes[:, place], seen.lit[place])
 
     def _steep(
         self, seen: Seen, sharp: FloatArray, light: FloatArray
@@ -221,10 +223,22 @@ class LitProfile:
         both = blurred(np.stack([steep, steep * sharp]), seen.kernel)[:, self.kept]
         return both[0], LitColumns(self._kept_shapes, both[1] / both[0])
 
-    def _explained(self, steep: FloatArray, columns: LitColumns, values: FloatArray) -> FloatArray:
-        """Return the changes of the levels that best explain changes of the kept columns."""
-        products = self._equations.matrix(steep**2, columns.lit)
-        return solved(products, columns.sums(steep * values))
+    def _explained(
+        self,
+        seen: Seen,
+        kept: tuple[FloatArray, LitColumns],
+        white: LitColumns,
+        changes: tuple[FloatArray, FloatArray],
+    ) -> FloatArray:
+        """Return the levels' changes that best explain those of the kept columns and at white.
+
+        The former in grey levels, the latter in light.
+        """
+        (steep, columns), weight = kept, seen.table.steepness**2
+        at_white = np.vstack([white.shapes, white.shapes * white.lit])
+        products = self._equations.matrix(steep**2, columns.lit) + weight * at_white @ at_white.T
+        of_kept, of_white = changes
+        return solved(products, columns.sums(steep * of_kept) + weight * white.sums(of_white))
 
     def _less_blurred(self, seen: Seen, light: FloatArray) -> FloatArray:
         return self.data - blurred(seen.table.value_of(light), seen.kernel)[self.kept]

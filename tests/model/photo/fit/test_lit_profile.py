@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 
 from occ_model.photo.fit.blurred_light import REACH, BlurredLight, blur_kernel, blurred
 from occ_model.photo.fit.lit_profile import LitProfile, Seen, deviation_of
@@ -64,26 +65,29 @@ def test_clipped_columns_count_only_where_the_model_is_darker() -> None:
     assert short[dark[clipped | dark]].min() > 10.0
 
 
-def test_white_pulls_the_levels_up_as_data_at_white_would() -> None:
-    """Clipped columns that the kept ones leave dark are fitted as if they were at white."""
-    values = TABLE.value_of(DARK + SWING * LIT)
-    clipped = LIT > 0.9
-    part = profile_of(np.where(clipped, 255.0, values), ~clipped, clipped)
-    residual = part.residual(SEEN)
+@pytest.mark.parametrize(("brighter", "noise"), [(1.0, 0.0), (4.0, 0.5)])
+def test_no_levels_explain_kept_and_clipped_columns_better(brighter: float, noise: float) -> None:
+    """Also where all columns that show how bright the lamp is are white, as it is overexposed."""
+    light = brighter * (DARK + SWING * LIT)
+    clipped = LIT > 0.9 if brighter == 1.0 else light > 0.95
+    values = np.minimum(TABLE.value_of(light) + noise * NOISE, 255.0)
+    near = np.convolve(clipped, np.ones(7), mode="same") > 0.0 if brighter > 1.0 else clipped
+    part = profile_of(np.where(clipped, 255.0, values), ~near, clipped)
     model = np.hstack([SHAPES, SHAPES * LIT[:, None]])
-    slope = 255.0 * float(TABLE.slope[-1])
-    weight = np.where(clipped, slope, TABLE.slope_at(values))
-    light = np.where(clipped, 1.0, TABLE.light_of(values))
-    levels = np.linalg.lstsq(model * weight[:, None], light * weight, rcond=None)[0]
-    for _ in range(1):
-        dark = ~clipped | (model @ levels < 1.0)
-        levels = np.linalg.lstsq(
-            (model * weight[:, None])[dark], (light * weight)[dark], rcond=None
-        )[0]  # fmt: skip
-    short = np.maximum(1.0 - (model @ levels)[clipped], 0.0) * slope
-    assert residual[(~clipped).sum() :] == pytest.approx(short, abs=0.5)
-    kept = (values - TABLE.value_of(model @ levels))[~clipped]
-    assert residual[: (~clipped).sum()] == pytest.approx(kept, abs=0.5)
+    weight, steep = TABLE.slope_at(values[~near]), 255.0 * float(TABLE.slope[-1])
+    own, seen = model[~near] * weight[:, None], TABLE.light_of(values[~near]) * weight
+
+    def misfit(levels: np.ndarray) -> np.ndarray:
+        short = np.maximum(1.0 - model[clipped] @ levels, 0.0)
+        return np.concatenate([own @ levels - seen, steep * short])
+
+    start = np.linalg.lstsq(own, seen, rcond=None)[0]
+    levels = least_squares(misfit, start, method="lm", xtol=1e-14, ftol=1e-14, gtol=1e-14).x
+    residual = part.residual(SEEN)
+    short = steep * np.maximum(1.0 - model[clipped] @ levels, 0.0)
+    assert residual[(~near).sum() :] == pytest.approx(short, abs=0.01)
+    kept = (values - TABLE.value_of(model @ levels))[~near]
+    assert residual[: (~near).sum()] == pytest.approx(kept, abs=0.01)
 
 
 def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:

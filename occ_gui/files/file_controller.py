@@ -163,8 +163,8 @@ class FileController(QObject):
         films = [path for path in files if path not in scenes and _is_film(path)]
         photos = [path for path in files if path not in (*scenes, *films)]
         if not files:
-            what = f"{one_line(str(paths[0]))} is no file" if paths else ""
-            what = what or "What was dropped is no file of this computer"
+            what = f"{one_line(str(paths[0]))} is not a file" if paths else ""
+            what = what or "What was dropped is not a file of this computer"
             self.status_message.emit(f"{what}; drop a photo, a film or a scene (.toml).")
             return
         for path in scenes[:1]:

@@ -131,8 +131,8 @@ def _problems(steps: FloatArray, counts: IndexArray, usual: float) -> list[str]:
     odd = np.flatnonzero((np.abs(steps - counts) > _MAX_INTERVAL_DEVIATION) & (steps > 0.0))
     if odd.size:
         problems.append(
-            f"The frame rate is not constant: {len(odd)} of {len(steps)} intervals are no whole "
-            f"number of {SECOND.format(usual)}, the first after {_named(odd[:1])}."
+            f"The frame rate is not constant: {len(odd)} of {len(steps)} intervals are not a "
+            f"whole number of {SECOND.format(usual)}, the first after {_named(odd[:1])}."
         )
     return problems
 

@@ -81,8 +81,8 @@ class VideoReader:
         Raises
         ------
         ParameterError
-            It is no frame, its time is no number from -1e8 to 1e8 s, or its picture is none, or of
-            another size than the first: the frames before are kept.
+            It is not a frame, its time is not a number from -1e8 to 1e8 s, or its picture is not
+            one, or is of another size than the first: the frames before are kept.
         """
         self._check(frame)
         timed = self._reads.read(frame)

@@ -53,7 +53,7 @@ def render_video(
     Raises
     ------
     ParameterError
-        ``frames`` is no whole number from 1, a setting is out of range, or the scene cannot be
+        ``frames`` is not a whole number from 1, a setting is out of range, or the scene cannot be
         recorded so: see :meth:`occ_model.Recording.check`.
     ProjectionError
         The image would be too large.

@@ -125,4 +125,4 @@ def numbers(blocks: ByteArray) -> ByteArray:
 
 
 def no_whole_blocks(count: int, block: int) -> Decoded:
-    return Decoded(failure=f"{count} chips are no whole number of blocks of {block} chips.")
+    return Decoded(failure=f"{count} chips are not a whole number of blocks of {block} chips.")

@@ -171,7 +171,7 @@ def test_a_folder_that_cannot_be_is_not_where_a_dialog_begins(
         application.files.open_recent(path)
         assert "no longer there" in application.window.statusBar().currentMessage()
         application.files.open_dropped([path])
-        assert "is no file" in application.window.statusBar().currentMessage()
+        assert "is not a file" in application.window.statusBar().currentMessage()
 
 
 @pytest.mark.parametrize("kind", ["38", "39", "3f"])

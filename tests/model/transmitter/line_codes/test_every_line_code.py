@@ -134,7 +134,8 @@ def test_a_wrong_chip_is_found_or_harmless_if_it_is_declared(code: LineCode) -> 
 def test_chips_that_are_no_whole_blocks_are_refused(code: LineCode) -> None:
     read = code.decode(np.zeros(code.block_chips + 1, dtype=np.uint8), 0)
     assert read.failure == (
-        f"{code.block_chips + 1} chips are no whole number of blocks of {code.block_chips} chips."
+        f"{code.block_chips + 1} chips are not a whole number of blocks of "
+        f"{code.block_chips} chips."
     )
     assert not read.bits.size
 

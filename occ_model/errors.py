@@ -149,9 +149,7 @@ class _ShortRepr(reprlib.Repr):
     def repr_int(self, value: int, level: int) -> str:
         """Write a whole number, also one with more digits than Python writes."""
         try:
-            repr(
-                value
-            )  # from Python 3.14 on, the method of the base class names an address instead
+            repr(value)  # the base class names an address instead from Python 3.14 on
         except ValueError:
             return f"a whole number of {value.bit_length():,} bits"
         return super().repr_int(value, level)

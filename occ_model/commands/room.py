@@ -25,11 +25,11 @@ from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.room.locate import RoomReading, read_room
 from occ_model.room.photo import read_room_photo
 from occ_model.room.pose_fit import Located
-from occ_model.room.render import render_room
+from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Place, Room
 from occ_model.room.rooms import load_room, rooms
 from occ_model.scene.from_text import with_settings
-from occ_model.scene.simulation_settings import TOLERANCE
+from occ_model.scene.simulation_settings import TOLERANCE, SimulationSettings
 from occ_model.study.code_length import CodeLength, code_lengths
 from occ_model.study.room_map import (
     RoomMapRequest,
@@ -136,10 +136,7 @@ def _room_of(options: argparse.Namespace) -> Room:
 def _render(options: argparse.Namespace) -> int:
     room, settings = _room_of(options), simulation_settings_of(options)
     check_replaceable(options.out)
-    frame = render_room(
-        room, tolerance=settings.tolerance, seed=settings.seed, observable=settings.observable,
-        force=settings.force, noise=settings.noise,
-    )  # fmt: skip
+    frame = _rendered(room, settings)
     write_image(options.out, frame.camera_image, "Camera's picture")
     shown = [one.lamp.name + (" (cut)" if one.is_cut else "") for one in frame.lamps]
     seconds = sum(frame.timings.values())
@@ -148,6 +145,13 @@ def _render(options: argparse.Namespace) -> int:
         f"simulated in {1e3 * seconds:.1f} ms: {one_line(', '.join(shown)) or 'none'}"
     )
     return 0
+
+
+def _rendered(room: Room, settings: SimulationSettings) -> RoomFrame:
+    return render_room(
+        room, tolerance=settings.tolerance, seed=settings.seed, observable=settings.observable,
+        force=settings.force, noise=settings.noise,
+    )  # fmt: skip
 
 
 def _request(options: argparse.Namespace) -> RoomMapRequest:
@@ -164,7 +168,7 @@ def _map(options: argparse.Namespace) -> int:
             request, executor=executor, jobs=options.jobs, progress=progress, results=options.out
         )
 
-    points = run_with_bar(run, request.points, options)
+    points = run_with_bar(run, options)
     if points is None:
         return EXIT_INTERRUPTED
     if not options.out:
@@ -195,7 +199,7 @@ def _codes(options: argparse.Namespace) -> int:
             progress=progress,
         )  # fmt: skip
 
-    found = run_with_bar(run, max(len(options.bits), 1) * request.points, options)
+    found = run_with_bar(run, options)
     if found is None:
         return EXIT_INTERRUPTED
     print("bits    codes  chips  columns  packets  distance     named  misread  named wrongly")
@@ -220,11 +224,7 @@ def _codes(options: argparse.Namespace) -> int:
 def _locate(options: argparse.Namespace) -> int:
     room, settings = _room_of(options), simulation_settings_of(options)
     if options.file is None:
-        image = render_room(
-            room, tolerance=settings.tolerance, seed=settings.seed, observable=settings.observable,
-            force=settings.force, noise=settings.noise,
-        ).camera_image  # fmt: skip
-        reading = read_room(image, room)
+        reading = read_room(_rendered(room, settings).camera_image, room)
     else:
         given = any(text.split("=")[0].strip() == _FOCAL_LENGTH for text in options.settings)
         focal_length = room.scene.camera.equivalent_focal_length if given else None

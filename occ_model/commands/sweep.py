@@ -143,7 +143,7 @@ def _run(options: argparse.Namespace) -> int:
             request, executor=executor, jobs=options.jobs, progress=progress, results=options.out
         )
 
-    table = run_with_bar(run, request.points, options)
+    table = run_with_bar(run, options)
     if table is None:
         return EXIT_INTERRUPTED
     if options.out:
@@ -184,11 +184,11 @@ def _check_plot(path: Path, axes: int) -> None:
 
 
 def run_with_bar(
-    run: Callable[[Executor | None, Progress], Study], points: int, options: argparse.Namespace
+    run: Callable[[Executor | None, Progress], Study], options: argparse.Namespace
 ) -> Study | None:
     """Measure with a progress bar that shows the time left; None after Ctrl-C."""
     workers = cluster_executor(options.cluster) if options.cluster else nullcontext()
-    reached = 0
+    reached = "before the first point"
     with ExitStack() as stack:
         bar: Any = None
 
@@ -196,7 +196,7 @@ def run_with_bar(
             nonlocal bar, reached
             if bar is None:  # not before the first point: a refused study shows none
                 bar = stack.enter_context(progress_bar(total=total, unit="point"))
-            reached = done
+            reached = f"after {done} of {total} points"
             bar.update(done - bar.n)
 
         try:
@@ -210,7 +210,7 @@ def run_with_bar(
         kept = "none is kept."
     elif not out:
         kept = "with --out FILE.csv they would be kept."
-    print(f"occ-model: stopped after {reached} of {points} points; {kept}", file=sys.stderr)
+    print(f"occ-model: stopped {reached}; {kept}", file=sys.stderr)
     return None
 
 

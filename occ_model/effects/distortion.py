@@ -54,13 +54,7 @@ class Distortion(OpticsEffect):
         return scene.lens.distorts
 
     def apply(self, scene: Scene, optics: Optics) -> Optics:
-        """Bend the panel's outline.
-
-        Raises
-        ------
-        ProjectionError
-            The distortion folds the picture back within its own corners.
-        """
+        """Bend the panel's outline; ProjectionError where that folds the picture's corners back."""
         if not self.is_present(scene):
             return optics
         return replace(optics, outline=_outlines(scene, optics.outline)[1], cover_stage=self.name)
@@ -138,12 +132,8 @@ class _View:
 def _view(lens: Lens, corner: float, needed: float) -> _View:
     """Find the rays that are pictured up to ``needed`` focal lengths from the centre.
 
-    Where the lens folds before that, they end at the fold.
-
-    Raises
-    ------
-    ProjectionError
-        It folds back before the picture's ``corner``.
+    Where the lens folds before that, they end at the fold; before the picture's ``corner`` it is a
+    ProjectionError.
     """
     angle = 2.0 * math.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=-1)

@@ -85,10 +85,6 @@ class SentPackets(Sequence[PacketReading]):
     in_view: tuple[PacketReading, ...] = ()  # The packets of which frames show chips, in order
     sub_packets: int = 1
 
-    @classmethod
-    def listed(cls, packets: Sequence[PacketReading], duration: float = 0.0) -> "SentPackets":
-        return cls((FilmPart(0.0, duration, len(packets)),), tuple(packets))
-
     @cached_property
     def _firsts(self) -> list[int]:
         """The number of each part's first packet, and the number of all."""

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from occ_gui.video.reading_jobs import sentences_of
-from occ_model.results.sent_packets import PacketReading, SentPackets
+from occ_model.results.sent_packets import FilmPart, PacketReading, SentPackets
 from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.study.reading_facts import error_rate, film_facts
 
@@ -19,9 +19,10 @@ def packet(number: int, frame: int | None, wrong: int | None) -> PacketReading:
 
 def reading(right: int, unread: int, unseen: int, wrong: int = 0) -> VideoReading:
     kinds = [(0, 0)] * right + [(0, None)] * unread + [(None, None)] * unseen + [(0, 1)] * wrong
+    packets = tuple(packet(number, *kind) for number, kind in enumerate(kinds))
     return VideoReading(
         frames=(FrameReading(0, 0.0), FrameReading(1, 0.03)), clock=None, certainty=1.0,
-        packets=SentPackets.listed([packet(number, *kind) for number, kind in enumerate(kinds)]),
+        packets=SentPackets((FilmPart(0.0, 0.06, len(packets)),), packets),
         bits=_BITS, known=np.ones(24, dtype=bool), payload="0", complete_at=0.0, duration=0.06,
         failure=None,
     )  # fmt: skip

@@ -15,7 +15,8 @@ from occ_model.receiver.decode import decode
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import packet
+from occ_model.transmitter.packet import packet, sent_chips
+from occ_model.transmitter.scheme import scheme_of
 
 _ROWS = 4  # rows that are averaged where lamps are looked for
 
@@ -131,14 +132,15 @@ def _ends_of_rows(lit: BoolArray) -> NDArray[np.int32]:
 def _longest_gap(room: Room) -> int:
     """Return the columns of the longest dark run of any lamp, odd."""
     longest = 0.0
-    for scene in _settings(room):
-        chips = packet(scene)
+    for lamp in room.lamps:
+        chips = sent_chips(lamp.transmitter)
         if chips.all() or not chips.any():
             continue
         ends = np.flatnonzero(np.concatenate([chips, chips]))
         gap = int(np.diff(ends).max()) - 1
-        # Any two data chips may be dark, whatever this code is.
-        longest = max(longest, max(gap, 2) / scene.transmitter.switching_frequency)
+        # Another code, of a lamp that is none of the room, may have a longer run.
+        run = scheme_of(lamp.transmitter).line_code.longest_run or gap
+        longest = max(longest, max(gap, run) / lamp.transmitter.switching_frequency)
     return int(longest / room.scene.camera.readout_time * 1.1) // 2 * 2 + 5
 
 

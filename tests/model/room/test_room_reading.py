@@ -79,6 +79,21 @@ def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> 
     assert found.located.deviations == again.located.deviations
 
 
+def test_a_lamp_is_one_however_long_its_chips_are_dark() -> None:
+    room = small_room(
+        2, line_code="fsk", framing="preamble", bits=8, code=0, switching_frequency=12e3,
+        columns=1536, rows=1024,
+    )  # fmt: skip
+    # Ten chips are dark between two that are lit.
+    sent = [lamp.transmitter.replaced({"bits": 8, "code": code})
+            for lamp, code in zip(room.lamps, (192, 240), strict=True)]  # fmt: skip
+    lamps = [dataclasses.replace(lamp, transmitter=own)
+             for lamp, own in zip(room.lamps, sent, strict=True)]  # fmt: skip
+    room = dataclasses.replace(room, lamps=tuple(lamps))
+    reading = occ.read_room(occ.render_room(room, seed=1).camera_image, room)
+    assert [lamp.name for lamp in reading.lamps] == ["L0", "L1"]
+
+
 # At the last, a single column of the next lit chip is in the picture.
 @pytest.mark.parametrize("chips", [*range(0, 24, 2), 10 / 7])
 def test_a_lamp_cut_behind_dark_chips_is_said_to_be_cut(chips: float) -> None:

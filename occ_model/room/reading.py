@@ -15,7 +15,7 @@ from occ_model.receiver.decode import decode
 from occ_model.results.decoding import DecodeResult, Region
 from occ_model.room.room import Room, RoomLamp
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.packet import packet, sent_chips
+from occ_model.transmitter.packet import code_of, packet, sent_chips
 from occ_model.transmitter.scheme import scheme_of
 
 _ROWS = 4  # rows that are averaged where lamps are looked for
@@ -157,6 +157,11 @@ def sent_by(lamp: RoomLamp) -> tuple[Any, ...]:
     return tuple(getattr(lamp.transmitter, name) for name in _SENT)
 
 
+def code_sent(lamp: RoomLamp) -> int:
+    """Return the code that a decoder reads of a lamp, its payload's bits where it has one."""
+    return code_of(lamp.transmitter.payload_bits)
+
+
 def _signal(image: ByteArray, region: Region, hull: FloatArray) -> FloatArray:
     """Return the mean pixel value within the outline in each column of the region."""
     part = region.crop(image)
@@ -192,7 +197,7 @@ def _read(image: ByteArray, region: Region, hull: FloatArray, room: Room) -> Rea
         sent = tuple(getattr(scene.transmitter, name) for name in _SENT)
         names = [
             lamp.name for lamp in room.lamps
-            if sent_by(lamp) == sent and lamp.transmitter.code == result.code
+            if sent_by(lamp) == sent and code_sent(lamp) == result.code
         ]  # fmt: skip
         codes.append((result.code, names))
         hides = hides or _may_reach_sides(result, scene, region, bright)

@@ -110,9 +110,10 @@ def _codes(bits: int, lamps: int, seed: int) -> IndexArray:
 
 
 def _sending(room: Room, bits: int, sent: IndexArray) -> Room:
-    """Return the room whose lamps send the first of some codes."""
+    """Return the room whose lamps send the first of some codes, and no payload or pattern."""
+    own: dict[str, int | str] = {"bits": bits, "payload": "", "pattern": ""}
     lamps = tuple(
-        replace(lamp, transmitter=lamp.transmitter.replaced({"bits": bits, "code": int(code)}))
+        replace(lamp, transmitter=lamp.transmitter.replaced({**own, "code": int(code)}))
         for lamp, code in zip(room.lamps, sent, strict=False)
     )
     return room.replace(lamps=lamps, code=0, bits=bits)

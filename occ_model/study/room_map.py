@@ -15,7 +15,7 @@ from occ_model.parallel.job import Heartbeat, Job
 from occ_model.results.decoding import Region
 from occ_model.results.sweep_csv import csv_row, one_line
 from occ_model.room.locate import RoomReading, read_room
-from occ_model.room.reading import ReadLamp
+from occ_model.room.reading import ReadLamp, code_sent
 from occ_model.room.render import RoomFrame, render_room
 from occ_model.room.room import Room, check_room
 from occ_model.scene.argument_checks import check_count, check_seed
@@ -133,7 +133,7 @@ def _counts(frame: RoomFrame, reading: RoomReading) -> tuple[int, int, int, int]
     named = misread = wrong = 0
     for read in reading.lamps:
         there = [one for one in frame.lamps if _is_at(one.region, read)]
-        codes = [one.lamp.transmitter.code for one in there]
+        codes = [code_sent(one.lamp) for one in there]
         own = [one for one in there if one.lamp.name == read.name]
         named += any(not one.is_cut for one in own)
         misread += read.code is not None and read.code not in codes

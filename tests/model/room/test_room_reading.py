@@ -11,6 +11,7 @@ from occ_model.room import locate
 from occ_model.room.edges import Edge
 from occ_model.room.pose_fit import Located
 from occ_model.room.room import Place, Room, RoomLamp
+from occ_model.study.room_map import RoomMapRequest, room_map
 
 
 def _scene() -> occ.Scene:
@@ -77,6 +78,21 @@ def test_only_what_the_lamps_send_counts_and_not_the_rooms_own_transmitter() -> 
     assert found.is_sure
     assert found.located.place == again.located.place
     assert found.located.deviations == again.located.deviations
+
+
+def test_a_lamp_that_sends_a_payload_is_named_by_its_bits() -> None:
+    room = small_room(2)
+    sent = ("bits:0100100001", "bits:1110001010")
+    lamps = [dataclasses.replace(lamp, transmitter=lamp.transmitter.replaced({"payload": payload}))
+             for lamp, payload in zip(room.lamps, sent, strict=True)]  # fmt: skip
+    room = dataclasses.replace(room, lamps=tuple(lamps))
+    reading = occ.read_room(occ.render_room(room, seed=1).camera_image, room)
+    assert {lamp.name: lamp.code for lamp in reading.lamps} == {
+        "L0": 0b0100100001,
+        "L1": 0b1110001010,
+    }
+    (point,) = room_map(RoomMapRequest(room, (0.6,), (0.0,)))
+    assert (point.shown, point.named, point.misread) == (2, 2, 0)
 
 
 def test_a_lamp_is_one_however_long_its_chips_are_dark() -> None:

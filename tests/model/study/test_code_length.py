@@ -1,5 +1,6 @@
 """Lengths of codes are compared by how many there are, how alike they are, and what is read."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +46,16 @@ def test_a_place_without_a_picture_has_no_lamp_that_is_whole() -> None:
     (found,) = code_lengths(request, 64, (6,))
     assert "partly behind the camera" in point.note
     assert (found.whole, found.packets) == (point.shown, 0.0) == (0, 0.0)
+
+
+def test_lengths_are_those_of_codes_whatever_the_lamps_send_now() -> None:
+    lamps = [replace(lamp, transmitter=lamp.transmitter.replaced({"payload": "bits:1100"}))
+             for lamp in ROOM.lamps]  # fmt: skip
+    sending = replace(ROOM, lamps=tuple(lamps))
+    asked = [RoomMapRequest(room, (0.6,), (0.0,)) for room in (ROOM, sending)]
+    plain, found = (code_lengths(request, 64, (6,)) for request in asked)
+    assert found == plain
+    assert found[0].distance > 0
 
 
 def test_a_misread_code_is_another_lamp_s_as_often_as_codes_are_used() -> None:

@@ -15,7 +15,8 @@ from occ_model.teaching.result_text import result_text
 _LIGHT = ("luminance", "illuminance", "reflectance")
 
 _ON_TIME_PARAMETERS = (  # they determine how long the LED is on while a column is exposed
-    "code", "bits", "pattern", "switching_frequency", "readout_time", "exposure_time", "start_time",
+    "code", "bits", "payload", "line_code", "framing", "preamble", "error_correction", "pattern",
+    "switching_frequency", "readout_time", "exposure_time", "start_time",
 )  # fmt: skip
 
 _MINUS = Term("−")  # noqa: RUF001 - a minus sign

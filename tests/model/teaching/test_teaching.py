@@ -111,6 +111,25 @@ def test_every_parameter_of_a_term_changes_its_equation() -> None:
                 assert name in after.parameters, after.meaning
 
 
+def test_the_time_lit_depends_on_the_parameters_that_its_term_names_and_no_other() -> None:
+    scene = occ.Scene().replace(framing="preamble", columns=500)
+    other = {
+        "code": 700, "bits": 12, "payload": "a", "pattern": "10", "line_code": "4b6b",
+        "framing": "raw", "preamble": "1111000", "error_correction": "reed-solomon",
+    }  # fmt: skip
+    term = next(t for t in by_meaning(scene)["a column"].numbers if "<sub>on" in t.text)
+    for name, declared in PARAMETERS.items():
+        value = scene.value(name)
+        changed = other.get(name, 1.1 * value + 1e-3 if isinstance(value, float) else value)
+        if changed == value:
+            continue
+        time = occ.on_time(
+            scene.replace(**{name: min(changed, getattr(declared, "high", changed))})
+        )
+        moved = not np.array_equal(time, occ.on_time(scene))
+        assert (name in term.parameters) == moved, name
+
+
 def test_the_notation_of_a_term_is_no_more_than_sub_and_sup() -> None:
     for equation in equations(Scene()):
         for text in (equation.meaning, *(t.text for t in equation.symbols + equation.numbers)):

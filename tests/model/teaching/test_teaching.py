@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 import occ_model as occ
 from occ_model.camera.photometry import WHITE, level_values
 from occ_model.results.teaching import Equation
+from occ_model.scene.parameter_kinds import ParameterValue, Quantity
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
@@ -113,19 +114,20 @@ def test_every_parameter_of_a_term_changes_its_equation() -> None:
 
 def test_the_time_lit_depends_on_the_parameters_that_its_term_names_and_no_other() -> None:
     scene = occ.Scene().replace(framing="preamble", columns=500)
-    other = {
+    other: dict[str, ParameterValue] = {
         "code": 700, "bits": 12, "payload": "a", "pattern": "10", "line_code": "4b6b",
         "framing": "raw", "preamble": "1111000", "error_correction": "reed-solomon",
     }  # fmt: skip
     term = next(t for t in by_meaning(scene)["a column"].numbers if "<sub>on" in t.text)
     for name, declared in PARAMETERS.items():
         value = scene.value(name)
-        changed = other.get(name, 1.1 * value + 1e-3 if isinstance(value, float) else value)
-        if changed == value:
+        if isinstance(value, float):
+            assert isinstance(declared, Quantity)
+            value = min(1.1 * value + 1e-3, declared.high)
+        changed = scene.replace(**{name: other.get(name, value)})
+        if changed == scene:
             continue
-        time = occ.on_time(
-            scene.replace(**{name: min(changed, getattr(declared, "high", changed))})
-        )
+        time = occ.on_time(changed)
         moved = not np.array_equal(time, occ.on_time(scene))
         assert (name in term.parameters) == moved, name
 

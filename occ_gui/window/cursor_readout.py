@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 import pyqtgraph as pg
-from PySide6.QtCore import QEvent, QObject, QPointF
+from PySide6.QtCore import QEvent, QObject, QPointF, Signal
 from PySide6.QtGui import QMouseEvent
 
 from occ_gui.picture.image_view import ImageView
@@ -17,19 +17,24 @@ class _Follower(QObject):
     The scene's own signal leaves out positions that follow fast, also that where the mouse stops.
     """
 
+    # A signal, which ends with the label that shows the text: where a window goes with the mouse
+    # in a view, that may go first.
+    pointed = Signal(str)
+
     def __init__(
         self, view: pg.GraphicsView, text_at: Callable[[QPointF], str], show: Callable[[str], None]
     ) -> None:
         super().__init__(view)
-        self._view, self._text_at, self._show = view, text_at, show
+        self._view, self._text_at = view, text_at
+        self.pointed.connect(show)
         view.viewport().installEventFilter(self)
 
     def eventFilter(self, _watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
         if event.type() == QEvent.Type.Leave:
-            self._show("")
+            self.pointed.emit("")
         elif event.type() == QEvent.Type.MouseMove and isinstance(event, QMouseEvent):
             point = self._view.mapToScene(event.position().toPoint())
-            self._show(self._text_at(QPointF(point)))
+            self.pointed.emit(self._text_at(QPointF(point)))
         return False
 
 

@@ -11,6 +11,7 @@ from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
+from shiboken6 import delete
 
 import occ_model as occ
 from occ_gui.decoding.decode_view import DecodeView
@@ -21,6 +22,7 @@ from occ_gui.picture.image_view import ImageView
 from occ_gui.profile.feature import profile
 from occ_gui.profile.profile_view import ProfileView
 from occ_gui.simulation.preview import Picture
+from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.window.cursor_readout import follow_pictures
 from occ_model.photo.reading.load import Photo
 from occ_model.results.frame import PICTURES
@@ -131,6 +133,17 @@ def test_the_pointer_reads_the_levels_of_both_pictures(bench: Bench) -> None:
             )
     assert bench.picture.levels_at(-1, 0) is None
     assert bench.picture.levels_at(0, frame.image.shape[0]) is None
+
+
+def test_the_mouse_leaves_a_view_whose_label_went_first(bench: Bench) -> None:
+    pane, label = bench.picture.simulation, ElidedLabel()
+    follow_pictures(bench.picture, label.set_full_text)
+    middle = QPointF(bench.frame.image.shape[1] / 2, bench.frame.image.shape[0] / 2)
+    view = pane.graphics
+    move_mouse(view.viewport(), QPoint(view.mapFromScene(pane.box.mapViewToScene(middle))))
+    assert label.toolTip().startswith("Simulation: column")
+    delete(label)
+    assert QApplication.sendEvent(view.viewport(), QEvent(QEvent.Type.Leave))
 
 
 def move_mouse(viewport: QWidget, point: QPoint) -> None:

@@ -66,6 +66,20 @@ def test_undo_and_redo_bring_the_controls_and_the_picture_back(
         assert np.array_equal(grey_picture(application.view("picture")), picture)
 
 
+def test_a_drag_of_a_slider_is_undone_as_one_step(
+    application: Application, user: User, small_scene: Scene
+) -> None:
+    slider = user.slider("iso")
+    slider.setSliderDown(True)
+    for position in (200, 400, 600):
+        slider.setValue(position)
+    slider.setSliderDown(False)
+    assert application.store.scene != small_scene
+    assert application.store.undo_stack.count() == 1
+    user.choose("&Undo")
+    assert application.store.scene == small_scene
+
+
 def test_the_window_tells_how_long_simulating_and_reading_took_and_its_version(
     qtbot: QtBot, application: Application, user: User, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -87,6 +87,20 @@ def test_every_channel_and_scan_axis_of_the_model_can_be_chosen(
     assert len(received) == 2
 
 
+def test_a_failed_match_is_a_sentence_and_what_was_found_before_stays(
+    view: LiveView, photo: Photo, match: Match
+) -> None:
+    view.open(photo)
+    view.show_matched(match)
+    view.show_match_begun()
+    view.show_match_ended()
+    view.verdict.show_ended(["No scene explains these stripes."])
+    assert "No scene explains these stripes." in view.verdict.accessibleDescription()
+    assert view.result.isVisible()
+    view.show_match_begun()
+    assert "No scene" not in view.verdict.accessibleDescription()
+
+
 def test_the_fields_show_where_the_photo_lies_and_tell_nothing(
     view: LiveView, photo: Photo
 ) -> None:

@@ -12,6 +12,7 @@ from occ_gui.accuracy.ways_shown import Way, ways_shown
 from occ_gui.widgets.axes import LogAxis
 from occ_gui.widgets.contrast import seen_on
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, NOISE, PHOTO, REGION, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 from occ_model.results.accuracy import ACCURACY_PARTS, CLOSED_FORM, LEAST_ERROR, AccuracyPoint
@@ -43,8 +44,8 @@ class AccuracyPlot(QWidget):
     Until new points are measured, the last complete ones stay, faded.
     """
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._points: list[AccuracyPoint] = []
         self._drawn: Sequence[Way] = ()
         self._front: list[AccuracyPoint] = []
@@ -179,15 +180,8 @@ class AccuracyPlot(QWidget):
         self._fit_button.setText("Fit")
         self._fit_button.setToolTip("Show all points.")
         self._fit_button.clicked.connect(self._fit_again)
-        head = QHBoxLayout()
-        head.addWidget(self.title, 1)
-        head.addWidget(self._fit_button)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(2)
-        layout.addLayout(head)
-        layout.addWidget(self.legend)
-        layout.addWidget(self.plot, 1)
+        head = filled(QHBoxLayout(), (self.title, 1), self._fit_button)
+        filled(QVBoxLayout(self), head, self.legend, (self.plot, 1), margins=0, spacing=2)
 
     @property
     def measured(self) -> tuple[AccuracyPoint, ...]:

@@ -5,7 +5,7 @@ slider from fast to exact with its sentence, and the plot of the ways to compute
 """
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
 from occ_gui.accuracy.cost_measurement import SceneCosts
@@ -24,8 +24,8 @@ from occ_gui.accuracy.tolerance_slider import ToleranceSlider, marks_of
 from occ_gui.simulation.snapshot import Snapshot
 from occ_gui.values.simulated import SimulationRequest
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.event_filters import keep_wheel_for_scrolling
-from occ_model.results.accuracy import AccuracyPoint
+from occ_gui.widgets.keyed_combo_box import KeyedComboBox
+from occ_gui.widgets.layouts import filled
 from occ_model.results.effect_costs import Forecast, MeasuredCosts, TimeShares
 from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import SimulationSettings, unit_of
@@ -51,8 +51,8 @@ class AccuracyView(QWidget):
     mended = Signal()
     """An allowed tolerance was entered, whether or not it differs from the last one."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._snapshot: Snapshot | None = None
         self._drawn: Snapshot | None = None
         self._costs: SceneCosts | None = None
@@ -65,29 +65,27 @@ class AccuracyView(QWidget):
         self.tolerance.edited.connect(self.mended)
         self.tolerance.edited.connect(self.tolerance_edited)
         self.tolerance.refused.connect(self.refused)
-        self.observable = _choice(
+        self.observable = KeyedComboBox(
             "What the tolerance limits",
-            (
-                "What the tolerance limits: errors of the panel's pixels, of its column means, of "
-                "the signal that a decoder reads, the column means after the enhancement, or of "
-                "the decision, as a share of the chips' margin."
-            ),
+            "What the tolerance limits: errors of the panel's pixels, of its column means, of "
+            "the signal that a decoder reads, the column means after the enhancement, or of "
+            "the decision, as a share of the chips' margin.",
             {
                 "image": "picture",
                 "profile": "profile",
                 "signal": "signal",
                 "decision": "decision",
             },
+            is_fixed=True,
         )
-        self.noise = _choice(
+        self.noise = KeyedComboBox(
             "Noise",
             "Noise drawn for every pixel, or taken from a stored plane: much faster.",
             {"reused": "reused", "exact": "exact"},
+            is_fixed=True,
         )
-        self.observable.activated.connect(
-            lambda: self.observable_chosen.emit(self.observable.currentData())
-        )
-        self.noise.activated.connect(lambda: self.noise_chosen.emit(self.noise.currentData()))
+        self.observable.chosen.connect(self.observable_chosen)
+        self.noise.chosen.connect(self.noise_chosen)
         self.summary = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.ends = ElidedLabel("", Qt.TextElideMode.ElideRight)
         self.ends.hide()
@@ -101,27 +99,28 @@ class AccuracyView(QWidget):
             Panel("Ways to compute", self.plot, _PLOT_WIDTH, 3),
             Panel("Selected effect", self.detail, _DETAIL_WIDTH, 2),
         )
+        # What the study tells is shown by the plot alone.
+        self.show_study_begun, self.show_point = self.plot.show_study_begun, self.plot.show_point
+        self.show_study_finished = self.plot.show_study_finished
+        self.show_study_outdated = self.plot.show_study_outdated
+        self.show_study_failed = self.plot.show_study_failed
         self._lay_out()
 
     def _lay_out(self) -> None:
-        controls = QHBoxLayout()
-        controls.setSpacing(8)
-        controls.addWidget(self.tolerance, 1)
+        controls = filled(QHBoxLayout(), (self.tolerance, 1), spacing=8)
         for text, control in (("of the", self.observable), ("Noise", self.noise)):
             controls.addWidget(QLabel(text))
             controls.addWidget(control)
-        second = QHBoxLayout()
-        second.setSpacing(8)
-        second.addWidget(self.ends, 1)
-        second.addStretch()
-        second.addWidget(self.panels.tabs)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(8, 2, 8, 2)
-        layout.setSpacing(2)
-        layout.addLayout(controls)
-        layout.addWidget(self.summary)
-        layout.addLayout(second)
-        layout.addWidget(self.panels, 1)
+        second = filled(QHBoxLayout(), (self.ends, 1), None, self.panels.tabs, spacing=8)
+        filled(
+            QVBoxLayout(self),
+            controls,
+            self.summary,
+            second,
+            (self.panels, 1),
+            margins=(8, 2, 8, 2),
+            spacing=2,
+        )
 
     @property
     def of_scene(self) -> tuple[QWidget, ...]:
@@ -138,8 +137,8 @@ class AccuracyView(QWidget):
         self.plot.show_unit(unit_of(settings.observable))
         self.tolerance.show_value(settings.tolerance)
         self.table.show_tolerance(settings.tolerance)
-        self.observable.setCurrentIndex(self.observable.findData(settings.observable))
-        self.noise.setCurrentIndex(self.noise.findData(settings.noise))
+        self.observable.show_key(settings.observable)
+        self.noise.show_key(settings.noise)
         self.table.show_force(settings.force)
 
     def show_snapshot(self, snapshot: Snapshot) -> None:
@@ -164,21 +163,6 @@ class AccuracyView(QWidget):
             self.tolerance.show_marks(marks_of(expected.ways))
         self.plot.show_ways(expected)
         self._draw()
-
-    def show_study_begun(self) -> None:
-        self.plot.show_study_begun()
-
-    def show_point(self, point: AccuracyPoint, number: int, total: int) -> None:
-        self.plot.show_point(point, number, total)
-
-    def show_study_finished(self) -> None:
-        self.plot.show_study_finished()
-
-    def show_study_outdated(self) -> None:
-        self.plot.show_study_outdated()
-
-    def show_study_failed(self, sentence: str) -> None:
-        self.plot.show_study_failed(sentence)
 
     def _redraw(self) -> None:
         if self._snapshot is None or self._snapshot is self._drawn or not self._seen:
@@ -231,13 +215,3 @@ class AccuracyView(QWidget):
         effect = self._selected or self._slowest
         difference = costs.differences.get(effect)
         self.detail.show_row(rows.get(effect), None if difference is None else difference.crop)
-
-
-def _choice(name: str, meaning: str, words: dict[str, str]) -> QComboBox:
-    control = QComboBox()
-    for key, word in words.items():
-        control.addItem(word, key)
-    control.setAccessibleName(name)
-    control.setToolTip(meaning)
-    keep_wheel_for_scrolling(control)
-    return control

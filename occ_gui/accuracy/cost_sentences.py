@@ -47,13 +47,10 @@ def forecast_sentence(frame: Frame, times: TimeShares, expected: Forecast) -> st
         time = f"Next: about {milliseconds(expected.seconds)} ms, now {now}"
     labels = {decision.effect: decision.label for decision in frame.plan.decisions}
     parts = [f"{time}; {_error(expected)}."]
-    for names, words in (
-        (after - before, "Switches in: {effects}."),
-        (before - after, "Switches out: {effects}."),
-    ):
+    for names, way in ((after - before, "in"), (before - after, "out")):
         if names:
             listed = ", ".join(label for name, label in labels.items() if name in names)
-            parts.append(words.format(effects=listed))
+            parts.append(f"Switches {way}: {listed}.")
     return " ".join(parts)
 
 
@@ -81,11 +78,8 @@ def _promise(expected: Forecast) -> str:
 def switch_sentence(switched: Sequence[Decision]) -> str:
     """Name the effects that were switched; what each takes stands in the table, and only there."""
     parts = []
-    for included, words in (
-        (True, "Switched in: {effects}"),
-        (False, "Switched out: {effects}"),
-    ):
+    for included, way in ((True, "in"), (False, "out")):
         labels = [decision.label for decision in switched if decision.included is included]
         if labels:
-            parts.append(words.format(effects=", ".join(labels)))
+            parts.append(f"Switched {way}: {', '.join(labels)}")
     return ". ".join(parts)

@@ -36,12 +36,17 @@ def image_of(pixels: ByteArray) -> QImage:
     return QImage(pixels.tobytes(), columns, rows, columns, QImage.Format.Format_Grayscale8).copy()
 
 
-class PictureCell(QStyledItemDelegate):
-    """Draws the small pictures of an effect, with it and without it."""
-
-    def __init__(self, rows: Rows, parent: QObject | None = None) -> None:
+class _Cell(QStyledItemDelegate):
+    def __init__(self, rows: Rows, parent: QObject) -> None:
         super().__init__(parent)
         self._rows = rows
+
+
+class PictureCell(_Cell):
+    """Draws the small pictures of an effect, with it and without it."""
+
+    def __init__(self, rows: Rows, parent: QObject) -> None:
+        super().__init__(rows, parent)
         self._images: dict[int, tuple[object, QImage, QImage]] = {}
 
     @guarded
@@ -69,12 +74,8 @@ def _fitted(area: QRect, image: QImage) -> QRect:
     return place
 
 
-class TimeCell(QStyledItemDelegate):
+class TimeCell(_Cell):
     """Draws a time as a bar, hollow where the effect is left out, and the number beside it."""
-
-    def __init__(self, rows: Rows, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._rows = rows
 
     @guarded
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
@@ -128,18 +129,15 @@ def levels_at(place: float, area: QRect) -> float:
     return levels if share < 1.0 else math.inf
 
 
-class ErrorCell(QStyledItemDelegate):
+class ErrorCell(_Cell):
     """Draws an effect's error on an axis that all rows share, and the number beside it.
 
     A dot is what was measured; a whisker goes from it to what the plan estimates. The tolerance is
     a line through all rows; those beyond it have a colour.
     """
 
-    def __init__(
-        self, rows: Rows, tolerance: Callable[[], float], parent: QObject | None = None
-    ) -> None:
-        super().__init__(parent)
-        self._rows = rows
+    def __init__(self, rows: Rows, tolerance: Callable[[], float], parent: QObject) -> None:
+        super().__init__(rows, parent)
         self._tolerance = tolerance
 
     @guarded

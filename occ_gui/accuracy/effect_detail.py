@@ -18,8 +18,8 @@ _LARGEST_SCALE = 3
 class CropPictures(QWidget):
     """The part of the panel with an effect, without it, and the difference, side by side."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._images: tuple[QImage, ...] = ()
         self._captions: tuple[str, ...] = ()
         self._are_pixels = False
@@ -78,8 +78,8 @@ class CropPictures(QWidget):
 class EffectDetail(QWidget):
     """The effect whose row is selected."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.title, self.place, self.error, self.reason = (QLabel() for _ in range(4))
         for label in (self.title, self.place, self.error, self.reason):
             label.setTextFormat(Qt.TextFormat.PlainText)

@@ -1,7 +1,7 @@
 """Rows of the table of effects: what each shows, from the picture and what was measured."""
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from occ_model.results.effect_costs import EffectCrop, EffectDifference, Forecast, MeasuredCosts
@@ -10,6 +10,9 @@ from occ_model.results.plan import Decision
 from occ_model.scene.simulation_settings import unit_of
 
 ELSE = "everything else"  # key of the last row, which is no effect
+
+_STAGES = {"light": "Light", "optics": "Optics", "sensor": "Sensor", "processing": "File"}
+"""The stages of the light's way in words that fit a narrow column."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +50,6 @@ def rows_of(
     ``new``: the effects that the plan has just switched.
     ``forecast``: what the controls would make of it.
     """
-    words = stage_words()
     rows = []
     for decision in frame.plan.decisions:
         pending = None
@@ -56,7 +58,7 @@ def rows_of(
             pending = after if after != decision.included else None
         error = _error(decision, costs.differences.get(decision.effect), frame.plan.unit)
         is_new = decision.effect in new
-        rows.append(_row(decision, words[decision.stage], costs, error, is_new, pending))
+        rows.append(_row(decision, _STAGES[decision.stage], costs, error, is_new, pending))
     rest = costs.picture.everything_else
     stages = "\n".join(f"{name}: {milliseconds(s)} ms" for name, s in costs.picture.stages.items())
     rows.append(
@@ -74,16 +76,6 @@ def rows_of(
 
 def longest_of(rows: Sequence[EffectRow]) -> float:
     return max((row.seconds for row in rows if row.seconds is not None), default=0.0)
-
-
-def stage_words() -> Mapping[str, str]:
-    """Return the stages of the light's way in words that fit a narrow column."""
-    return {
-        "light": "Light",
-        "optics": "Optics",
-        "sensor": "Sensor",
-        "processing": "File",
-    }
 
 
 def _row(

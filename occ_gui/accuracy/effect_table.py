@@ -13,7 +13,7 @@ from PySide6.QtCore import (
     Signal,
 )
 from PySide6.QtGui import QColor, QMouseEvent, QPalette, QResizeEvent
-from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView, QWidget
+from PySide6.QtWidgets import QComboBox, QHeaderView, QTableView
 
 from occ_gui.accuracy.effect_cells import ErrorCell, PictureCell, TimeCell, levels_at
 from occ_gui.accuracy.effect_rows import ELSE, EffectRow, longest_of
@@ -55,7 +55,7 @@ _STATES: tuple[bool | None, ...] = (None, True, False)
 class EffectModel(QAbstractTableModel):
     """The rows of the table; only changed rows are reported to the view."""
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.rows: tuple[EffectRow, ...] = ()
         self._given: tuple[EffectRow, ...] = ()
@@ -203,8 +203,8 @@ class EffectTable(QTableView):
 
     tolerance_dragged = Signal(float)
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.effects = EffectModel(self)
         self._tolerance = TOLERANCE.default
         self._dragged = -1

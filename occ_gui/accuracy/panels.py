@@ -29,10 +29,8 @@ class Panel:
 class Panels(QWidget):
     """Three panels: the main one, and two that share the remaining space or take turns in it."""
 
-    def __init__(
-        self, main: Panel, second: Panel, third: Panel, parent: QWidget | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, main: Panel, second: Panel, third: Panel) -> None:
+        super().__init__()
         self._panels = (main, second, third)
         self._offered: tuple[Panel, ...] = ()
         self._chosen = main

@@ -56,8 +56,8 @@ class ToleranceSlider(QWidget):
 
     refused = Signal(str)  # why an entered value is refused
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.marks: tuple[float, ...] = ()
         self.slider = QSlider(Qt.Orientation.Horizontal)
         self.slider.setRange(0, STEPS + 1)

@@ -44,12 +44,9 @@ class ExposurePlot(QWidget):
         self._make_plot()
         self._make_controls()
         row = filled(QHBoxLayout(), QLabel("Column"), self.column, self.hold, (None, 1))
-        layout = self._layout = QVBoxLayout(self)
-        layout.setContentsMargins(4, 2, 4, 4)
-        layout.setSpacing(2)
-        layout.addLayout(row)
-        layout.addWidget(self.sentence)
-        layout.addWidget(self.plot, 1)
+        self._layout = filled(
+            QVBoxLayout(self), row, self.sentence, (self.plot, 1), margins=(4, 2, 4, 4), spacing=2
+        )
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)

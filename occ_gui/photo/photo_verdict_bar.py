@@ -2,8 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 
-from PySide6.QtWidgets import QWidget
-
 from occ_gui.photo.match_values import condition_of
 from occ_gui.photo.verdict_view import STATES
 from occ_gui.widgets.chip_row import Chip
@@ -26,8 +24,8 @@ class PhotoVerdictBar(StateBar):
 
     MOST_LINES = 4  # what a refusal says first is what to do about it
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self.setAccessibleName("Verdict on the photo")
         self.step.setToolTip("Match the photo as that of a lamp that only blinks.")
         self._photo: Photo | None = None

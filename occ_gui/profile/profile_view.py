@@ -128,12 +128,9 @@ class ProfileView(QWidget):
         row = filled(
             QHBoxLayout(), self.legend, (None, 1), self.enhanced, self._packets, self._panel
         )
-        layout = self._rows = QVBoxLayout(self)
-        layout.setContentsMargins(4, 4, 4, 4)
-        layout.setSpacing(2)
-        layout.addLayout(row)
-        layout.addWidget(self.reason)
-        layout.addWidget(self.plot, 3)
+        layout = self._rows = filled(
+            QVBoxLayout(self), row, self.reason, (self.plot, 3), margins=4, spacing=2
+        )
         self.chips = ChipStrip(self.plot, self._axis_width())
         layout.addWidget(self.chips)
 

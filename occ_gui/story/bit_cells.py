@@ -7,11 +7,8 @@ from PySide6.QtGui import QFontMetrics, QPainter, QPalette, QPen
 
 from occ_gui.widgets.state_look import State, colours_of
 
-
-def header_texts() -> tuple[str, ...]:
-    """Return what a header is called, shorter for narrower cells."""
-    return "header", "H"
-
+HEADER = ("header", "H")
+"""What a header is called, shorter for narrower cells."""
 
 _MARKS = {State.GOOD: " ✓", State.BAD: " ✗"}
 _PADDING = 4  # pixels of a cell that no text covers

@@ -10,10 +10,10 @@ from PySide6.QtWidgets import QSizePolicy
 from occ_gui.simulation.snapshot import ColumnView
 from occ_gui.simulation.verdict import received_in_words, wrong_places
 from occ_gui.story.bit_cells import (
+    HEADER,
     draw_field,
     have_room_for_bits,
     have_room_for_marks,
-    header_texts,
 )
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import PacketField, received_edges, received_fields
@@ -159,9 +159,7 @@ class CodeRow(StoryRow):
         for bit, left, right in spans:
             cell = QRectF(left, place.top(), right - left, place.height())
             if bit is None:
-                draw_field(
-                    painter, cell, header_texts(), self.palette(), is_header=True, within=place
-                )
+                draw_field(painter, cell, HEADER, self.palette(), is_header=True, within=place)
             else:
                 texts = (str(int(decoded.bits[bit])),)
                 draw_field(painter, cell, texts, self.palette(), state=self.state_of(bit),

@@ -14,7 +14,7 @@ from PySide6.QtGui import (
 )
 
 from occ_gui.simulation.snapshot import ColumnView
-from occ_gui.story.bit_cells import draw_field, have_room_for_bits, header_texts
+from occ_gui.story.bit_cells import HEADER, draw_field, have_room_for_bits
 from occ_gui.story.column_axis import ColumnAxis, Crosshair
 from occ_gui.story.column_facts import PacketField, light_over_columns, packet_fields
 from occ_gui.story.curve_lines import lines_of
@@ -187,7 +187,7 @@ class LightRow(StoryRow):
         width = (bits[0].last - bits[0].first) * step
         is_told = have_room_for_bits(painter.fontMetrics(), [width]) or None
         cells = [
-            (header_texts(), header, header, low),
+            (HEADER, header, header, low),
             *(((str(self._sent[bit]),), field, field, low) for bit, field in enumerate(bits)),
             *(
                 ((piece.sent,), bits[piece.first], bits[piece.last - 1], low - line)

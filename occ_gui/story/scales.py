@@ -79,9 +79,7 @@ class Scale(QWidget):
 
 class ColumnScale(Scale):
     def __init__(self, axis: ColumnAxis) -> None:
-        super().__init__("", axis, is_above=False)
-        self._name = "column"
-        self.setAccessibleName(self._name)
+        super().__init__("column", axis, is_above=False)
 
     def least_step(self, step: float) -> float:
         return max(step, 1.0)
@@ -89,9 +87,7 @@ class ColumnScale(Scale):
 
 class TimeScale(Scale):
     def __init__(self, axis: ColumnAxis) -> None:
-        super().__init__("", axis, is_above=True)
-        self._name = "time (µs)"
-        self.setAccessibleName(self._name)
+        super().__init__("time (µs)", axis, is_above=True)
         self._start, self._step = 0.0, 1.0
 
     def show_scene(self, scene: Scene) -> None:

@@ -55,8 +55,8 @@ class LineLegend(QWidget):
 class Sample(QWidget):
     """The sample of a line or a point, which follows the palette and the scale of the screen."""
 
-    def __init__(self, draw: Drawing, size: QSize, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, draw: Drawing, size: QSize) -> None:
+        super().__init__()
         self._draw = draw
         self.setFixedSize(size)
 

@@ -26,8 +26,8 @@ class StateBar(QWidget):
     changed = Signal()  # it shows something else
     step_taken = Signal()  # the user presses the button of the step that helps
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self) -> None:
+        super().__init__()
         self._title = ""
         self._sentences: tuple[str, ...] = ("",)
         self._shown: tuple[object, ...] = ()

@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QObject
@@ -107,7 +106,7 @@ class Menus(QObject):
             self._export.insertAction(self._after_figures, action)
             self.figures[name] = self.actions[f"export_{name}"] = action
             action.setEnabled(f"export_{name}" not in _WITH_PHOTO)
-            action.triggered.connect(partial(_ask_for, ask, name))
+            action.triggered.connect(lambda _=False, name=name: ask(name))
             give_words(f"export_{name}", action)
 
     def add_animations(self, labels: Mapping[str, str], ask: Callable[[str], None]) -> None:
@@ -118,7 +117,7 @@ class Menus(QObject):
         for name, label in labels.items():
             action = menu.addAction(f"{in_menu(label)}…")
             action.setToolTip("The slider's run from end to end, as GIF, MP4 or PNG.")
-            action.triggered.connect(partial(_ask_for, ask, name))
+            action.triggered.connect(lambda _=False, name=name: ask(name))
             give_words("animation", action)
 
     def _make_edit_menu(self, undo_stack: QUndoStack) -> None:
@@ -280,10 +279,6 @@ class Menus(QObject):
             text = f"{words_of(path.stem)} (simulated)"
             _add_file(self.samples, path, text, open_file)
         self.samples.setEnabled(not self.samples.isEmpty())
-
-
-def _ask_for(ask: Callable[[str], None], name: str) -> None:
-    ask(name)
 
 
 def words_of(name: str) -> str:

@@ -3,9 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from occ_gui.widgets.round_step import round_step
 from occ_model.scene.parameter_kinds import Quantity
-
-_STEPS = (1.0, 2.0, 5.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +38,7 @@ def ticks(quantity: Quantity, most: int) -> list[Tick]:
 def _log_values(low: float, high: float, most: int) -> list[float]:
     powers = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     found: list[float] = []
-    for steps in (_STEPS, (1.0, 3.0), (1.0,)):
+    for steps in ((1.0, 2.0, 5.0), (1.0, 3.0), (1.0,)):
         # Rounded as decimal text: 2e-05, not 2.0000000000000003e-05.
         values = [float(f"{step}e{power}") for power in powers for step in steps]
         found = [v for v in values if low * (1 - 1e-9) <= v <= high * (1 + 1e-9)]
@@ -49,12 +48,6 @@ def _log_values(low: float, high: float, most: int) -> list[float]:
 
 
 def _linear_values(low: float, high: float, most: int) -> list[float]:
-    rough = (high - low) / most
-    power = math.floor(math.log10(rough))
-    step = next(
-        size
-        for size in (s * 10.0**p for p in (power, power + 1) for s in _STEPS)
-        if size >= rough * (1 - 1e-9)
-    )
+    step = round_step((high - low) / most)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
     return [float(f"{number * step:.12g}") for number in range(first, last + 1)]

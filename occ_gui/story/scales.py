@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 from occ_gui.story.column_axis import ColumnAxis
 from occ_gui.story.text_room import line_height
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.round_step import round_step
 from occ_model.scene.scene import Scene
 
 _HEIGHT = 18
@@ -16,12 +17,6 @@ _TICK = 5
 _SPACING = 76  # fewest pixels from one number to the next
 
 _MICRO = 1e6
-
-
-def round_step(least: float) -> float:
-    """Return the smallest of 1, 2 and 5 times a power of ten that is not below a number."""
-    power = 10.0 ** math.floor(math.log10(least))
-    return next(factor * power for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= least)
 
 
 class Scale(QWidget):

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QSplitter, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from occ_gui.video.data_view import DataView
 from occ_gui.video.film_bar import FilmBar
@@ -41,6 +41,8 @@ class VideoView(QWidget):
         self.pages.addTab(self.data, "What is read")
         self.pages.addTab(self.rows, "This frame")
         self.pages.addTab(ScrollPane(self.form, _LEAST_FORM), "Recording")
+        self.pages.currentChanged.connect(self._size_by_page)
+        self._size_by_page()
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
         self.split.addWidget(self.pictures)
         self.split.addWidget(self.pages)
@@ -57,6 +59,15 @@ class VideoView(QWidget):
         layout.addWidget(self.timeline)
         self.rows.picture_asked.connect(self.show_large)
         self._outdated = [OutdatedMark(part) for part in (self.data, self.timeline)]
+
+    def _size_by_page(self) -> None:
+        """Let only the page that is shown need height: the pictures get what is left."""
+        for place in range(self.pages.count()):
+            page, is_shown = self.pages.widget(place), place == self.pages.currentIndex()
+            policy = page.sizePolicy()
+            kinds = QSizePolicy.Policy
+            policy.setVerticalPolicy(kinds.Expanding if is_shown else kinds.Ignored)
+            page.setSizePolicy(policy)
 
     def show_message(self, sentence: str) -> None:
         """Show what is wrong with the film or the camera; empty for nothing."""

@@ -9,11 +9,14 @@ from PySide6.QtGui import QPainter
 from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
 
 from occ_gui.widgets.guarded_paint import guarded
+from occ_gui.widgets.round_step import round_step
 
 _NUMBER_LENGTH = {"left": 18.0, "bottom": 36.0}  # pixels that a number occupies along the axis
 
 _LEAST_SPACING = 3.0
 """Least distance in pixels of ticks without numbers, where they stand at powers of ten."""
+
+_LEAST_NUMBERS = 2  # powers of ten in view below which other round values are numbered
 
 _LARGEST_POWER = 300  # powers of ten with a larger exponent, of either sign, are written as 1e+N
 
@@ -62,12 +65,22 @@ class LogAxis(Axis):
             float(power) for power in self._powers(low, high, step)
             if low + edge <= power <= high - edge
         ]  # fmt: skip
+        is_short = len(numbered) < _LEAST_NUMBERS and self._least not in numbered
+        if is_short and abs(high) <= _LARGEST_POWER:
+            numbered = self._round_values(low + edge, high - edge, decades_a_pixel)
         # Limited by the pixels: a view can be zoomed to any number of decades.
         powers = self._powers(low, high, max(1, math.ceil(_LEAST_SPACING * decades_a_pixel)))
         digits = range(1, 10) if step == 1 else (1,)
         ticks = [power + math.log10(digit) for power in powers for digit in digits]
         between = [tick for tick in ticks if low <= tick <= high and tick not in numbered]
         return [(1.0, numbered), (0.1, between)]
+
+    def _round_values(self, low: float, high: float, decades_a_pixel: float) -> list[float]:
+        """Return evenly spaced round values, with room for a number where they are closest."""
+        largest = 10.0**high
+        step = round_step(largest * (1.0 - 10.0 ** (-self._number_length * decades_a_pixel)))
+        first, last = math.ceil(10.0**low / step), math.floor(largest / step)
+        return [math.log10(place * step) for place in range(max(first, 1), last + 1)]
 
     def _powers(self, low: float, high: float, step: int) -> range:
         """Return each ``step``-th exponent in an interval, counted from the least one."""

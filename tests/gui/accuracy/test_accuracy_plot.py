@@ -1,6 +1,7 @@
 """The plot shows the points as they come, and until then those before, faint."""
 
 import math
+from itertools import pairwise
 
 import pytest
 from gui.kinds import show_widget
@@ -9,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.accuracy.accuracy_plot import _RING, COLOURS, SYMBOLS, AccuracyPlot
 from occ_gui.accuracy.ways_shown import ways_shown
-from occ_gui.widgets.axes import LogAxis
+from occ_gui.widgets.axes import _NUMBER_LENGTH, LogAxis
 from occ_model.results.accuracy import LEAST_ERROR, AccuracyPoint
 
 ALL = ("vignetting", "jpeg")
@@ -147,6 +148,24 @@ def test_a_logarithmic_axis_is_numbered_at_powers_of_ten(qtbot: QtBot) -> None:
     assert axis.tickStrings(fewer, 1.0, 1.0) == ["≤ 0.001", "0.1", "10"]
     (_, inside), _ = axis.tickValues(-3.01, 1.01, 300.0)  # those at the ends would be cut off
     assert axis.tickStrings(inside, 1.0, 1.0) == ["0.01", "0.1", "1"]
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "texts"),
+    [
+        (2.29, 2.99, ["400", "600", "800"]),  # the number at an end would be cut off
+        (2.6, 2.7, ["420", "440", "460", "480"]),
+        (1.7, 2.2, ["60", "80", "100", "120", "140"]),
+    ],
+)
+def test_a_logarithmic_axis_within_a_power_of_ten_is_numbered_at_round_values(
+    qtbot: QtBot, low: float, high: float, texts: list[str]
+) -> None:
+    axis = LogAxis("bottom")
+    (_, numbered), _ = axis.tickValues(low, high, 400.0)
+    assert axis.tickStrings(numbered, 1.0, 1.0) == texts
+    pixels = [400.0 * (place - low) / (high - low) for place in numbered]
+    assert min(after - before for before, after in pairwise(pixels)) >= _NUMBER_LENGTH["bottom"]
 
 
 @pytest.mark.parametrize("height", [70, 120, 240])

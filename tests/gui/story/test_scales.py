@@ -3,8 +3,8 @@
 import pytest
 from gui.kinds import GreyPicture, SnapshotOf
 
-from occ_gui.story.scales import round_step
 from occ_gui.story.story_rows import StoryRows
+from occ_gui.widgets.round_step import round_step
 
 
 def test_each_time_is_that_of_its_column(rows: StoryRows, bare_snapshot_of: SnapshotOf) -> None:

@@ -53,7 +53,7 @@ class AccuracyPlot(QWidget):
         self._measuring = False
         self._outdated = False
         self._fits_points = True
-        self.title = ElidedLabel("Error over time")
+        self.title = ElidedLabel("Error over time", how=Qt.TextElideMode.ElideMiddle)
         self.legend = QLabel(wordWrap=True)
         self.legend.setAccessibleName("Legend")
         self.plot = new_plot(

@@ -4,7 +4,7 @@ Each of the three questions has a part of the pane: the table of effects with th
 slider from fast to exact with its sentence, and the plot of the ways to compute.
 """
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from occ_gui.accuracy.accuracy_plot import AccuracyPlot
@@ -86,8 +86,8 @@ class AccuracyView(QWidget):
         )
         self.observable.chosen.connect(self.observable_chosen)
         self.noise.chosen.connect(self.noise_chosen)
-        self.summary = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.ends = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.summary = ElidedLabel()
+        self.ends = ElidedLabel()
         self.ends.hide()
         self.table, self.detail, self.plot = EffectTable(), EffectDetail(), AccuracyPlot()
         self.table.switched.connect(self.effect_switched)

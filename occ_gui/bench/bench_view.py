@@ -59,7 +59,7 @@ class BenchView(QWidget):
         self.outdated = OutdatedMark(self._pages)
         self.table = BenchTable()
         self.legend = LineLegend()
-        self.state = named(ElidedLabel(), "State of the bench")
+        self.state = named(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the bench")
         self.work = WorkBar("Places that are measured")
         self.work.cancelled.connect(self.cancelled)
         self._lay_out()

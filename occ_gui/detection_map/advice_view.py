@@ -54,7 +54,7 @@ class AdviceView(QWidget):
         )
         self.cancel = push_button("Cancel", "Stop the search.", self.cancelled)
         self.progress = named(QProgressBar(), "Progress of the search", "Progress of the search.")
-        self.state = named(ElidedLabel("", Qt.TextElideMode.ElideRight), "State of the search")
+        self.state = named(ElidedLabel(), "State of the search")
         self._lay_out()
         self._show_running(False)
 

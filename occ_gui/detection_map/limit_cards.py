@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QEvent, Qt, QTimer, Signal
+from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtGui import QHideEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QWidget
 
@@ -120,7 +120,7 @@ class LimitCard(QFrame):
         self._is_beside: bool | None = None
         self.name = paragraph()
         self.value = QLabel()
-        self.range = ElidedLabel(how=Qt.TextElideMode.ElideRight)  # not a gap's end
+        self.range = ElidedLabel()  # not a gap's end
         self.range.setAccessibleName(f"Frequencies read, {decoder}")
         self.value.setFont(scaled(self.font(), TextSize.HEADING, bold=True))
         self.value.setAccessibleName(f"Highest frequency, {decoder}")

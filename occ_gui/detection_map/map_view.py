@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
@@ -59,7 +59,7 @@ class MapView(QWidget):
             "Search for the highest frequency and the exposures at which codes are read.",
             self._show_advice,
         )
-        self.status = named(ElidedLabel(), "State of the map")
+        self.status = named(ElidedLabel(how=Qt.TextElideMode.ElideMiddle), "State of the map")
         self.left_out = named(ElidedLabel(), "Effects that the map leaves out")
         self.left_out.hide()
         self.advice = AdviceView(decoders if advised is None else advised)

@@ -1,10 +1,10 @@
 """Card of the search for the code, frequency and number of bits that carry most."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QFrame, QHBoxLayout
 
 from occ_gui.widgets.elided_label import ElidedLabel
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import named, push_button
 from occ_model.results.most_bits import MostBits
 from occ_model.scene.units import HERTZ
 
@@ -27,8 +27,7 @@ class MostBitsCard(QFrame):
         self._failures: list[str] = []
         self._is_running = self._is_outdated = False
         self._state = ""
-        self.text = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.text.setAccessibleName("What carries most bits a second")
+        self.text = named(ElidedLabel(), "What carries most bits a second")
         self.search = push_button(
             "Search",
             "Try line codes, frequencies and numbers of bits at the scene's exposure and "

@@ -42,7 +42,7 @@ class MatchValues(QWidget):
         self._titled: dict[str, QLabel] = {}
         for row, (name, title) in enumerate(LABELS.items()):
             # A pattern can be of any length.
-            label = ElidedLabel("", Qt.TextElideMode.ElideRight) if name == "pattern" else QLabel()
+            label = ElidedLabel() if name == "pattern" else QLabel()
             label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             label.setTextFormat(Qt.TextFormat.PlainText)
             label.setWordWrap(name != "pattern")

@@ -26,12 +26,12 @@ class PhotoFacts(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.name = ElidedLabel()
+        self.name = ElidedLabel(how=Qt.TextElideMode.ElideMiddle)
         font = self.name.font()
         font.setBold(True)
         self.name.setFont(font)
-        self.size_line = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.notes = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.size_line = ElidedLabel()
+        self.notes = ElidedLabel()
         self.use_settings = QPushButton("&Use this photo's settings")
         self.use_settings.setToolTip(
             "Put the exposure time, ISO speed and f-number that the camera recorded into the "

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 import pyqtgraph as pg
-from PySide6.QtCore import QEvent, QRectF
+from PySide6.QtCore import QEvent, QRectF, Qt
 from PySide6.QtWidgets import QGraphicsRectItem, QHBoxLayout, QVBoxLayout, QWidget
 
 from occ_gui.picture.averaged_image import AveragedImage
@@ -23,7 +23,7 @@ _LEAST_SPAN = 0.5  # smallest range of the view in pixels
 class PicturePane(QWidget):
     def __init__(self, caption: str) -> None:
         super().__init__()
-        self.caption = ElidedLabel(caption)
+        self.caption = ElidedLabel(caption, how=Qt.TextElideMode.ElideMiddle)
         self.graphics = pg.GraphicsView()
         self.graphics.setBackground(self.palette().dark().color())
         self.graphics.setAccessibleName(caption)

@@ -30,7 +30,7 @@ class ResidualPlot(QWidget):
 
     def __init__(self, linked: pg.PlotWidget) -> None:
         super().__init__()
-        self.numbers = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.numbers = ElidedLabel()
         self.numbers.setAccessibleName("Agreement of photo and simulation")
         self.plot = new_plot(
             "Residual, photo minus simulation",

@@ -19,7 +19,7 @@ from occ_gui.story.verdict_bar import VerdictBar
 from occ_gui.values.photo_results import PhotoProfile
 from occ_gui.widgets.elided_label import ElidedLabel
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
-from occ_gui.widgets.named import push_button
+from occ_gui.widgets.named import named, push_button
 
 
 class _Held(QWidget):
@@ -60,12 +60,10 @@ class StoryView(QWidget):
         self._photo_verdict: QWidget | None = None
         self._is_about_photo = False
         self.rows.stripes.thumbnail.clicked.connect(lambda: self.show_whole_picture(True))
-        self.readout = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.readout.setAccessibleName("Values at the crosshair")
+        self.readout = named(ElidedLabel(), "Values at the crosshair")
         self.readout.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.rows.values_changed.connect(self.readout.set_full_text)
-        self.measured = ElidedLabel("", Qt.TextElideMode.ElideRight)
-        self.measured.setAccessibleName("Measured between the cursors")
+        self.measured = named(ElidedLabel(), "Measured between the cursors")
         self.measured.setContentsMargins(4, 0, 0, 0)
         self.measured.hide()
         self.rows.measured_changed.connect(self._show_measured)

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QHBoxLayout,
@@ -52,7 +52,7 @@ class FilmBar(QWidget):
         self.lock = QCheckBox("Hold exposure")
         self.lock.setToolTip("Keep the camera's exposure as it is now.")
         self.read = push_button("", do=self.read_asked)
-        self.title = named(ElidedLabel("", Qt.TextElideMode.ElideRight), "Film")
+        self.title = named(ElidedLabel(), "Film")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         buttons = QHBoxLayout()
         buttons.setContentsMargins(0, 0, 0, 0)

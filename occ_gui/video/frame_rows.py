@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QVBoxLayout, QWidget
 
 from occ_gui.simulation.preview import PictureView
@@ -30,7 +30,7 @@ class FrameRows(QWidget):
         super().__init__()
         self.rows = StoryRows()
         self.rows.stripes.thumbnail.clicked.connect(self.picture_asked)
-        self.title = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.title = ElidedLabel()
         self.title.setAccessibleName("What the rows show")
         self.title.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         line = filled(QHBoxLayout(), (self.title, 1), margins=(4, 0, 4, 0))

@@ -1,6 +1,6 @@
 """Transport: buttons that play a film and step through it, and where it stands."""
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QWidget
 
 from occ_gui.widgets.elided_label import ElidedLabel
@@ -31,7 +31,7 @@ class Transport(QWidget):
         self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
         self.play = TransportButton("play", "", "")
         self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")
-        self.place = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.place = ElidedLabel()
         self.place.setAccessibleName("Frame and time shown")
         self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
         layout = QHBoxLayout(self)

@@ -38,9 +38,11 @@ class VideoView(QWidget):
         self.message = paragraph(name="What is wrong with the film")
         self.message.hide()
         self.pages = QTabWidget(documentMode=True)
-        self.pages.addTab(self.data, "What is read")
-        self.pages.addTab(self.rows, "This frame")
-        self.pages.addTab(ScrollPane(self.form, _LEAST_FORM), "Recording")
+        self._pages = (self.data, self.rows, ScrollPane(self.form, _LEAST_FORM))
+        for page, title in zip(
+            self._pages, ("What is read", "This frame", "Recording"), strict=True
+        ):
+            self.pages.addTab(page, title)
         self.pages.currentChanged.connect(self._size_by_page)
         self._size_by_page()
         self.split = QSplitter(Qt.Orientation.Vertical, childrenCollapsible=False)
@@ -62,12 +64,10 @@ class VideoView(QWidget):
 
     def _size_by_page(self) -> None:
         """Let only the page that is shown need height: the pictures get what is left."""
-        for place in range(self.pages.count()):
-            page, is_shown = self.pages.widget(place), place == self.pages.currentIndex()
-            policy = page.sizePolicy()
-            kinds = QSizePolicy.Policy
-            policy.setVerticalPolicy(kinds.Expanding if is_shown else kinds.Ignored)
-            page.setSizePolicy(policy)
+        kinds = QSizePolicy.Policy
+        for page in self._pages:
+            is_shown = page is self.pages.currentWidget()
+            page.setSizePolicy(kinds.Preferred, kinds.Expanding if is_shown else kinds.Ignored)
 
     def show_message(self, sentence: str) -> None:
         """Show what is wrong with the film or the camera; empty for nothing."""

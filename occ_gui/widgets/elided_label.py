@@ -12,7 +12,7 @@ class ElidedLabel(QLabel):
     """Shows as much of a text as fits, and the whole text in the tooltip."""
 
     def __init__(
-        self, text: str = "", how: Qt.TextElideMode = Qt.TextElideMode.ElideMiddle
+        self, text: str = "", *, how: Qt.TextElideMode = Qt.TextElideMode.ElideRight
     ) -> None:
         super().__init__()
         self._how = how

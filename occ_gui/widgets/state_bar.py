@@ -32,8 +32,8 @@ class StateBar(QWidget):
         self._sentences: tuple[str, ...] = ("",)
         self._shown: tuple[object, ...] = ()
         self.icon = StateIcon(_ICON)
-        self.title = emboldened(ElidedLabel("", Qt.TextElideMode.ElideRight), _LARGER)
-        self.sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self.title = emboldened(ElidedLabel(), _LARGER)
+        self.sentence = ElidedLabel()
         self.wrapped = QLabel(
             textFormat=Qt.TextFormat.PlainText, wordWrap=True, alignment=Qt.AlignmentFlag.AlignTop
         )

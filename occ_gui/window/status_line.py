@@ -1,6 +1,6 @@
 """Status line: a message, the work in progress, the level under the mouse, and computing times."""
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
+from PySide6.QtCore import QEvent, QObject, QSize
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QStatusBar
 
@@ -32,7 +32,7 @@ class StatusLine(QStatusBar):
         self._message = self._plan_change = self._times = ""
         self._shows_times = True
         self._others: list[QLabel] = []
-        self._sentence = ElidedLabel("", Qt.TextElideMode.ElideRight)
+        self._sentence = ElidedLabel()
         self._sentence.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self._sentence.setAccessibleName("Message")
         self.reading = WorkBar("How much of the photo has been read")
@@ -110,7 +110,7 @@ class _Readout(ElidedLabel):
     """A label as wide as its whole text, where there is space."""
 
     def __init__(self) -> None:
-        super().__init__("", Qt.TextElideMode.ElideRight)
+        super().__init__()
         self.setContentsMargins(_GAP, 0, 0, 0)
 
     def set_full_text(self, text: str) -> None:

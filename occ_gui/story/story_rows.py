@@ -56,6 +56,7 @@ class StoryRows(QWidget):
                 "Show all columns of the panel, and follow it.",
                 lambda _=False, name=name: self.choose_range(name),
             )
+            button.setParent(self)  # until they have their place: they would outlive the rows
             button.setCheckable(True)
         self._mark_range()
         self._name_first(has_packets=True)

@@ -4,9 +4,11 @@ import pytest
 from gui.kinds import show_widget
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
+from shiboken6 import delete, isValid
 
 from occ_gui.simulation.preview import Picture
 from occ_gui.simulation.snapshot import Snapshot
+from occ_gui.story.story_rows import StoryRows
 from occ_gui.story.story_view import StoryView
 
 
@@ -60,3 +62,10 @@ def test_a_range_is_marked_until_the_columns_are_moved(view: StoryView) -> None:
     assert view.rows.decoded is not None
     assert view.rows.decoded.decoder == "matched"
     assert view.verdict.title.text() == "Code 718 read, all bits right"
+
+
+def test_the_buttons_of_the_ranges_end_with_the_rows(qapp: QApplication) -> None:
+    rows = StoryRows()
+    buttons = [*rows.ranges.values()]
+    delete(rows)
+    assert not any(map(isValid, buttons))

@@ -155,7 +155,7 @@ def test_a_photo_without_stripes_gives_a_sentence_everywhere(
 
 
 def test_match_actions_are_enabled_with_a_photo_or_a_match(
-    application: Application, user: User, taken: Path
+    application: Application, user: User, taken: Path, remembered_matches: None
 ) -> None:
     actions = application.window.actions_by_name
     with_photo, with_match = ("match", "use_settings"), ("apply_match", "save_match")
@@ -171,8 +171,9 @@ def test_match_actions_are_enabled_with_a_photo_or_a_match(
 
 
 def test_only_the_match_that_was_asked_for_with_a_photo_is_applied_by_itself(
-    application: Application, user: User, taken: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    application: Application, user: User, taken: Path, monkeypatch: pytest.MonkeyPatch,
+    remembered_matches: None,
+) -> None:  # fmt: skip
     def refuse(*_asked: object, **_how: object) -> None:
         raise MatchError("No scene explains these stripes.")
 

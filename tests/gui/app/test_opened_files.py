@@ -151,9 +151,10 @@ def samples(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, camera_scene: Scene
 
 
 @pytest.mark.own_window
-def test_a_sample_is_opened_with_its_scene_and_not_remembered(
-    samples: Path, user: User, application: Application, camera_scene: Scene
-) -> None:
+def test_a_sample_is_opened_with_its_scene_and_not_remembered_and_without_any_none_is_offered(
+    samples: Path, user: User, application: Application, camera_scene: Scene,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
     menu = application.window.menus.samples
     assert entries(menu) == ["LED 1 kHz panel (simulated)"]
     menu.actions()[0].trigger()
@@ -161,14 +162,9 @@ def test_a_sample_is_opened_with_its_scene_and_not_remembered(
     assert application.store.scene == camera_scene
     assert application.window.windowTitle().startswith("led-1khz-panel.jpg")
     assert application.preferences.files == ()
-
-
-def test_without_samples_none_are_offered(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, application: Application
-) -> None:
-    monkeypatch.setattr(file_controller, "resource_path", tmp_path.joinpath)
+    monkeypatch.setattr(file_controller, "resource_path", samples.joinpath)  # which has no folder
     application.window.menus.show_samples(file_controller.sample_photos(), application.open_photo)
-    assert not application.window.menus.samples.isEnabled()
+    assert not menu.isEnabled()
 
 
 TITLE = "Optical Camera Communication"

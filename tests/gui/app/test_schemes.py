@@ -55,18 +55,27 @@ def test_a_text_typed_for_the_code_is_sent_read_and_shown(
     assert view.payload.isHidden()
 
 
-@pytest.mark.parametrize("scheme", [{}, {"line_code": "4b6b", "framing": "c-ook"}])
+PAPER, C_OOK = dict[str, str](), {"line_code": "4b6b", "framing": "c-ook"}
+
+
 @pytest.mark.parametrize(
-    ("typed", "letters"),
-    [("HELLO", "HELLO"), ("Hi😀", "Hi😀"), ("718", "718"), ("0x48 69", ["48", "69"]), ("0b01", "")],
+    ("typed", "letters", "scheme"),
+    [
+        ("HELLO", "HELLO", PAPER),
+        ("Hi😀", "Hi😀", C_OOK),
+        ("718", "718", PAPER),
+        ("0x48 69", ["48", "69"], C_OOK),
+        ("0b01", "", PAPER),
+    ],
+    ids=["ascii", "emoji", "digits", "hex", "bits"],
 )
 def test_all_places_say_that_what_was_typed_is_sent(
     application: Application,
     user: User,
     qtbot: QtBot,
-    scheme: dict[str, str],
     typed: str,
     letters: str | list[str],
+    scheme: dict[str, str],
 ) -> None:
     # Near enough for two packets of the longest.
     application.store.put(application.store.scene.replace(distance=0.6, **scheme), "scheme")

@@ -63,8 +63,12 @@ class Enhancement:
         next with the probability Q((k + 1/2 - v) / s), Q being the tail of the normal distribution.
         The mean is the sum of the steps times these probabilities, and that of the square likewise.
         """
-        mean, deviation, _ = self.smoothed(PassedSteps.of(levels, spread))
-        return mean, deviation
+        return self._moments(PassedSteps.of(levels, spread))
+
+    def _moments(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray]:
+        curve = self.curve.astype(np.float64)
+        mean = passed.mean_of(curve)
+        return mean, np.sqrt(np.maximum(passed.mean_of(curve**2) - mean**2, 0.0))
 
     def mean(self, passed: "PassedSteps") -> FloatArray:
         """Return the first of these alone."""
@@ -72,11 +76,8 @@ class Enhancement:
 
     def smoothed(self, passed: "PassedSteps") -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the same, and the mean of the sum of squares of the steps passed."""
-        curve = self.curve.astype(np.float64)
-        mean = passed.mean_of(curve)
-        jumps = np.concatenate([[0.0], np.cumsum(np.diff(curve) ** 2)])
-        deviation = np.sqrt(np.maximum(passed.mean_of(curve**2) - mean**2, 0.0))
-        return mean, deviation, passed.mean_of(jumps)
+        jumps = np.concatenate([[0.0], np.cumsum(np.diff(self.curve.astype(np.float64)) ** 2)])
+        return *self._moments(passed), passed.mean_of(jumps)
 
     def of_bytes(self, image: ByteArray, out: ByteArray | None = None) -> ByteArray:
         """Enhance levels that are rounded already, shape (rows, columns), if wanted in place."""

@@ -71,7 +71,10 @@ class BrightShares:
             _more_than(least, fraction, pixels),
             (fraction > least).astype(np.float64),
         )
-        return np.asarray(random.random(grid, dtype=np.float32) < enough[kind])
+        # Compared in single precision, by the next such number up: the same cells, twice as fast.
+        limits = enough.astype(np.float32)
+        limits[limits < enough] = np.nextafter(limits[limits < enough], np.float32(2.0))
+        return np.asarray(random.random(grid, dtype=np.float32) < limits[kind])
 
     def _bright_bounds(self, marked: BoolArray, least: int, random: np.random.Generator) -> Region:
         """Draw the rows and the columns from the first bright pixel to the last.

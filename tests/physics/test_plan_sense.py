@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from amount import amount
 
 import occ_model as occ
 from occ_model.effects.paper_view import paper_view_of
@@ -95,12 +96,12 @@ REAL = {"edge_time": 2e-6, "flicker_depth": 0.3}
         pytest.param("phone-136us", {}, marks=pytest.mark.whole),
     ],
 )
-def test_profile_and_image_paths_decode_alike_on_the_whole_grid(
+def test_profile_and_image_paths_decode_alike_on_the_papers_grid(
     exposure: str, light: dict[str, float]
 ) -> None:
     random = np.random.default_rng(1)
     for frequency in FREQUENCIES:
-        for distance in DISTANCES:
+        for distance in DISTANCES[:: amount(3, 1)]:
             scene = occ.load_preset(exposure)
             scene = scene.replace(switching_frequency=frequency, distance=distance)
             start = float(random.uniform(0.0, 24.0 / frequency))

@@ -12,7 +12,7 @@ from occ_model.camera.projection import image_rays
 from occ_model.effects.distortion import Distortion
 from occ_model.scene.scene import Lens, Scene
 
-ROWS, COLUMNS = 200, 400
+ROWS, COLUMNS = 100, 200
 LENSES = [
     {"radial_k1": 0.2},
     {"radial_k1": -0.1, "radial_k2": 0.02},

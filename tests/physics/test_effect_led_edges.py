@@ -33,7 +33,7 @@ def edged_scene(edge: float, exposure: float, **changes: float | str) -> Scene:
 @pytest.mark.parametrize("edge", [0.05, 1.0, 1.9, 31.0])
 def test_edged_light_is_sharp_light_averaged_over_the_edge(edge: float, exposure: float) -> None:
     scene = edged_scene(edge, exposure, columns=20)
-    samples = round(400 + 20 * edge)
+    samples = round(150 + 10 * edge)
     before = (np.arange(samples) + 0.5) / samples * scene.transmitter.edge_time
     sampled = [
         lit_fraction(scene.replace(start_time=scene.model.start_time - float(shift)))

@@ -25,7 +25,7 @@ def test_a_picture_shows_what_its_truth_says() -> None:
 
 
 @pytest.mark.parametrize(
-    "seeds", [range(100, 102), pytest.param(range(102, 110), marks=pytest.mark.whole)]
+    "seeds", [range(101, 102), pytest.param(range(102, 110), marks=pytest.mark.whole)]
 )
 def test_no_lamp_is_surely_wrong(seeds: range) -> None:
     sure = [one for one in map(hot_trial_of, seeds) if one.is_sure]

@@ -6,7 +6,7 @@ from round_trips import Found, round_trip
 
 pytestmark = pytest.mark.first
 
-SAMPLE, WHOLE = range(1, 5), range(1, 11)
+SAMPLE, WHOLE = range(1, 4), range(1, 11)
 """Photos that are tried; tests/benchmarks/matching.py tries hundreds."""
 
 

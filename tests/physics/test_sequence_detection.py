@@ -4,6 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
+from amount import amount
 from physics.exposed_chips import manchester, noise_of, seen_by_rows
 
 import occ_model as occ
@@ -178,7 +179,7 @@ def test_codes_are_read_on_both_sides_of_the_null(
     frequency: float, averaging: str, enhancement: str
 ) -> None:
     random = np.random.default_rng(int(frequency))
-    for code in random.integers(0, 1024, 3).tolist():
+    for code in random.integers(0, 1024, amount(1, 3)).tolist():
         scene = occ.load_preset("phone-136us").replace(
             rows=60, switching_frequency=frequency, code=code, averaging=averaging,
             enhancement=enhancement, start_time=float(random.uniform(0.0, 1e-2)),

@@ -136,7 +136,11 @@ def test_a_blinking_leds_exposure_comes_back_under_uneven_light(seed: int) -> No
 
 
 @pytest.mark.parametrize(
-    "enhancement", ["equalization", pytest.param("stretch", marks=pytest.mark.whole), "none"]
+    "enhancement",
+    [
+        "equalization",
+        *(pytest.param(name, marks=pytest.mark.whole) for name in ("stretch", "none")),
+    ],
 )
 def test_the_windows_own_picture_is_explained(enhancement: str) -> None:
     """Equalized histograms too, which keep the order of the column values and nothing else."""

@@ -62,13 +62,17 @@ def figure_format(path: Path) -> str:
 
 
 def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
+    fit_texts(figure)
+    return _fitted_bytes(figure, format_name, provenance)
+
+
+def _fitted_bytes(figure: Figure, format_name: str, provenance: Provenance) -> bytes:
     title, text = provenance.title, provenance.text()
     metadata: dict[str, dict[str, str | None]] = {
         "pdf": {"Title": title, "Subject": text, "CreationDate": None},
         "svg": {"Title": title, "Description": text, "Date": None},
         "png": {"Title": title, "Description": text},
     }
-    fit_texts(figure)
     buffer = BytesIO()
     figure.savefig(buffer, format=format_name, metadata=metadata[format_name])
     return buffer.getvalue()
@@ -76,8 +80,9 @@ def figure_bytes(figure: Figure, format_name: str, provenance: Provenance) -> by
 
 def save_figure(figure: Figure, folder: Path, name: str, provenance: Provenance) -> None:
     """Write a figure drawn in this :func:`house_style` as PDF and as PNG."""
+    fit_texts(figure)
     for ending in ("pdf", "png"):
-        write_figure(folder / f"{name}.{ending}", figure, provenance)
+        write_whole(folder / f"{name}.{ending}", _fitted_bytes(figure, ending, provenance))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -8,7 +8,6 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import Collection
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
@@ -26,7 +25,7 @@ from occ_model.figures.page import fit_texts
 def cut_off(figure: Figure) -> list[str]:
     """Name what of a figure, fitted as for a file, is not inside its page or over another title."""
     fit_texts(figure)
-    FigureCanvasAgg(figure).draw()
+    figure.draw_without_rendering()
     page, ticks = figure.bbox.padded(1.0), _tick_labels(figure)
     boxes = {
         text: text.get_window_extent()

@@ -6,6 +6,7 @@ edge; with LED edges it is quadratic between these and the ends of the ramps.
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
@@ -45,7 +46,7 @@ class ExposedLight:
 
     def sampled(self, nodes: int) -> tuple[FloatArray, FloatArray]:
         """Return values at the Gauss-Legendre nodes of each piece, and weights that sum to 1."""
-        place, weight = np.polynomial.legendre.leggauss(nodes)
+        place, weight = _gauss_legendre(nodes)
         place = 0.5 * (place + 1.0)
         first, slope, bend = (each[:, None] for each in self._coefficients())
         shares = self.lengths / self.lengths.sum()
@@ -55,6 +56,11 @@ class ExposedLight:
         first, middle, last = self.values.T
         bend = 2.0 * (first + last) - 4.0 * middle
         return first, last - first - bend, bend
+
+
+@cache
+def _gauss_legendre(nodes: int) -> tuple[FloatArray, FloatArray]:
+    return np.polynomial.legendre.leggauss(nodes)
 
 
 def exposed_light(chips: ByteArray, exposure: Fraction, edge: Fraction) -> ExposedLight:

@@ -16,13 +16,14 @@ PAGE = TESTS.parent / "resources" / "docs" / "sweeps.md"
 ROWS = [row for row in PAGE.read_text(encoding="utf-8").splitlines() if row.endswith(" s |")]
 
 
+@pytest.mark.whole
 @pytest.mark.parametrize(
     ("preset", "decoder"),
     [
         ("phone-68us", "threshold"),
-        pytest.param("phone-136us", "matched", marks=pytest.mark.whole),
-        pytest.param("tablet-61us", "equalizer", marks=pytest.mark.whole),
-        pytest.param("tablet-122us", "sequence", marks=pytest.mark.whole),
+        ("phone-136us", "matched"),
+        ("tablet-61us", "equalizer"),
+        ("tablet-122us", "sequence"),
     ],
 )
 def test_the_manuals_table_of_limits_is_what_the_search_finds(preset: str, decoder: str) -> None:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from amount import amount
 from hypothesis import strategies as st
 
 import occ_model as occ
@@ -148,6 +149,9 @@ def profile_of(columns: int, **changes: float | int | str) -> np.ndarray:
     return occ.column_profile(Scene().replace(columns=columns, **changes))
 
 
+MANY = amount(20_000, 100_000)
+"""Columns of the longest of these signals."""
+
 SIGNALS: dict[str, np.ndarray] = {
     # No swing to divide by.
     "constant": np.full(500, 117.0),
@@ -166,15 +170,15 @@ SIGNALS: dict[str, np.ndarray] = {
     "alternating columns": np.resize([0.0, 255.0], 2000),
     # The same at the swing that just counts as stripes.
     "one grey level of swing": np.resize([100.0, 101.0], 2000),
-    # All runs alike, in 100,000 columns.
-    "a hundred thousand columns, two values": np.resize(np.repeat([0.0, 255.0], 14), 100_000),
-    # A run of 99,900 columns beside runs of one: the histogram has as many bins, all but two empty.
+    # All runs alike, in many columns.
+    "many columns, two values": np.resize(np.repeat([0.0, 255.0], 14), MANY),
+    # One long run beside runs of one: the histogram has as many bins, all but two empty.
     "one run of nearly all columns": np.concatenate(
-        [np.resize([0.0, 255.0], 51), np.zeros(99_900), np.resize([255.0, 0.0], 49)]),
+        [np.resize([0.0, 255.0], 51), np.zeros(MANY - 100), np.resize([255.0, 0.0], 49)]),
     # Values next to the largest that is taken for a grey level, and 0 with a sign.
     "the largest values": np.resize([1e5, -1e5, -0.0, 0.0], 400),
     # The swing is one ulp in the histogram's last bin.
-    "a ramp": np.linspace(0.0, 255.0, 100_000),
+    "a ramp": np.linspace(0.0, 255.0, MANY),
     # A chirp: each run is a column longer than the one before, and none fits whole chips.
     "runs of all lengths": np.repeat(np.resize([0.0, 255.0], 200), np.arange(1, 201)),
 }  # fmt: skip

@@ -218,9 +218,9 @@ def test_a_figure_has_its_endings_format_and_its_provenance(tmp_path: Path, endi
     "axes",
     [
         {"enhancement": ["none", "equalization"]},
-        {"distance": [0.1, 1.0], "yaw": [1.2, 0.0]},
+        pytest.param({"distance": [0.1, 1.0], "yaw": [1.2, 0.0]}, marks=pytest.mark.whole),
         {"averaging": ["light"], "bits": [4, 8]},
-        {"distance": [1.0]},
+        pytest.param({"distance": [1.0]}, marks=pytest.mark.whole),
     ],
 )
 def test_any_axes_can_be_drawn(tmp_path: Path, axes: dict[str, object]) -> None:

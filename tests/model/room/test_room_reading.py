@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from amount import amount
 from small_rooms import small_room
 
 import occ_model as occ
@@ -111,7 +112,7 @@ def test_a_lamp_is_one_however_long_its_chips_are_dark() -> None:
 
 
 # At the last, a single column of the next lit chip is in the picture.
-@pytest.mark.parametrize("chips", [*range(0, 24, 2), 10 / 7])
+@pytest.mark.parametrize("chips", [*range(0, 24, amount(6, 2)), 10 / 7])
 def test_a_lamp_cut_behind_dark_chips_is_said_to_be_cut(chips: float) -> None:
     room = _room(5, 1).replace(
         x=0.0, y=0.0, yaw=0.0, pitch=0.0, roll=0.0, switching_frequency=4e3

@@ -80,7 +80,7 @@ def find_and_name(image: ByteArray, room: Room) -> tuple[ReadLamp, ...]:
     lamps = [_read(image, region, hull, room) for region, hull in found]
     names = [lamp.name for lamp in lamps if lamp.name]
     return tuple(
-        _unnamed(lamp, f"{lamp.name} was read at {names.count(lamp.name)} places")
+        _unnamed(lamp, f"{lamp.name} was read at {names.count(lamp.name)} places.")
         if lamp.name and names.count(lamp.name) > 1
         else lamp
         for lamp in lamps

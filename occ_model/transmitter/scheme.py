@@ -43,6 +43,12 @@ class Scheme:
         return (self.line_code.name, self.framing.name, self.correction) == _PAPER_SCHEME
 
     @property
+    def takes_any_chips(self) -> bool:
+        """Whether any chips behind the header 1 1 1 0 are a payload: no rule refuses some."""
+        paper = self.framing.name == _PAPER_SCHEME[1]
+        return paper and self.line_code.longest_run is None
+
+    @property
     def finds_wrong_chip(self) -> bool:
         """Whether any single wrong chip of a payload is found or harmless."""
         return self.framing.checks or self.line_code.finds_wrong_chip

@@ -45,6 +45,8 @@ _DOUBTFUL_FRACTION = 0.02
 timing may be another one."""
 
 _MAX_UNEXPLAINED = 0.05  # of the signal's variance that is neither the chips' light nor noise
+_MAX_UNEXPLAINED_OF_ANY_CHIPS = 0.005
+"""The same where no rule refuses wrong chips, and their light need not be that of random data."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -164,10 +166,12 @@ def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...
     read = replace(read, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
     failure = read.failure
     unexplained = fit.unexplained()
-    if unexplained > _MAX_UNEXPLAINED:
+    if unexplained > (
+        _MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else _MAX_UNEXPLAINED
+    ):
         failure = (
             "The chips found do not explain the signal: "
-            f"{100.0 * unexplained:.0f} % of its variance is neither theirs nor noise. No such "
+            f"{100.0 * unexplained:.2g} % of its variance is neither theirs nor noise. No such "
             "code is sent, or exposure time, switching frequency or readout time is another one."
         )
     elif failure is None and frame.certainty < _MIN_CERTAINTY and not scheme.framing.checks:

@@ -12,7 +12,6 @@ from occ_model.receiver.signal import otsu_threshold, why_flat
 from occ_model.receiver.threshold.run_lengths import fit_chips, fit_pattern, run_histogram, runs_of
 from occ_model.results.decoding import DecodeResult, Runs
 from occ_model.scene.scene import Scene
-from occ_model.transmitter.framings.paper import FRAMING as PAPER_FRAMING
 from occ_model.transmitter.scheme import scheme_of
 
 _MIN_RUNS = 3  # fewest whole runs from which a chip's length is estimated
@@ -43,10 +42,8 @@ def _why_unsure(scene: Scene) -> str | None:
     scheme = scheme_of(scene.transmitter)
     if scheme.is_papers or scheme.framing.checks:
         return None
-    # Without rules of the line code or a longer preamble any chips behind 1110 are a payload.
-    unchecked = scheme.line_code.longest_run is None and scheme.framing.name == PAPER_FRAMING.name
     chips = scene.camera.exposure_time * scene.transmitter.switching_frequency
-    if chips <= (_LONGEST_UNCHECKED if unchecked else _LONGEST_EXPOSURE):
+    if chips <= (_LONGEST_UNCHECKED if scheme.takes_any_chips else _LONGEST_EXPOSURE):
         return None
     return (
         f"The exposure lasts {chips:.2f} chips, of which a threshold sees no single ones for "

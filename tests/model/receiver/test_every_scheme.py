@@ -200,3 +200,17 @@ def test_the_number_of_bits_in_a_header_is_that_of_the_payload(bits: int) -> Non
         result = occ.decode(signal(scene, 1.37e-3), scene, decoder)
         assert result.failure is None
         assert tuple(result.bits.tolist()) == scene.transmitter.payload_bits
+
+
+def test_chips_that_no_rule_refuses_are_read_rightly_or_not_at_all() -> None:
+    base = occ.Scene().replace(
+        line_code="nrz", framing="paper", bits=4, code=0, enhancement="none", columns=1000
+    )
+    read = []
+    for code in (1, 5, 7, 9):
+        for chips in (2.7, 3.7):
+            scene = base.replace(code=code, exposure_time=chips / 10e3)
+            signal = 40.0 + 160.0 * occ.on_time(scene) / scene.camera.exposure_time
+            result = occ.decode(signal, scene, decoder="sequence")
+            read += [] if result.code is None else [result.code == code]
+    assert read == [True] * 4

@@ -66,9 +66,10 @@ class Candidates:
             return []
         stripes = self.stripes
         explained = as_sent is not None and as_sent.fit.correlation >= EXPLAINED
-        sure = explained and as_sent is not None and as_sent.information >= LEAST_INFORMATION[True]
+        if explained and as_sent is not None and as_sent.information >= LEAST_INFORMATION[True]:
+            return []
         read = read_patterns(
-            stripes.profile, stripes.flattened, period, self.check, by_edges_only=sure,
+            stripes.profile, stripes.flattened, period, self.check,
             is_clipped=stripes.saturated > UNCLIPPED,
         )  # fmt: skip
         if explained and as_sent is not None:

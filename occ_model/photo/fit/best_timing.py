@@ -1,7 +1,7 @@
 """Find the timings with which given chips fit a photo's stripes best."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -21,7 +21,6 @@ _MOST_RESIDUAL_RATIO = 4.0  # maximum ratio of a rough fit to the best one for i
 
 _MOST_FINISHED = 6
 
-_OTHER_EXPOSURES = (0.8, 1.25)  # factors of an exposure from which other chips are fitted
 _MOST_EQUAL_RATIO = 1.05  # maximum ratio of residuals of fits that are equally good
 _EQUALIZED_RATIO = 0.5  # ratio of residuals below which a picture was equalized
 
@@ -100,10 +99,7 @@ def explain_near(
     with_gamma: bool = False,
 ) -> Explanation | None:
     """Find the timing near a given one with which given chips fit a photo's stripes best."""
-    starts = [
-        replace(timing, exposure=share * timing.exposure) for share in (1.0, *_OTHER_EXPOSURES)
-    ]
-    best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
+    best = _best_of_cameras(stripes, chips, cameras, [timing], with_gamma)
     if best is None:
         return None
     fits, camera = best

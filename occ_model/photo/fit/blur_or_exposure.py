@@ -13,16 +13,13 @@ _MOST_COLUMNS = 12.0  # exposure in columns below which blur may be taken for it
 _BLURS = (0.2, 0.7, 1.1, 1.5)  # standard deviations of blur, in columns, that are tried
 
 _BLUR_FRACTIONS: dict[BlurShape | None, tuple[float, ...]] = {
-    None: (0.75, 0.9),
+    None: (0.9,),
     "box": (0.1, 0.5, 0.75),
     "exponential": (0.1, 0.5, 0.75),
 }
 """Fractions of an edge's variance due to blur from which fits start, by the shape of the blur. A
 box of blur and an exposure look alike, and each shape has several minima: starts at one half alone
 took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
-
-_FIXED_BLUR = (7,)
-_WELL_KNOWN_BLUR = 0.1  # deviation of a blur in columns below which no other is tried
 
 _LAST_ROUNDS = 10
 _SHORTEST = 0.2  # shortest exposure in columns to start from
@@ -37,7 +34,7 @@ class Possible:
     rounds: int = 1
 
     def again(self) -> list[JointFit]:
-        """Fit again, the noise having been estimated, also with each blur where all are likely.
+        """Fit again, the noise having been estimated, also with each shape of the blur.
 
         Each minimum counts once, however many starts end in it.
         """
@@ -51,9 +48,6 @@ class Possible:
         for shape, fits in found.items():
             # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
             fits.append(self.model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
-        if free.covariance[7, 7] >= _WELL_KNOWN_BLUR**2:
-            others = [_with_blur(free.values, blur) for blur in _BLURS]
-            found[None] += [self.model.fit(other, _FIXED_BLUR, rounds=2) for other in others]
         return [fit for fits in found.values() for fit in distinct(fits)]
 
     def _exchanged(self, boxes: Sequence[JointFit]) -> list[JointFit]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.photo.fit.blurred_light import BlurShape
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import minimized
@@ -21,7 +21,7 @@ from occ_model.photo.fit.joint_covariance import CORRELATED_COLUMNS, covariance_
 from occ_model.photo.fit.least_squares import level_freedom
 from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
 from occ_model.photo.fit.scaled_parameters import ScaledParameters
-from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, SeenStripes
+from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, OF_TONE, SeenStripes
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 from occ_model.photo.stripes.period import correlated_columns
@@ -185,18 +185,8 @@ class JointModel:
 
         ``fixed``: indices of parameters. ``shape``: the blur's; None: normal, of unknown tails.
         """
-        free = self._free.copy()
-        free[list(fixed)] = False
-        index, blur = np.flatnonzero(free), shape or "normal"
-        scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
-        found, residual, slopes = minimized(
-            lambda place: self._residual(scaled.values(place), 0.0, blur),
-            np.zeros(len(index)),
-            rounds,
-            slopes=lambda place: (
-                self._slopes(scaled.values(place), blur)[:, index] * scaled.slopes(place)
-            ),
-        )
+        index, blur = self._index(fixed), shape or "normal"
+        scaled, found, residual, slopes = self._minimized(first, index, rounds, blur)
         values = scaled.values(found)
         rates = scaled.rates(values)
         covariance = np.zeros((9, 9))
@@ -211,10 +201,38 @@ class JointModel:
         prior = residual[-len(USUAL) :]
         shift = np.zeros(9)
         # Where pixel values are blurred, the model itself blurs the product.
-        if free[2] and not self._values_blurred:
+        if 2 in index and not self._values_blurred:
             by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
             shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
         return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
+
+    def rough(
+        self, first: FloatArray, fixed: Sequence[int], rounds: int
+    ) -> tuple[float, FloatArray]:
+        """Return the misfit of a fit of few rounds, and its parameters."""
+        scaled, found, residual, _ = self._minimized(first, self._index(fixed), rounds, "normal")
+        return float(residual @ residual), scaled.values(found)
+
+    def _index(self, fixed: Sequence[int]) -> IndexArray:
+        free = self._free.copy()
+        free[list(fixed)] = False
+        return np.flatnonzero(free)
+
+    def _minimized(
+        self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape
+    ) -> tuple[ScaledParameters, FloatArray, FloatArray, FloatArray]:
+        """Return the scaled parameters of an index that fit best, with residual and slopes."""
+        scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
+        of_tone = bool(np.isin(index, OF_TONE).any())
+        found = minimized(
+            lambda place: self._residual(scaled.values(place), 0.0, blur),
+            np.zeros(len(index)),
+            rounds,
+            slopes=lambda place: (
+                self._slopes(scaled.values(place), blur, of_tone)[:, index] * scaled.slopes(place)
+            ),
+        )
+        return scaled, *found
 
     def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
         """Return by how many chips the place of each residual is later because levels are blurred.
@@ -270,13 +288,16 @@ class JointModel:
         unusual = (values[3:] - self._mean) / self._deviation
         return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
 
-    def _slopes(self, values: FloatArray, shape: BlurShape) -> FloatArray:
-        """Return the residual's slopes over all nine parameters, shape (residuals, 9)."""
+    def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
+        """Return the residual's slopes over all nine parameters, shape (residuals, 9).
+
+        Those over the tone curve's are 0 unless they are wanted.
+        """
         self._check()
-        seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape)
+        seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape, of_tone)
         found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
         slopes = np.zeros((9, found.shape[1] + len(USUAL)))
-        slopes[IN_ORDER, : -len(USUAL)] = found
+        slopes[IN_ORDER[: len(found)], : -len(USUAL)] = found
         slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
         slopes[3:, -len(USUAL) :] = np.diag(1.0 / self._deviation)
         return slopes.T

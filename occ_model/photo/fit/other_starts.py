@@ -49,8 +49,7 @@ def scanned_starts(
     def rough(exposure: float) -> tuple[float, FloatArray]:
         values = usual.copy()
         values[1] = exposure
-        fit = model.fit(values, _HELD, _ROUGH_ROUNDS)
-        return fit.misfit, fit.values
+        return model.rough(values, _HELD, _ROUGH_ROUNDS)
 
     most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]
     fits = sorted((rough(one) for one in EXPOSURES if one < _LONGEST), key=lambda fit: fit[0])

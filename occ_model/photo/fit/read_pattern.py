@@ -53,14 +53,13 @@ def read_patterns(
     period: float,
     check: Callable[[], object] = lambda: None,
     *,
-    by_edges_only: bool = False,
     is_clipped: bool = False,
 ) -> list[ReadPattern]:
     """Read repeating sequences of chips that explain the stripes, with as few chips as possible.
 
-    ``by_edges_only`` takes far less time than to try each number of chips. ``is_clipped``: white
-    pixels may lengthen bright runs by more than an edge's ramp. The sequences are those of
-    different ways of reading, by edges first; none where no sequence explains the stripes.
+    ``is_clipped``: white pixels may lengthen bright runs by more than an edge's ramp. The sequences
+    are those of different ways of reading, by edges first; none where no sequence explains the
+    stripes.
 
     Chips may be misread, or not be read, where the exposure is shorter than a column's readout: the
     position of an edge within a column is then unknown.
@@ -71,7 +70,7 @@ def read_patterns(
     column = None if is_clipped else 1.0 / period
     found = [_fewest(lines, counts, column, check)]
     by_edges = found[0]
-    if not by_edges_only and (
+    if (
         by_edges is None
         or _unexplained(by_edges) > _WELL_EXPLAINED
         or by_edges.exposure > _LONGEST_FOR_EDGES

@@ -13,11 +13,12 @@ from occ_model.photo.fit.blurred_light import (
 )
 from occ_model.photo.fit.lit_profile import Seen, SeenSlopes
 from occ_model.photo.fit.timing import Timing
-from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.fit.tone_curve import ToneCurve, ToneSlopes
 
 GAMMA = 3
-IN_ORDER = [0, 1, 2, 7, 8, GAMMA, 4, 5, 6]
-"""Gamma's index among the parameters, and the parameters in the order of slopes."""
+OF_TONE = [GAMMA, 4, 5, 6]
+IN_ORDER = [0, 1, 2, 7, 8, *OF_TONE]
+"""Indices of gamma, of the tone curve's parameters, and of all in the order of slopes."""
 
 
 class SeenStripes:
@@ -35,14 +36,14 @@ class SeenStripes:
         """Return what is seen by nine parameters, and the blur's excess kurtosis and shape."""
         return self._last(tuple(values.tolist()), tails, shape)
 
-    def slopes(self, values: FloatArray, shape: BlurShape) -> SeenSlopes:
-        """Return its slopes, those of the tone over gamma itself."""
+    def slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> SeenSlopes:
+        """Return its slopes, those of the tone over gamma itself, and none of them if not asked."""
         timing, curve, blur, longer = self._parts(values.tolist())
         table = self.by(values, 0.0, shape).table
         sharp = self._light.sharp_slopes(timing, longer) if self._values_blurred else None
         return SeenSlopes(
             self._light.slopes(timing, blur, longer, shape),
-            curve.slopes(table),
+            curve.slopes(table) if of_tone else ToneSlopes(table),
             sharp,
             kernel_slope(blur, shape),
         )

@@ -16,6 +16,8 @@ _LEAST_SLOPE = 0.05
 _BENDS = np.diff([_GRID * (1.0 - _GRID), _GRID * (1.0 - _GRID) * (1.0 - 2.0 * _GRID)])
 """Change of each step of the grid by shoulder and contrast."""
 
+_NO_SLOPES = np.zeros((0, len(_GRID)))
+
 
 @dataclass(frozen=True, slots=True)
 class ToneCurve:
@@ -133,7 +135,7 @@ class ToneSlopes:
     ``of_steepness``: shape (parameters,), those of the grey levels' slope at white.
     """
 
-    def __init__(self, table: ToneTable, light: FloatArray) -> None:
+    def __init__(self, table: ToneTable, light: FloatArray = _NO_SLOPES) -> None:
         self.parameters = len(light)
         slope = -(table.slope**2) * _risen(light) / _STEP
         self._both = EvenTable(_GRID[0], _GRID[-1], np.concatenate([light, WHITE * slope]))
@@ -157,5 +159,5 @@ class ToneSlopes:
         # Beyond both ends the curve goes on straight, by its slope there.
         beyond = values - WHITE * np.clip(values / WHITE, _GRID[0], _GRID[-1])
         slopes = steep * light
-        slopes[-self.parameters :] += beyond / steep * by_slope - steep * by_light
+        slopes[len(slopes) - self.parameters :] += beyond / steep * by_slope - steep * by_light
         return np.asarray(slopes)

@@ -87,12 +87,10 @@ def test_where_nothing_explains_the_stripes_well_chips_are_read_otherwise_too(
         (None, False),
     ],
 )
-def test_other_chips_than_sure_ones_are_read_from_edges_only(
+def test_nothing_is_read_where_the_chips_given_are_sure(
     monkeypatch: pytest.MonkeyPatch, as_sent: Any, is_sure: bool
 ) -> None:
-    reading = Reading(monkeypatch, 0.99)
-    reading.of(as_sent)
-    assert reading.how["by_edges_only"] == is_sure
+    assert (Reading(monkeypatch, 0.99).of(as_sent) == 0) == is_sure
 
 
 @pytest.mark.parametrize(("share", "is_clipped"), [(0.0, False), (0.01, False), (0.3, True)])

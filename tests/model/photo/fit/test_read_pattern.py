@@ -17,14 +17,12 @@ def turned(chips: np.ndarray) -> list[int]:
     return min(np.roll(chips, turn).tolist() for turn in range(len(chips)))
 
 
-def read(
-    monkeypatch: pytest.MonkeyPatch, edges: ReadPattern | None, *, by_edges_only: bool = False
-) -> list[list[int]]:
+def read(monkeypatch: pytest.MonkeyPatch, edges: ReadPattern | None) -> list[list[int]]:
     """Read stripes of which edges and harmonics tell these chips."""
     lines = ReadPattern(BY_LINES, 0.99, 0.5, 0.0)
     monkeypatch.setattr(read_pattern, "_fewest", lambda *_: edges)
     monkeypatch.setattr(read_pattern, "_chips_by_lines", lambda *_: lines)
-    found = read_patterns(LINE, LINE, 60.0, lambda: None, by_edges_only=by_edges_only)
+    found = read_patterns(LINE, LINE, 60.0)
     return [turned(one.chips) for one in found]
 
 
@@ -38,14 +36,10 @@ def test_clear_edges_of_short_exposures_need_no_other_reading(
     edges = ReadPattern(BY_EDGES, explained, exposure, 0.0)
     expected = [turned(BY_EDGES), turned(BY_LINES)]
     assert read(monkeypatch, edges) == expected[: 1 + both]
-    assert read(monkeypatch, edges, by_edges_only=True) == expected[:1]
 
 
-def test_without_edges_the_harmonics_are_read_unless_edges_alone_are_asked_for(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_without_edges_the_harmonics_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
     assert read(monkeypatch, None) == [turned(BY_LINES)]
-    assert read(monkeypatch, None, by_edges_only=True) == []
 
 
 def test_chips_that_are_read_in_both_ways_are_given_once(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -9,7 +9,7 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.evidence.doubts import LEAST_INFORMATION
 from occ_model.photo.evidence.hypothesis import UNCLIPPED, Hypothesis
 from occ_model.photo.evidence.other_codes import nearest_other
-from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, explain_near
+from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, explain_from
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
@@ -187,8 +187,8 @@ class Candidates:
             return None
         bits = max(found.bits, float(self.scene.transmitter.bits))
         # They differ so little that what explains them best is near: it need not be searched.
-        other = explain_near(
-            self.stripes, chips, self._checked_cameras(), found.fit.timing, self.fit_gamma
+        other = explain_from(
+            [found.fit.timing], self.stripes, chips, self._checked_cameras(), self.fit_gamma
         )
         sent = f"{self._named(chips)} instead"
         return self._supposed(sent, other, bits=bits, was_read=True, rate=found.rate)

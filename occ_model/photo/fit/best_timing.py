@@ -39,7 +39,6 @@ class Explanation:
     # The best fit, and those that are as good with another exposure, in order of the exposure.
     fits: tuple[StripeFit, ...]
     camera: CameraTone
-    starts: tuple[Timing, ...] = ()  # the timings of all possible fits, the best first
 
     @property
     def correlation(self) -> float:
@@ -82,53 +81,30 @@ def explain(
         # Chips that are mostly on or mostly off: removing a trend of the mean distorts them.
         others = _candidates(stripes.flattened, chips, steps[-1], gamma, check)
         candidates = max(candidates, others, key=lambda found: found[0].correlation)
-    starts = _promising(candidates)
-    best = _best_of_cameras(stripes, chips, cameras, starts, with_gamma)
-    if best is None:
-        return None
-    fits, camera = best
-    timings = tuple(fit.timing for fit in fits)
-    return Explanation(chips, tuple(_as_good(fits)), camera, timings)
+    return explain_from(_promising(candidates), stripes, chips, cameras, with_gamma)
 
 
-def explain_near(
+def explain_from(
+    starts: Sequence[Timing],
     stripes: Stripes,
     chips: ByteArray,
     cameras: Sequence[CameraTone],
-    timing: Timing,
     with_gamma: bool = False,
 ) -> Explanation | None:
-    """Find the timing near a given one with which given chips fit a photo's stripes best."""
-    best = _best_of_cameras(stripes, chips, cameras, [timing], with_gamma)
-    if best is None:
-        return None
-    fits, camera = best
-    return Explanation(chips, tuple(_as_good(fits)), camera, tuple(fit.timing for fit in fits))
-
-
-def _model(stripes: Stripes, chips: ByteArray, camera: CameraTone, step: float) -> StripeModel:
-    return StripeModel(stripes.profile, chips, camera.tone, step, camera.rank_resolution)
-
-
-def _best_of_cameras(
-    stripes: Stripes,
-    chips: ByteArray,
-    cameras: Sequence[CameraTone],
-    starts: Sequence[Timing],
-    with_gamma: bool,
-) -> tuple[list[StripeFit], CameraTone] | None:
-    """Fit each camera's response from several timings; give the one with the least residual."""
+    """Fit each camera's response from some timings, and keep the one with the least residual."""
     best: tuple[list[StripeFit], CameraTone] | None = None
     for camera in sorted(cameras, key=lambda one: one.enhancement == "equalization"):
         is_equalized = camera.enhancement == "equalization"
         if best is not None and is_equalized and best[0][0].correlation > EXPLAINED:
             continue
-        model = _model(stripes, chips, camera, starts[0].step)
+        model = StripeModel(
+            stripes.profile, chips, camera.tone, starts[0].step, camera.rank_resolution
+        )
         fits = _fits(model, starts, with_gamma)
         ratio = _EQUALIZED_RATIO if is_equalized else 1.0
         if fits and (best is None or fits[0].residual < ratio * best[0][0].residual):
             best = fits, camera
-    return best
+    return None if best is None else Explanation(chips, tuple(_as_good(best[0])), best[1])
 
 
 def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> list[StripeFit]:

@@ -8,7 +8,7 @@ from occ_model.photo.fit.averaged_fits import averaged
 from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
-from occ_model.photo.fit.other_starts import alike_among, other_starts, scanned_starts
+from occ_model.photo.fit.other_starts import alike_among, alike_starts, scanned_starts
 from occ_model.photo.fit.timing import Timing
 
 _MOST_EXCESS_MISFIT = 60.0  # excess of the misfit above which an exposure is not refined
@@ -85,15 +85,15 @@ def _other_starts(
     is_possible: Callable[[Timing], bool],
 ) -> list[FloatArray]:
     """Return the parameters to start from, for other exposures than the one found."""
+    if len(explanation.chips) != 2:
+        return scanned_starts(model, found.fit.values, is_possible)
     best = min(explanation.fits, key=lambda fit: fit.residual).timing
-    starts = [model.start(one) for one in other_starts(explanation, best) if is_possible(one)]
-    if len(explanation.chips) == 2:
-        # What looks the same does so by the exposure without blur, which the first fits include.
-        _, exposure, middle = found.fit.values[:3].tolist()
-        for one in other_starts(explanation, replace(best, exposure=exposure, middle=middle)):
-            if is_possible(one):
-                values = model.adapted(found.fit.values)
-                values[1:3] = one.exposure, one.middle
-                starts.append(values)
-        return starts
-    return [*starts, *scanned_starts(model, found.fit.values, is_possible)]
+    starts = [model.start(one) for one in alike_starts(best) if is_possible(one)]
+    # What looks the same does so by the exposure without blur, which the first fits include.
+    _, exposure, middle = found.fit.values[:3].tolist()
+    for one in alike_starts(replace(best, exposure=exposure, middle=middle)):
+        if is_possible(one):
+            values = model.adapted(found.fit.values)
+            values[1:3] = one.exposure, one.middle
+            starts.append(values)
+    return starts

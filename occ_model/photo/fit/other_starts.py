@@ -5,12 +5,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
+from occ_model.photo.fit.best_timing import SAME_EXPOSURE
 from occ_model.photo.fit.initial_search import EXPOSURES
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
 from occ_model.photo.fit.timing import Timing
 
-_MOST_STARTS = 3
 _LONGEST = 4.2  # longest exposure in chips to start from
 
 _MOST_SCANNED = 2
@@ -19,19 +18,16 @@ _HELD = (0, 3, 4, 5, 6, 7, 8)  # indices of the parameters held while exposures 
 _ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
 
 
-def other_starts(explanation: Explanation, best: Timing) -> list[Timing]:
-    """Return further exposures to start from: for a square wave, those that look the same."""
-    starts = [one for one in explanation.starts if one is not best]
-    if len(explanation.chips) == 2:
-        t = best.exposure
-        alike = [2.0 * turns + sign * t for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
-        # From one such exposure to the next the stripes are turned about.
-        return [
-            replace(best, exposure=other, middle=best.middle + _turned(t, other))
-            for other in alike
-            if 0.0 < other < _LONGEST and abs(other - t) > SAME_EXPOSURE
-        ]
-    return starts[:_MOST_STARTS]
+def alike_starts(best: Timing) -> list[Timing]:
+    """Return the timings of other exposures by which a square wave's stripes look the same."""
+    t = best.exposure
+    alike = [2.0 * turns + sign * t for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
+    # From one such exposure to the next the stripes are turned about.
+    return [
+        replace(best, exposure=other, middle=best.middle + _turned(t, other))
+        for other in alike
+        if 0.0 < other < _LONGEST and abs(other - t) > SAME_EXPOSURE
+    ]
 
 
 def scanned_starts(

@@ -113,7 +113,7 @@ def test_other_chips_are_as_many_a_second_as_those_they_replace(
     monkeypatch.setattr(candidates, "nearest_other", lambda *_: OTHER)
     fit: Any = SimpleNamespace()
     explained = Explanation(OTHER, (fit,), CameraTone("light", "none", lambda lit, _: lit))
-    monkeypatch.setattr(candidates, "explain_near", lambda *_: explained)
+    monkeypatch.setattr(candidates, "explain_from", lambda *_: explained)
     stripes: Any = SimpleNamespace(profile=np.zeros(10))
     made = Candidates(stripes, occ.Scene(), [], False, lambda *_: 0.0, None, lambda: None)
     found: Any = SimpleNamespace(bits=1.0, rate=12.5, fit=SimpleNamespace(timing=None))

@@ -110,11 +110,11 @@ def test_other_exposures_of_a_square_wave_start_from_the_best_fit(
 ) -> None:
     near: list[Timing] = []
 
-    def others(_explanation: object, best: Timing) -> list[Timing]:
+    def others(best: Timing) -> list[Timing]:
         near.append(best)
         return [replace(best, exposure=2.0 - best.exposure), replace(best, exposure=9.0)]
 
-    monkeypatch.setattr(exposure_modes, "other_starts", others)
+    monkeypatch.setattr(exposure_modes, "alike_starts", others)
     model: Any = SimpleNamespace(
         start=lambda timing: np.array([timing.step, timing.exposure, timing.middle, *[0.0] * 6]),
         adapted=np.copy,

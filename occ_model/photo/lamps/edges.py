@@ -141,7 +141,9 @@ def _envelope(turns: IndexArray, levels: FloatArray, is_high: np.ndarray) -> Flo
 
 def _crossing(profile: FloatArray, first: int, last: int, begin: float, end: float) -> float:
     """Find where a profile passes a level that changes evenly, in the middle if several times."""
-    above = profile[first : last + 1] - np.linspace(begin, end, last + 1 - first)
+    count = last - first
+    level = begin + (end - begin) / count * np.arange(count + 1)
+    above = profile[first : last + 1] - level
     changes = np.flatnonzero((above[1:] >= 0.0) != (above[:-1] >= 0.0))
     if changes.size == 0:
         return 0.5 * (first + last)
@@ -167,6 +169,6 @@ def matches(edges: Edges, others: Edges, chip: float) -> np.ndarray:
 
 
 def _distance(places: FloatArray, others: FloatArray) -> FloatArray:
-    after = np.clip(np.searchsorted(others, places), 0, len(others) - 1)
+    after = np.minimum(np.searchsorted(others, places), len(others) - 1)
     before = np.maximum(after - 1, 0)
-    return np.minimum(np.abs(others[after] - places), np.abs(others[before] - places))
+    return np.asarray(np.minimum(np.abs(others[after] - places), np.abs(others[before] - places)))

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy.special import chdtrc
 
 import occ_model as occ
 from occ_model.results.sweep_request import RateSettings, SignalPath
@@ -147,4 +147,4 @@ def significance(found: list[TwoPaths]) -> tuple[float, int, float]:
     """
     counted = [pair for pair in found if pair.is_in_doubt]
     total = sum(pair.deviation**2 for pair in counted)
-    return total, len(counted), float(stats.chi2.sf(total, len(counted)))
+    return total, len(counted), float(chdtrc(len(counted), total))

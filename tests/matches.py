@@ -1,16 +1,18 @@
-"""A match as a photo of three columns would have it, for tests of what is shown of one."""
+"""Matches for tests of what is shown of one."""
 
+from functools import cache
 from typing import Any
 
 import numpy as np
 
 import occ_model as occ
+from occ_model.files.resources import resource_path
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
 
 
 def match_with(**changes: Any) -> Match:
-    """Return a match of a lamp of 2 kHz, with some of its values changed."""
+    """Return a match of a lamp of 2 kHz in three columns, with some of its values changed."""
     profile = np.array([10.0, 20.0, 30.0])
     stripes = Stripes(Region(0, 9, 0, 3), profile, profile, profile + 1, 2.0, 0.1, 0.125)
     values: dict[str, Any] = {
@@ -21,3 +23,9 @@ def match_with(**changes: Any) -> Match:
         "correlation": 0.99123,
     }  # fmt: skip
     return Match(**{**values, **changes})
+
+
+@cache
+def match_of_sample(name: str, scene: occ.Scene) -> Match:
+    """Match a sample photo to a scene, once for all tests."""
+    return occ.match_photo(occ.load_photo(resource_path("photos", f"{name}.jpg")), scene)

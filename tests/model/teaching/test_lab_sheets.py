@@ -5,13 +5,12 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from matches import match_of_sample
 from PIL import Image
 
-import occ_model as occ
 from occ_model.errors import OutputError
 from occ_model.figures.lesson_report import write_lesson_report
 from occ_model.figures.lesson_steps import draw_page, match_lines, steps_of_pages
-from occ_model.files.resources import resource_path
 from occ_model.results.lessons import AnsweredStep, CheckedAnswer, Lesson
 from occ_model.results.match import Match
 from occ_model.scene.scene import Scene
@@ -24,8 +23,7 @@ SHEETS = [lesson for lesson in lessons().lessons if lesson.is_sheet]
 @pytest.fixture(scope="module")
 def match() -> Match:
     """Match the sample photo of the sheet on the readout time."""
-    photo = occ.load_photo(resource_path("photos", "led-1khz.jpg"))
-    return occ.match_photo(photo, SHEETS[1].steps[3].scene)
+    return match_of_sample("led-1khz", SHEETS[1].steps[3].scene)
 
 
 @pytest.mark.parametrize("sheet", SHEETS, ids=lambda sheet: sheet.name)

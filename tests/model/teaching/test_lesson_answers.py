@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matches import match_of_sample
 
 import occ_model as occ
-from occ_model.files.resources import resource_path
 from occ_model.results.lessons import Step
 from occ_model.scene.parameters import PARAMETERS
 from occ_model.scene.scene import Scene
@@ -166,8 +166,7 @@ def test_the_photos_give_what_the_answers_say(
     monkeypatch: pytest.MonkeyPatch, number: int, readout: float, text: str
 ) -> None:
     asked = step(6, number)
-    photo = occ.load_photo(resource_path("photos", f"{asked.photo}.jpg"))
-    found = occ.match_photo(photo, asked.scene)
+    found = match_of_sample(asked.photo, asked.scene)
     # The check matches the same photo once more.
     monkeypatch.setattr("occ_model.photo.match.match_photo", lambda *_: found)
     assert check_answer(asked, text).outcome == "right"

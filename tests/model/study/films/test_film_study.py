@@ -101,8 +101,9 @@ def test_films_carry_what_counting_says(bits: int, gap: float) -> None:
 
 
 def test_the_command_writes_the_numbers_that_it_prints(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("occ_model.figures.drawing.ENDINGS", (".png", ".csv"))
     out = tmp_path / "films"
     assert main(["film-study", "--frequencies", "8kHz", "--gaps", "20", "--bits", "16",
                  "--frames", "6", "--set", "framing=preamble", "--set", "line_code=manchester",

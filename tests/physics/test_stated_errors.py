@@ -1,6 +1,7 @@
 """Stated errors hold on photographs of a world that is wider than the model."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,9 @@ from photo_world.trials import Trial, told, trial
 from simulated_photos import photo_of
 
 import occ_model as occ
+from occ_model.photo.evidence.doubts import exposure_doubts
 from occ_model.photo.fit.tone_curve import ToneCurve
+from occ_model.photo.fitted_scene import _doubts_by_note
 from occ_model.photo.stripes.evenly_lit import Cells
 
 
@@ -81,17 +84,13 @@ def test_what_is_not_known_of_the_camera_can_only_widen_the_bound() -> None:
 
 def test_an_exposure_far_from_the_noted_one_is_doubted() -> None:
     world = small_world(3, curve=power(2.22))
-    photo = photo_of(photograph(world))
-    matches = [
-        occ.match_photo(
-            replace(photo, exposure_time=noted * world.exposure_time), told(world), sent="scene"
-        )
-        for noted in (1.0, 1.6)
-    ]
-    assert not any("noted" in why for why in matches[0].exposure_reasons)
-    assert any("noted" in why for why in matches[1].exposure_reasons)
-    assert matches[1].exposure_verdict == "doubtful"
-    assert matches[1].verdict == matches[0].verdict
+    right = replace(photo_of(photograph(world)), exposure_time=world.exposure_time)
+    wrong = replace(right, exposure_time=1.6 * world.exposure_time)
+    match = occ.match_photo(wrong, told(world), sent="scene")
+    assert any("noted" in why for why in match.exposure_reasons)
+    assert (match.verdict, match.exposure_verdict) == ("sure", "doubtful")
+    error = match.uncertainties["exposure_time"]
+    assert _doubts_by_note(right, match.exposure_time, error) == []
 
 
 @pytest.mark.whole
@@ -115,14 +114,13 @@ def test_edges_hidden_by_white_are_doubted() -> None:
 
 
 def test_the_exposure_is_doubted_where_more_than_two_fifths_are_white() -> None:
-    reasons = {}
-    for saturated in (0.3, 0.45):
-        world = small_world(3, saturated=saturated)
-        match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
-        reasons[saturated] = [why for why in match.exposure_reasons if "are white" in why]
-        assert match.verdict == "sure"
-    assert reasons[0.3] == []
-    assert "at most 40.0 % are allowed" in reasons[0.45][0]
+    world = small_world(3, saturated=0.45)
+    match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
+    assert match.verdict == "sure"
+    assert any("at most 40.0 % are allowed" in why for why in match.exposure_reasons)
+    given: Any = SimpleNamespace(rate=1.0, was_read=False)
+    assert exposure_doubts(given, replace(match.stripes, saturated=0.4)) == []
+    assert exposure_doubts(given, replace(match.stripes, saturated=0.401)) != []
 
 
 def test_a_camera_is_not_taken_to_equalize() -> None:

@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -17,14 +18,17 @@ from occ_model.files.writing import write_image
 from occ_model.program import EXIT_MISUSE
 
 SCENE = random_scene(3)
-PHOTO = take(SCENE)
+PHOTO = replace(take(SCENE), iso=640.0, f_number=1.8)
 KNOWN = SCENE.replace(readout_time=1e-6, exposure_time=1e-3, start_time=0.0)
+
+
+SHARES: list[float] = []
 
 
 @cache
 def matched() -> occ.Match:
-    """Match the photo once for all who only look at what was found."""
-    return occ.match_photo(PHOTO, KNOWN)
+    """Match the photo once for all who only look at what was found, or at the progress."""
+    return occ.match_photo(PHOTO, KNOWN, progress=SHARES.append)
 
 
 def test_the_fitted_scene_shows_the_photo_pixel_on_pixel() -> None:
@@ -111,12 +115,9 @@ def test_gamma_is_estimated_with_an_uncertainty_on_request() -> None:
 
 
 def test_what_the_camera_noted_goes_into_the_scene() -> None:
-    noted = occ.Photo(
-        path=PHOTO.path, samples=PHOTO.samples, white=255, image=PHOTO.image,
-        profile=PHOTO.profile, turned=False, channel="grey", iso=640.0, f_number=1.8,
-    )  # fmt: skip
-    camera = occ.match_photo(noted, KNOWN).scene.camera
-    assert (camera.iso, camera.f_number) == (640.0, 1.8)
+    camera = matched().scene.camera
+    assert (camera.iso, camera.f_number) == (PHOTO.iso, PHOTO.f_number)
+    assert (camera.iso, camera.f_number) != (KNOWN.camera.iso, KNOWN.camera.f_number)
 
 
 def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
@@ -126,10 +127,9 @@ def test_the_averaging_that_explains_the_photo_is_found_or_given() -> None:
 
 
 def test_progress_rises_to_1_and_what_it_raises_ends_the_match() -> None:
-    shares: list[float] = []
-    occ.match_photo(PHOTO, KNOWN, progress=shares.append)
-    assert shares == sorted(shares)
-    assert (shares[0], shares[-1]) == (0.0, 1.0)
+    matched()
+    assert sorted(SHARES) == SHARES
+    assert (SHARES[0], SHARES[-1]) == (0.0, 1.0)
 
     def stop(share: float) -> None:
         if share > 0.1:

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from argparse import Namespace
 from pathlib import Path
 
 import numpy as np
@@ -14,11 +15,12 @@ from PIL import Image
 import occ_model as occ
 from occ_model.cli import main
 from occ_model.commands import cluster
-from occ_model.commands.sweep import _decoders
+from occ_model.commands.sweep import _decoders, run_with_bar
 from occ_model.commands.vary import axes_of
 from occ_model.errors import OutputError, ParameterError
 from occ_model.figures.sweep import write_sweep_figure
 from occ_model.receiver.decoders import DECODERS
+from occ_model.study.sweep.sweep import Progress
 
 VARY = ("--vary", "switching_frequency=4kHz:14kHz:10kHz", "--vary", "distance=0.8m,120cm")
 
@@ -194,6 +196,22 @@ def test_ctrl_c_keeps_what_is_done_and_says_how_to_go_on(tmp_path: Path) -> None
         f"occ-model: stopped after {count} of 3901 points; they are in {out}, and the same command "
         "goes on from there."
     )
+
+
+@pytest.mark.parametrize(
+    ("done", "said"),
+    [(None, "stopped before the first point"), (4, "stopped after 4 of 27 points")],
+)
+def test_a_study_that_is_stopped_says_how_far_its_own_progress_came(
+    done: int | None, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def run(_executor: object, progress: Progress) -> None:
+        if done is not None:
+            progress(done, 27, 1.0)
+        raise KeyboardInterrupt
+
+    assert run_with_bar(run, Namespace(cluster=None)) is None
+    assert capsys.readouterr().err.endswith(f"occ-model: {said}; none is kept.\n")
 
 
 def table_of(**axes: object) -> occ.SweepTable:

@@ -119,7 +119,7 @@ def inline_workers() -> InlineWorkers:
 
 @pytest.fixture
 def small_scene() -> Scene:
-    """Give a scene that is simulated in a few milliseconds and whose code is read."""
+    """Return a scene that is simulated in a few milliseconds and whose code is read."""
     return occ.load_preset("phone-68us").replace(rows=200)
 
 

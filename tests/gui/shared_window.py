@@ -95,7 +95,7 @@ def forget_lessons(application: Application) -> None:
 
 
 def state_of(application: Application) -> list[object]:
-    """Give what a test could have changed in a window beside its widgets."""
+    """Return what a test could have changed in a window beside its widgets."""
     window = application.window
     return [
         application.store.store.workspace,
@@ -117,7 +117,7 @@ def state_of(application: Application) -> list[object]:
 
 
 def look_of(window: QWidget) -> list[str]:
-    """Give what users see of a window's widgets, and its entries, in no order.
+    """Return what users see of a window's widgets, and its entries, in no order.
 
     Some widgets are made anew each time, so none is known by its place.
     """

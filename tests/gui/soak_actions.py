@@ -51,12 +51,12 @@ _NOTCHES = 100
 
 
 def smaller(scene: Scene) -> Scene:
-    """Give a scene whose picture takes a few milliseconds."""
+    """Return a scene whose picture takes a few milliseconds."""
     return scene.replace(rows=150, columns=1200)
 
 
 def smaller_lessons() -> LessonList:
-    """Give the lessons with pictures that take a few milliseconds."""
+    """Return the lessons with pictures that take a few milliseconds."""
     return LessonList(
         tuple(
             replace(each, steps=tuple(replace(s, scene=smaller(s.scene)) for s in each.steps))

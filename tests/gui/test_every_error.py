@@ -208,7 +208,7 @@ def broken_plugin(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[N
 
 @pytest.fixture
 def made(monkeypatch: pytest.MonkeyPatch) -> list[OccError]:
-    """Give the errors of the model that are made from now on, on any thread."""
+    """Return the errors of the model that are made from now on, on any thread."""
     noted: list[OccError] = []
     make = OccError.__init__
 
@@ -270,7 +270,7 @@ def test_every_class_becomes_a_sentence_and_the_picture_stays(
 
 
 def line_of(row: ParameterRow) -> QLineEdit | None:
-    """Give the field that a value is typed into, None where there is a list to choose from."""
+    """Return the field that a value is typed into, None where there is a list to choose from."""
     if isinstance(row, QuantityRow | CountRow):
         return row.field.lineEdit()
     return row.field if isinstance(row, PatternRow) else None

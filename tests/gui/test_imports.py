@@ -47,7 +47,7 @@ MAY_COMPUTE = (
 
 @pytest.fixture(scope="module")
 def imports() -> dict[str, set[str]]:
-    """Give the modules of the model that each module of the window imports by itself."""
+    """Return the modules of the model that each module of the window imports by itself."""
     graph = grimp.build_graph("occ_gui", "occ_model")
     window = [module for module in graph.modules if module.startswith("occ_gui")]
     return {

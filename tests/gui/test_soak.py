@@ -57,7 +57,7 @@ def keep_nothing_free() -> None:
 
 
 def memory(line: str) -> float:
-    """Give a number of bytes that the system reports of this process."""
+    """Return a number of bytes that the system reports of this process."""
     text = Path("/proc/self/status").read_text(encoding="ascii")
     return 1024.0 * int(text.split(f"{line}:")[1].split()[0])
 

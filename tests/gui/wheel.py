@@ -11,7 +11,7 @@ _NOTCH = 120
 
 
 def views_of(window: QWidget) -> Sequence[pg.GraphicsView]:
-    """Give all plots and pictures of a window that a wheel zooms."""
+    """Return all plots and pictures of a window that a wheel zooms."""
     return [view for view in window.findChildren(pg.GraphicsView) if view.scene() is not None]
 
 

@@ -35,7 +35,7 @@ MODEL = 0x0110
 
 
 def seen(tip: str) -> str:
-    """Give what a tooltip shows, as Qt reads it."""
+    """Return what a tooltip shows, as Qt reads it."""
     if not RichText.mightBeRichText(tip):
         return tip
     document = QTextDocument()
@@ -54,7 +54,7 @@ def hostile_photo(tmp_path: Path, photo_file: Path) -> Path:
 
 
 def texts(window: QWidget) -> Iterator[str]:
-    """Give every text of a window in which Qt would find rich text."""
+    """Yield every text of a window in which Qt would find rich text."""
     for widget in window.findChildren(QWidget):
         yield widget.toolTip()
         if isinstance(widget, QLabel) and widget.textFormat() != Qt.TextFormat.PlainText:

@@ -48,7 +48,7 @@ def test_work_waits_for_the_thread_and_none_begins_after_its_end(qtbot: QtBot) -
 
 @pytest.fixture
 def busy(qtbot: QtBot) -> Iterator[tuple[WorkerThread, threading.Event, list[str]]]:
-    """Give a thread at work on what ends with an event, and what it has done."""
+    """Return a thread at work on what ends with an event, and what it has done."""
     done: list[str] = []
     begun, go_on = threading.Event(), threading.Event()
 

@@ -26,7 +26,7 @@ def cards(qtbot: QtBot) -> LimitCards:
 
 
 def with_end(scene: Scene, end: RangeEnd | None) -> Advice:
-    """Give advice with this upper end of the frequencies."""
+    """Return advice with this upper end of the frequencies."""
     limits = advice_on(scene).limits
     (interval,) = limits.frequency.intervals
     found = replace(limits.frequency, intervals=(replace(interval, highest=end),) if end else ())

@@ -39,7 +39,7 @@ FREQUENCY, DISTANCE = "switching_frequency", "distance"
 
 
 def rates_of(right: dict[int, tuple[int, int]], refused: tuple[int, ...] = ()) -> RateMap:
-    """Give a map of which some points are known."""
+    """Return a map of which some points are known."""
     x_values, y_values = lattice(FREQUENCY, SHAPE[0]), lattice(DISTANCE, SHAPE[1])
     rates = RateMap(FREQUENCY, DISTANCE, x_values, y_values, DECODERS)
     read = [

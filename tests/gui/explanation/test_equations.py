@@ -30,7 +30,7 @@ def view(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> EquationText:
 
 
 def marked(view: EquationText) -> list[str]:
-    """Give the pieces of text that have a background, are bold and underlined."""
+    """Return the pieces of text that have a background, are bold and underlined."""
     found = []
     block = view.document().begin()
     while block.isValid():

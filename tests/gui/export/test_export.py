@@ -40,7 +40,7 @@ from occ_model.scene.scene import Scene
 
 @pytest.fixture
 def small_scene() -> Scene:
-    """Give a scene whose picture is written as a table in a moment."""
+    """Return a scene whose picture is written as a table in a moment."""
     return occ.load_preset("phone-68us").replace(rows=120, columns=1728)
 
 

@@ -26,7 +26,7 @@ def view(qtbot: QtBot) -> ImageView:
 
 
 def pictures(pane: PicturePane) -> list[AveragedImage]:
-    """Give the pictures that can be seen in a pane, the one below first."""
+    """Return the pictures that can be seen in a pane, the one below first."""
     items = [item for item in pane.box.childGroup.childItems() if isinstance(item, AveragedImage)]
     return [i for i in items if i.isVisible() and not i.boundingRect().isEmpty()]
 

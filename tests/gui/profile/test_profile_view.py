@@ -39,7 +39,7 @@ def view(qtbot: QtBot, snapshot: Snapshot) -> ProfileView:
 
 
 def drawn(curve: pg.PlotDataItem) -> tuple[list[float], list[float]]:
-    """Give what a curve was given to draw, nothing for an empty one."""
+    """Return what a curve has to draw, nothing for an empty one."""
     x, y = curve.getOriginalDataset()
     return ([], []) if x is None else (x.tolist(), y.tolist())
 

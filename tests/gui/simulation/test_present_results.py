@@ -24,7 +24,7 @@ def said() -> list[str]:
 
 @pytest.fixture
 def present(bench: Bench, said: list[str]) -> PresentResults:
-    """Give results of the present scene, the first of which are there."""
+    """Return results of the present scene, the first of which are there."""
     present = PresentResults(bench.controller)
     present.status_message.connect(said.append)
     bench.store.change(iso=150.0)

@@ -109,7 +109,7 @@ def frames() -> Marks:
 
 
 def packets(count: int) -> Marks:
-    """Give packets from the film's begin to its middle."""
+    """Return packets from the film's begin to its middle."""
     starts = np.linspace(0.0, 0.7, count, endpoint=False)
     states = np.array([1, 1, 3, 1, 2], dtype=np.uint8)[np.arange(count) % 5]
     return Marks(starts, starts + 0.7 / count, states)

@@ -33,7 +33,7 @@ def decode(qtbot: QtBot, snapshot_of: SnapshotOf) -> DecodeView:
 
 
 def pixel(plot: pg.PlotWidget) -> tuple[float, float]:
-    """Give the width and height of a pixel in the plot's units."""
+    """Return the width and height of a pixel in the plot's units."""
     width, height = plot.getViewBox().viewPixelSize()
     return width, height
 

@@ -41,7 +41,7 @@ class ListedSource:
 
 @pytest.fixture
 def film_scene() -> Scene:
-    """Give a scene whose frames are small, and whose code each of them shows."""
+    """Return a scene whose frames are small, and whose code each of them shows."""
     scene = occ.load_preset("phone-68us")
     return scene.replace(rows=60, columns=1600, readout_time=15e-6, distance=0.8)
 

@@ -14,7 +14,7 @@ CTRL = Qt.KeyboardModifier.ControlModifier
 
 @pytest.fixture
 def bench(qtbot: QtBot, small_scene: Scene) -> ControlsBench:
-    """Give controls in a window with the entry that undoes."""
+    """Return controls in a window with the entry that undoes."""
     bench = ControlsBench(qtbot, small_scene)
     undo = bench.scenes.undo_stack.createUndoAction(bench.window)
     undo.setShortcut(QKeySequence.StandardKey.Undo)

@@ -34,7 +34,7 @@ def face_of(widget: QWidget) -> QAccessibleInterface:
 
 
 def faces_in(face: QAccessibleInterface) -> Iterator[QAccessibleInterface]:
-    """Give all that is seen in a face, as a screen reader walks."""
+    """Yield all that is seen in a face, as a screen reader walks."""
     for place in range(face.childCount()):
         child = face.child(place)
         if child is not None and child.isValid() and not child.state().invisible:

@@ -47,7 +47,7 @@ CONTROLS = (QAbstractButton, QComboBox, QAbstractSlider, QAbstractSpinBox, QLine
 
 
 def controls_of(window: QWidget) -> Iterator[QWidget]:
-    """Give what the user can handle: not what Qt itself puts into lists, tabs and docks."""
+    """Yield what the user can handle: not what Qt itself puts into lists, tabs and docks."""
     for widget in window.findChildren(QWidget):
         parent = widget.parentWidget()
         if (
@@ -213,7 +213,7 @@ def dialogs(monkeypatch: pytest.MonkeyPatch) -> Dialogs:
 
 
 def looks(application: Application, dialogs: Dialogs) -> list[Any]:
-    """Give all that an entry could change."""
+    """Return all that an entry could change."""
     window = application.window
     image = application.view("picture")
     return [

@@ -35,7 +35,7 @@ ICONS = sorted({*DRAWN, *MODES})
 
 
 def opacity(image: QImage) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
-    """Give how opaque each pixel is, shape (height, width)."""
+    """Return how opaque each pixel is, shape (height, width)."""
     image = image.convertToFormat(QImage.Format.Format_Alpha8)
     rows = np.frombuffer(image.constBits(), dtype=np.uint8).reshape(image.height(), -1)
     return rows[:, : image.width()].copy()

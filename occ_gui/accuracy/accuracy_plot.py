@@ -153,15 +153,14 @@ class AccuracyPlot(QWidget):
         timed = zip(expected.ways, expected.ways_seconds, strict=True)
         shown = [(way, s) for way, s in timed if s is not None and way.error < math.inf]
         shown.sort(key=lambda pair: pair[1])
+        forced = {d.effect for d in expected.plan.decisions if d.forced and d.included}
         self._front = [
             AccuracyPoint(
                 "effects",
                 ", ".join(sorted(way.effects)) or "no effects",
                 seconds,
                 way.error,
-                current=way.effects
-                <= set(expected.plan.included)
-                <= way.effects | _forced(expected),
+                current=way.effects <= set(expected.plan.included) <= way.effects | forced,
                 unit=expected.plan.unit,
             )
             for way, seconds in shown
@@ -257,10 +256,6 @@ class AccuracyPlot(QWidget):
         top = max(ys, default=2.0)
         margin = max(_MARGIN, _RING * (top - _FLOOR) / max(box.height() - 2 * _RING, _RING))
         box.setYRange(_FLOOR - margin, top + margin, padding=0)
-
-
-def _forced(expected: Forecast) -> set[str]:
-    return {d.effect for d in expected.plan.decisions if d.forced and d.included}
 
 
 def _places(points: Sequence[AccuracyPoint]) -> tuple[list[float], list[float]]:

@@ -3,7 +3,7 @@
 from PySide6.QtCore import QSize
 
 from occ_gui.background.result_age import ResultAges
-from occ_gui.background.task import Reporter, Task
+from occ_gui.background.task import Task
 from occ_gui.bands.bands_view import BandsView
 from occ_gui.bands.jobs import ShownBands, shown_bands
 from occ_gui.scene.scene_store import SceneStore
@@ -23,7 +23,7 @@ class BandsPane(Pane[Scene]):
         super().__init__(ScrollPane(self.view, _LEAST))
         self._scenes = scenes
         self._ages, self._shown = ResultAges(scenes.scene), scenes.scene
-        self._task: Task[Scene, ShownBands] = Task(_work, "bars")
+        self._task: Task[Scene, ShownBands] = Task(lambda scene, _: shown_bands(scene), "bars")
         self.tasks = (self._task,)
         self._task.finished.connect(self._show)
         self._task.failed.connect(self._fail)
@@ -49,7 +49,3 @@ class BandsPane(Pane[Scene]):
     def _take(self, exposure: float) -> None:
         scene = as_bright(self._scenes.scene, exposure)
         self._scenes.put(scene, "shutter speed without bars")
-
-
-def _work(scene: Scene, _report: Reporter) -> ShownBands:
-    return shown_bands(scene)

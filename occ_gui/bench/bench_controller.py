@@ -29,7 +29,7 @@ class BenchController(QObject):
         self._request: BenchRequest | None = None
         self._points: list[BenchPoint] = []
         channel.results_ready.connect(self._take)
-        channel.finished.connect(self._finish)
+        channel.finished.connect(lambda _request: pane.show_ended(""))
         channel.failed.connect(pane.show_ended)
         scenes.changed.connect(self._mark)
         self._frame_rate.changed.connect(self._show_frame_rate)
@@ -39,12 +39,10 @@ class BenchController(QObject):
     def full(self) -> tuple[BenchRequest, tuple[BenchPoint, ...]] | None:
         """The request and all its points, None while some are missing."""
         request = self._request
-        if request is None or not self._is_whole(request):
+        wanted = 0 if request is None else len(request.points) * len(request.decoders)
+        if request is None or len(self._points) != wanted:
             return None
         return request, tuple(self._points)
-
-    def _is_whole(self, request: BenchRequest) -> bool:
-        return len(self._points) == len(request.points) * len(request.decoders)
 
     def choose(self, choice: BenchChoice) -> None:
         """Measure this when asked next; what is shown of something else is marked."""
@@ -94,9 +92,6 @@ class BenchController(QObject):
         self._points.sort(key=lambda one: order[one.scheme, one.axis, one.exposure, one.decibels])
         self._pane.show_points(self._points)
         self._pane.show_progress(len(self._points) // len(request.decoders), len(request.points))
-
-    def _finish(self, _request: BenchRequest) -> None:
-        self._pane.show_ended("")
 
     def _show_frame_rate(self) -> None:
         refusal, request = "", self._request

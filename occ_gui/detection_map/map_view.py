@@ -217,17 +217,13 @@ class MapView(QWidget):
 
     def _counts(self, facts: PointFacts) -> str:
         if self.shown.key() == "bits":
-            texts = (
-                (f"{decoder} {facts.most_bits * whole / facts.images:,.0f} bits a second, "
-f"{whole} of {facts.images} pictures whole")
-
+            return "; ".join(
+                f"{decoder} {facts.most_bits * whole / facts.images:,.0f} bits a second, "
+                f"{whole} of {facts.images} pictures whole"
                 for (decoder, *_), whole in zip(facts.counts, facts.whole, strict=True)
-            )  # fmt: skip
-            return "; ".join(texts)
-        counts = (
-            (f"{decoder} {100 * right / facts.sent:.0f} %, {right} of {facts.sent} bits "
-f"({low:.0f} to {high:.0f} %)")
-
+            )
+        return "; ".join(
+            f"{decoder} {100 * right / facts.sent:.0f} %, {right} of {facts.sent} bits "
+            f"({low:.0f} to {high:.0f} %)"
             for decoder, right, low, high in facts.counts
-        )  # fmt: skip
-        return "; ".join(counts)
+        )

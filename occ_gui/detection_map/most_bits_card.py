@@ -88,8 +88,10 @@ class MostBitsCard(QFrame):
         if best is None or best.scene is None:
             return "Which code, frequency and bits carry most?"
         sent = best.scene.transmitter
-        text = (f"{best.bits_a_second:,.0f} bits a second, {sent.payload_length} a picture in "
-f"{sent.line_code} at {HERTZ.format(sent.switching_frequency, _DIGITS)}, "
-            f"read by {best.decoder}")  # fmt: skip
+        text = (
+            f"{best.bits_a_second:,.0f} bits a second, {sent.payload_length} a picture in "
+            f"{sent.line_code} at {HERTZ.format(sent.switching_frequency, _DIGITS)}, "
+            f"read by {best.decoder}"
+        )
         when = "Earlier scene" if self._is_outdated else "So far" if self._state else "Most"
         return f"{when}: {text}"

@@ -55,6 +55,8 @@ def export(job: ExportJob) -> Exported:
     if job.folder is not None:
         return Exported(job, _write_all(job.folder, job.requests))
     (request,) = job.requests
+    if job.path is not None:  # what takes a second to draw is refused before
+        check_replaceable(job.path)
     drawing = request.draw()
     if job.path is not None:
         drawing.write(job.path, request.provenance(drawing))
@@ -74,7 +76,8 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     try:
         remove_left_behind(folder)
         with folder_aside(folder) as aside:
-            drawn = {id(drawing): (drawing, request) for drawing, request in _drawn(requests)}
+            pairs = [(request.draw(), request) for request in requests]
+            drawn = {id(drawing): (drawing, request) for drawing, request in pairs}
             # Refused in a moment what takes seconds to draw; looked at again when it is drawn.
             for drawing, _ in drawn.values():
                 for path in files_of(drawing, folder):
@@ -92,7 +95,3 @@ def _write_all(folder: Path, requests: Sequence[FigureRequest]) -> list[Path]:
     finally:
         if is_new and not any(folder.iterdir()):
             folder.rmdir()
-
-
-def _drawn(requests: Sequence[FigureRequest]) -> "list[tuple[Drawing, FigureRequest]]":
-    return [(request.draw(), request) for request in requests]

@@ -90,10 +90,7 @@ class FilmBar(QWidget):
         self.cameras.clear()
         for device in devices or ():
             action = self.cameras.addAction(in_menu(device.name))
-            action.triggered.connect(lambda _=False, device=device: self._choose(device))
+            action.triggered.connect(lambda _=False, device=device: self.camera_chosen.emit(device))
         if not devices:
             words = "No camera was found" if devices is not None else "Looking…"
             self.cameras.addAction(words).setEnabled(False)
-
-    def _choose(self, device: CameraDevice) -> None:
-        self.camera_chosen.emit(device)

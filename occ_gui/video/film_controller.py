@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal
 import occ_model as occ
 from occ_gui.background.task import Report, Task
 from occ_gui.scene.scene_store import SceneStore
-from occ_gui.shell.results import Board, Results
+from occ_gui.shell.results import Board
 from occ_gui.shell.work import Work
 from occ_gui.values.film_choice import FilmChoice, FilmSource
 from occ_gui.video.frame_jobs import FrameRequest, ShownFrame, shown_frame
@@ -23,10 +23,6 @@ _DRAFT_STEP = 8  # a draft of the simulated frame shows one of so many rows, whi
 def _open(source: FilmSource, report: Report) -> Video:
     report(0.0)
     return occ.load_video(source.path, source.axis)
-
-
-def _put(results: Results, film: Video | None) -> Results:
-    return replace(results, film=film)
 
 
 class FilmController(QObject):
@@ -56,7 +52,8 @@ class FilmController(QObject):
         self.player.wanted.connect(self.show)
         self.opener = Work(
             scenes.store, board, Task(_open, "opening of the film", impatient=True),
-            lambda workspace, _: workspace.film.source, _put, stays=True, keep=1,
+            lambda workspace, _: workspace.film.source,
+            lambda results, film: replace(results, film=film), stays=True, keep=1,
         )  # fmt: skip
         self.opener.failed.connect(self._fail)
         board.select(lambda results: results.film).changed.connect(self._settle)

@@ -94,9 +94,8 @@ class RecordingForm(QWidget):
         gap, share = self.recording.gap(scene), 100.0 * self.recording.gap_ratio(scene)
         self.gap.setText(
             f"Between two frames no column is read for {SECOND.format(gap, 4)}, "
-f"{share:.1f} % of a frame."
-
-        )  # fmt: skip
+            f"{share:.1f} % of a frame."
+        )
 
     def _take(self, name: str, value: float) -> None:
         try:

@@ -50,8 +50,5 @@ class Dock(QDockWidget):
 
     def _on_floated(self, floats: bool) -> None:
         # Not while the mouse holds it.
-        if floats and self._place.isValid() and not self._is_dragged():
+        if floats and self._place.isValid() and QWidget.mouseGrabber() is not self:
             self.setGeometry(beside(self._place, self.screen().availableGeometry()))
-
-    def _is_dragged(self) -> bool:
-        return QWidget.mouseGrabber() is self

@@ -169,6 +169,11 @@ class SharedWindow:
         self._first: list[object] = []
         self._home: Home | None = None
         self._before: list[QWidget] = []
+        self._is_looked_at = False
+
+    def look_before_lending(self) -> None:
+        """Look at the kept window before it is lent again: a test has a window of its own."""
+        self._is_looked_at = True
 
     @property
     def is_kept(self) -> bool:
@@ -179,6 +184,10 @@ class SharedWindow:
         """Lend the window to a test: the one that is kept, or a new one."""
         if self._kept is not None and self._scene != scene:  # that of tests in another folder
             self.close()
+        if self._kept is not None and self._is_looked_at:
+            if not self._is_as_at_first(qtbot, scene, self._kept):
+                self.close()
+        self._is_looked_at = False
         if self._kept is None:
             self._open(qtbot, scene)
         assert self._kept is not None

@@ -225,9 +225,8 @@ def test_the_verdict_on_a_picture_is_what_the_study_counts_of_it(number: int) ->
         assert (verdict.state is State.BAD) == (right == 0)
 
 
-@pytest.mark.parametrize(
-    "preset", ["phone-136us", pytest.param("phone-136us-real", marks=pytest.mark.whole)]
-)
+@pytest.mark.whole  # each day a test of the limits holds that an advice leads within them
+@pytest.mark.parametrize("preset", ["phone-136us", "phone-136us-real"])
 def test_where_the_advice_leads_the_code_is_read(preset: str) -> None:
     scene = occ.load_preset(preset)
     scene = scene.replace(

@@ -104,6 +104,7 @@ def test_both_ends_of_an_interval_are_found_to_the_stated_ratio(
         assert min(works, fails) <= truth <= max(works, fails)
         assert max(works, fails) / min(works, fails) <= NEAR
         assert range_end.inside is not None
+        assert low <= range_end.inside.value <= high
         assert range_end.interval[0] <= truth <= range_end.interval[1]
         assert range_end.interval[1] / range_end.interval[0] <= NEAR**3
 

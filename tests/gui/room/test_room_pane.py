@@ -1,8 +1,10 @@
 """The pane of the room shows the place that a picture tells, and follows what is dragged."""
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -29,6 +31,29 @@ from occ_model.room.view import aim_of, aimed_at, rotation
 from occ_model.scene.scene import Scene
 
 ROOM = small_room(turned=0.0, camera=Place(x=0.6, y=0.6, z=-0.2, roll=0.4))
+
+
+@pytest.fixture(scope="module")
+def known() -> dict[tuple[object, ...], Any]:
+    """Keep what was seen and read of rooms by the tests of this file."""
+    return {}
+
+
+@pytest.fixture(autouse=True)
+def each_room_is_seen_and_read_once(
+    known: dict[tuple[object, ...], Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def once(work: Callable[..., Any]) -> Callable[..., Any]:
+        def remembered(*asked: Any, **how: Any) -> Any:
+            key = (work, *(each.tobytes() if hasattr(each, "tobytes") else each for each in asked))
+            if key not in known:
+                known[key] = work(*asked, **how)
+            return known[key]
+
+        return remembered
+
+    for name in ("render_room", "read_room"):
+        monkeypatch.setattr(jobs, name, once(getattr(jobs, name)))
 
 
 @pytest.fixture

@@ -184,10 +184,10 @@ class SharedWindow:
         """Lend the window to a test: the one that is kept, or a new one."""
         if self._kept is not None and self._scene != scene:  # that of tests in another folder
             self.close()
-        if self._kept is not None and self._is_looked_at:
-            if not self._is_as_at_first(qtbot, scene, self._kept):
-                self.close()
-        self._is_looked_at = False
+        kept, is_looked_at, self._is_looked_at = self._kept, self._is_looked_at, False
+        if kept is not None and is_looked_at and not self._is_as_at_first(qtbot, scene, kept):
+            kept = None
+            self.close()
         if self._kept is None:
             self._open(qtbot, scene)
         assert self._kept is not None

@@ -5,16 +5,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from amount import amount
 from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
-EVERYDAY = 3_000
-"""Cases of all laws together where ``OCC_HARD_CASES`` does not ask for more."""
-
 LAWS = 40
 """Laws that share them: at least so many are tried."""
-
-_EACH = max(int(os.environ.get("OCC_HARD_CASES", EVERYDAY)) // LAWS, 20)
 
 
 @dataclass
@@ -50,12 +46,17 @@ def record(law: str, ranges: str, error: float) -> None:
 Test = Callable[..., None]
 
 
+def _cases_of_a_law() -> int:
+    """Return how many of all there are; it is known how much is tried once pytest is configured."""
+    return max(int(os.environ.get("OCC_HARD_CASES", amount(1_600, 3_000))) // LAWS, 20)
+
+
 def cases(**strategies: SearchStrategy[Any]) -> Callable[[Test], Test]:
     """Try a test on generated cases, always the same ones."""
 
     def decorate(test: Test) -> Test:
         chosen = settings(
-            max_examples=_EACH,
+            max_examples=_cases_of_a_law(),
             deadline=None,
             derandomize=True,
             database=None,

@@ -39,11 +39,13 @@ def nearest_other(
     products = responses.T @ (weight[:, None] * responses)
     energy = np.einsum("ij,ij->i", others @ products, others)
     likeness = towards / np.sqrt(np.maximum(energy, 1e-12))
-    return np.asarray(others[int(likeness.argmax())], dtype=np.uint8)
+    own = {np.roll(chips, turn).tobytes() for turn in range(len(chips))}
+    ordered = (others[place].astype(np.uint8) for place in np.argsort(-likeness, kind="stable"))
+    return next((one for one in ordered if one.tobytes() not in own), None)
 
 
 def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
-    """Return the sequences to compare, shape (sequences, chips), without the turned given one."""
+    """Return the sequences to compare, shape (sequences, chips), also the given one turned."""
     count = len(chips)
     turn = (np.arange(count)[:, None] + np.arange(count)) % count
     is_packet = sends_paper_code(transmitter) and count == packet_length(transmitter.bits)
@@ -54,9 +56,7 @@ def _others(chips: ByteArray, transmitter: Transmitter) -> FloatArray:
         one = np.eye(count, dtype=np.uint8)
         others = chips ^ np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
     changes = others.min(axis=1) != others.max(axis=1)
-    own = {turned.tobytes() for turned in chips[turn].astype(np.uint8)}
-    differs = np.array([row.tobytes() not in own for row in others.astype(np.uint8)])
-    return np.asarray(others[changes & differs], dtype=np.float64)
+    return np.asarray(others[changes], dtype=np.float64)
 
 
 def _responses(timing: Timing, chips: int, columns: int) -> FloatArray:

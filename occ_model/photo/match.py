@@ -96,7 +96,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
         check_scene(scene)
         scene = scene.replace(gamma=1.0, enhancement="none")
         averaging, fit_gamma = "light", False
-    _check(scene, estimate, sent, averaging)
+    check_words(scene, estimate, sent, averaging)
     report = _Progress(progress or (lambda _share: None))
     report(0.0)
     stripes, scene = find_stripes(photo, region), with_notes(scene, photo)
@@ -202,7 +202,8 @@ class _Progress:
             self(self._share)
 
 
-def _check(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
+def check_words(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
+    """Refuse what is no scene, and words that are not allowed, before any work."""
     check_scene(scene)
     check_choice("estimate", estimate, ESTIMATES)
     check_choice("sent", sent, PATTERN_SOURCES)

@@ -5,13 +5,13 @@ from pathlib import Path
 
 from occ_model.errors import MatchError, PhotoError
 from occ_model.parallel.job import Heartbeat
-from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, match_photo
+from occ_model.photo.match import ESTIMATES, PATTERN_SOURCES, check_words, match_photo
 from occ_model.photo.reading.choices import CHANNELS, SCAN_AXES
 from occ_model.photo.reading.load import Photo, load_photo
 from occ_model.results.match import Match
 from occ_model.results.photo_table import REFUSED, UNREADABLE, PhotoRow, known_beside
 from occ_model.scene.argument_checks import check_choice
-from occ_model.scene.scene import Scene, check_scene
+from occ_model.scene.scene import Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,9 +39,7 @@ class MatchSettings:
 
     def check(self) -> None:
         """Refuse settings that are not allowed, before any photo is read."""
-        check_scene(self.scene)
-        check_choice("estimate", self.estimate, ESTIMATES)
-        check_choice("sent", self.sent, PATTERN_SOURCES)
+        check_words(self.scene, self.estimate, self.sent, self.averaging)
         check_choice("scan_axis", self.scan_axis, SCAN_AXES)
         check_choice("channel", self.channel, CHANNELS)
         for place, _ in self.known:

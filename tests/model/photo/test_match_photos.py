@@ -3,6 +3,7 @@
 import csv
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -263,14 +264,18 @@ def test_a_photo_of_another_lamp_is_matched_with_its_own_frequency() -> None:
 
 
 @pytest.mark.parametrize(
-    ("known", "said"),
-    [({1: 5e3}, "place"), ({0.5: 1.0}, "place")],
+    ("setting", "said"),
+    [
+        ({"known": {1: 5e3}}, "place"),
+        ({"known": {0.5: 1.0}}, "place"),
+        ({"sent": "guessed"}, "sent"),
+        ({"averaging": "median"}, "averaging"),
+        ({"channel": "infrared"}, "channel"),
+    ],
 )
-def test_a_known_value_that_cannot_be_is_refused_before_any_work(
-    known: dict[int, float], said: str
-) -> None:
+def test_what_cannot_be_is_refused_before_any_work(setting: dict[str, Any], said: str) -> None:
     with pytest.raises(occ.ParameterError, match=said):
-        occ.match_photos([Path("nowhere.png")], SCENE, known=known)
+        occ.match_photos([Path("nowhere.png")], SCENE, **setting)
 
 
 @pytest.mark.parametrize("photos", [[], ()])

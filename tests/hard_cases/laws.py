@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
 LAWS = 40
-"""Laws that share them: at least so many are tried."""
+"""Laws that share all cases: at least so many are tried."""
 
 
 @dataclass
@@ -47,7 +47,7 @@ Test = Callable[..., None]
 
 
 def _cases_of_a_law() -> int:
-    """Return how many of all there are; it is known how much is tried once pytest is configured."""
+    """Return a law's part of all cases; how much is tried is known once pytest is configured."""
     return max(int(os.environ.get("OCC_HARD_CASES", amount(1_600, 3_000))) // LAWS, 20)
 
 

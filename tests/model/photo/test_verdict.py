@@ -3,6 +3,7 @@
 import pickle
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from simulated_photos import photo_of, random_scene, take
 from verdicts import Said, said_of_negative, said_of_other_code, said_of_unknown_chips
 
 import occ_model as occ
+from occ_model.photo.evidence.doubts import _doubts_by_reading
 from occ_model.photo.evidence.hypothesis import Hypothesis
 from occ_model.photo.fit.chip_runs import pulse, runs_of
 from occ_model.photo.fit.initial_search import Search
@@ -160,6 +162,17 @@ def test_chips_that_are_read_in_place_of_a_given_pulse_are_never_sure() -> None:
     assert any("as is given" in why for why in match.reasons)
 
 
+def test_bright_runs_that_white_lengthens_may_be_those_of_longer_chips() -> None:
+    runs = [(2, 1), (1, 3), (3, 2)]  # bright and dark, in chips of two, each a half too long
+    chips = np.concatenate([[1] * (2 * on + 1) + [0] * (2 * off - 1) for on, off in runs])
+    found: Any = SimpleNamespace(chips=chips.astype(np.uint8), read_again=False)
+    white, dark = (SimpleNamespace(saturated=share, period=None) for share in (0.5, 0.0))
+    (why,) = _doubts_by_reading(found, white)  # type: ignore[arg-type]
+    assert "12 chips that last 2 times as long explain the same edges" in why
+    assert _doubts_by_reading(found, dark) == []  # type: ignore[arg-type]
+
+
+@pytest.mark.whole
 def test_chips_are_never_surely_taken_for_half_chips_where_white_lengthens_them() -> None:
     """Half of the picture is white, and every bright run is longer by half a chip."""
     said = said_of_unknown_chips(996029)

@@ -21,6 +21,8 @@ from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
 _LEAST_DEVIATION = 0.02  # minimum standard deviation of a column mean in grey levels
+_MOST_CORRECTIONS = 4  # steps by which levels are corrected for the blur of grey levels
+_LEAST_CORRECTION = 1e-4  # light of white
 _COLUMNS_PER_SLOW_SHAPE = 8  # minimum number of columns per polynomial that is projected out
 
 
@@ -185,14 +187,20 @@ class LitProfile:
         return solved(fitted.products, pulls)
 
     def _corrected(self, seen: Seen, sharp: FloatArray, levels: FloatArray) -> FloatArray:
-        """Correct levels that were found as if light were blurred by a Gauss-Newton step.
+        """Correct levels that were found as if light were blurred, by Gauss and Newton's steps.
 
-        Their shapes are so smooth that blur does not change them.
+        Their shapes are so smooth that blur does not change them. Dark columns beside bright ones,
+        whose light a blurred grey level hides, need several steps.
         """
-        light = LitColumns(self._wide_shapes, sharp).light(levels)
-        kept, white = self._steep(seen, sharp, light), self._at_white(seen, self._dark)
-        missing = self._less_blurred(seen, light), 1.0 - white.light(levels)
-        return levels + self._explained(seen, kept, white, missing)
+        white = self._at_white(seen, self._dark)
+        for _ in range(_MOST_CORRECTIONS):
+            light = LitColumns(self._wide_shapes, sharp).light(levels)
+            missing = self._less_blurred(seen, light), 1.0 - white.light(levels)
+            change = self._explained(seen, self._steep(seen, sharp, light), white, missing)
+            levels = levels + change
+            if np.abs(change).max() < _LEAST_CORRECTION:
+                break
+        return levels
 
     def _slopes_of_blurred(
         self, seen: Seen, rates: SeenSlopes, sharp: FloatArray, by_sharp: FloatArray

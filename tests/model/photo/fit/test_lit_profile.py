@@ -103,6 +103,31 @@ def test_blurred_grey_levels_of_the_model_leave_next_to_no_residual() -> None:
     assert np.std(as_values) < 0.1 * np.std(as_light)
 
 
+def test_dark_columns_beside_bright_ones_are_followed_where_grey_levels_are_blurred() -> None:
+    """Their light cannot be told from blurred grey levels; its curve is steep near black."""
+    kernel = blur_kernel(1.5)
+    dark, swing = np.full(COLUMNS + 2 * REACH, 0.001), np.pad(SWING, REACH, mode="edge")
+    table = ToneCurve(2.2).table()
+    values = blurred(table.value_of(dark + swing * SHARP), kernel)
+    lit = BlurredLight(CHIPS, COLUMNS).lit_fraction(TIMING, 1.5, 0.02)
+    residual = profile_of(values, ALL, ~ALL).residual(Seen(lit, table, SHARP, kernel))
+    assert residual == pytest.approx(np.zeros(COLUMNS), abs=0.02)
+
+
+def test_white_holds_the_levels_where_grey_levels_are_blurred() -> None:
+    """Dark columns alone do not show how bright a lamp is that is white wherever it is lit."""
+    kernel, picture = blur_kernel(0.8), 4.0 * (DARK + SWING * LIT)
+    clipped = picture > 0.95
+    near = np.convolve(clipped, np.ones(7), mode="same") > 0.0
+    values = TABLE.value_of(picture) + 0.5 * NOISE
+    part = profile_of(np.where(clipped, 255.0, values), ~near, clipped)
+    levels = part._fitted(Seen(LIT, TABLE, SHARP, kernel)).shown
+    dark, swing = np.split(levels, 2)
+    light = SHAPES @ dark + SHAPES @ swing * LIT
+    assert light[clipped].min() > 0.95
+    assert light[clipped].max() < 10.0
+
+
 def test_slow_shapes_are_orthonormal_and_hold_what_is_slow() -> None:
     part = profile_of(TABLE.value_of(DARK + SWING * LIT), ALL, ~ALL)
     noise = 1.0 + 0.5 * LIT

@@ -15,6 +15,7 @@ from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.exposure_modes import exposure_modes
 from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
+from occ_model.photo.fit.lamp_rims import without_rims
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.stripes.evenly_lit import Cells
@@ -76,14 +77,18 @@ def refined(
     if explanation.camera.enhancement == "equalization" or not profiles:
         return Refined(explanation.fits)
     with_gamma = explanation.fits[0].covariance[3, 3] > 0.0
-    models = [
-        JointModel(
-            profiles, chips, step, gamma, values_blurred=blurred, wide=with_gamma, check=check
-        )
-        for blurred in (False, True)
-    ]
+
+    def model_by(gamma: float, *, values_blurred: bool = False) -> JointModel:
+        return JointModel(
+            profiles, chips, step, gamma,
+            values_blurred=values_blurred, wide=with_gamma, check=check,
+        )  # fmt: skip
+
+    best = min(explanation.fits, key=lambda fit: fit.residual)
+    profiles = without_rims(profiles, model_by(gamma), best, stripes.profile)
+    models = [model_by(gamma, values_blurred=blurred) for blurred in (False, True)]
     if not with_gamma and explanation.camera.averaging == "pixel-value":
-        models.append(JointModel(profiles, chips, step, 1.0, check=check))
+        models.append(model_by(1.0))
     model = StripeModel(
         stripes.profile, chips, explanation.camera.tone, step,
         explanation.camera.rank_resolution,

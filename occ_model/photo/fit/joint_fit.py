@@ -265,6 +265,21 @@ class JointModel:
             self._noise[number] = np.concatenate([deviation, white])
             self._slow[number] = part.slow(deviation)
 
+    def misfit_of_columns(self, values: FloatArray) -> FloatArray:
+        """Return the mean square of each column's residual over the profiles that show it.
+
+        In grey levels, shape (columns,); NaN for a column that none shows unclipped.
+        """
+        seen, squares, count = (
+            self._seen.by(values),
+            np.zeros(self._columns),
+            np.zeros(self._columns),
+        )
+        for part in self._parts:
+            squares[part.kept] += part.residual(seen)[: part.data.size] ** 2
+            count[part.kept] += 1.0
+        return np.where(count > 0.0, squares / np.maximum(count, 1.0), np.nan)
+
     def edges_seen(self, values: FloatArray) -> float:
         """Return the largest unclipped fraction of the edges' columns in a profile."""
         lit = self._seen.by(values).lit

@@ -32,6 +32,10 @@ _MOST_UNSURE, _MOST_UNKNOWN = 0.03, 0.1
 """Relative standard deviations of the readout time, or the frequency, above which a match is
 doubtful, and above which it is refused."""
 
+_MOST_UNSURE_EXPOSURE = 0.5
+"""Relative standard deviation of the exposure time above which it is doubtful: two of them reach
+from it to nothing."""
+
 _MOST_EDGE_ERROR = 0.25  # maximum error of the outermost edges in shortest pulses
 
 
@@ -76,6 +80,7 @@ def described(
     scene = with_levels(at_the_photo(scene, photo, region), fit)
     uncertainties = _uncertainties(fit, estimate, scene, region.first_column)
     unsure = _doubts_by_error(estimate, float(scene.value(estimate)), uncertainties[estimate])
+    unknown = uncertainties["exposure_time"] / scene.camera.exposure_time
     scene = _rounded(scene, uncertainties)
     if was_read and is_single_pulse(explanation.chips):
         # The duty stated is that of whole chips, and so off by what the fit makes of it, too.
@@ -101,6 +106,7 @@ def described(
         reasons=(*better.doubts, *unsure),
         exposure_reasons=(
             *better.exposure_doubts,
+            *_doubts_by_share("exposure_time", unknown, _MOST_UNSURE_EXPOSURE),
             *_doubts_by_others(photo, explanation),
             *_doubts_by_note(photo, camera.exposure_time, uncertainties["exposure_time"]),
         ),
@@ -109,15 +115,18 @@ def described(
 
 def _doubts_by_error(estimate: str, value: float, deviation: float) -> list[str]:
     share = deviation / value
-    if share <= _MOST_UNSURE:
+    if refusal := _doubts_by_share(estimate, share, _MOST_UNKNOWN):
+        raise MatchError(*refusal)
+    return _doubts_by_share(estimate, share, _MOST_UNSURE)
+
+
+def _doubts_by_share(name: str, share: float, limit: float) -> list[str]:
+    """Say that a relative standard deviation is beyond its limit."""
+    if share <= limit:
         return []
-    limit = _MOST_UNSURE if share <= _MOST_UNKNOWN else _MOST_UNKNOWN
     shown, most = told_apart(100.0 * share, 100.0 * limit)
-    what = PARAMETERS[estimate].label.lower()
-    sentence = f"The {what} is known only to {shown} %; at most {most} % are allowed."
-    if share > _MOST_UNKNOWN:
-        raise MatchError(sentence)
-    return [sentence]
+    what = PARAMETERS[name].label.lower()
+    return [f"The {what} is known only to {shown} %; at most {most} % are allowed."]
 
 
 def _doubts_by_others(photo: Photo, explanation: Explanation) -> list[str]:

@@ -103,6 +103,35 @@ def test_an_exposure_of_a_square_wave_in_bright_surroundings_is_doubted(seed: in
     assert any("A square wave looks nearly the same" in why for why in match.exposure_reasons)
 
 
+def test_an_exposure_that_may_be_none_at_all_is_doubted() -> None:
+    """A column's exposure behind long tails of blur: two deviations of it reach nothing."""
+    world = small_world(3, exposure_time=10e-6, blur=1.4, blur_shape="exponential")
+    photo = photo_of(photograph(replace(world, curve=power(2.22))))
+    match = occ.match_photo(photo, told(world), sent="scene")
+    assert match.uncertainties["exposure_time"] > 0.5 * match.exposure_time
+    assert match.verdict == "sure"
+    assert any(why.startswith("The exposure time is known only") for why in match.exposure_reasons)
+
+
+@pytest.mark.whole
+@pytest.mark.parametrize("seed", [1020061, 1120222])
+def test_errors_hold_where_grey_levels_near_black_are_blurred(seed: int) -> None:
+    """Of levels that were corrected once, exposures were 3.8 and 4.9 deviations off."""
+    one = trial(random_world(seed))
+    assert one.is_sure_of("exposure")
+    assert abs(one.readout) < 2.0 * one.readout_deviation
+    assert abs(one.exposure) < 2.0 * one.exposure_deviation < 0.05
+
+
+@pytest.mark.whole
+def test_errors_hold_where_only_the_dark_chips_are_not_white() -> None:
+    """How bright the lamp is then follows from what is white alone (seed 1020109)."""
+    one = trial(random_world(1020109))
+    assert one.is_sure_of("exposure")
+    assert abs(one.readout) < 3.0 * one.readout_deviation < 3e-4
+    assert abs(one.exposure) < 2.0 * one.exposure_deviation < 0.4
+
+
 def test_edges_hidden_by_white_are_doubted() -> None:
     """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)

@@ -132,6 +132,15 @@ def test_errors_hold_where_only_the_dark_chips_are_not_white() -> None:
     assert abs(one.exposure) < 2.0 * one.exposure_deviation < 0.4
 
 
+@pytest.mark.whole
+def test_an_exposure_is_not_another_one_of_its_own() -> None:
+    """Two searches that end at 0.108 chips found one exposure, and not two (seed 1120060)."""
+    world = random_world(1120060)
+    match = occ.match_photo(photo_of(photograph(world)), told(world), sent="scene")
+    assert match.other_exposures == ()
+    assert not any("Other exposure times" in why for why in match.exposure_reasons)
+
+
 def test_edges_hidden_by_white_are_doubted() -> None:
     """A short exposure of a lamp far brighter than white: its ramps end within a column or two."""
     world = small_world(3, exposure_time=40e-6, saturated=0.58, ambient=0.0005)

@@ -50,7 +50,7 @@ def averaged(fits: Sequence[JointFit]) -> JointFit:
 
 
 def distinct(fits: Sequence[JointFit]) -> list[JointFit]:
-    """Keep the best fit of each minimum of one model: several starts may end in the same one.
+    """Keep the best fit of each minimum, the best first: several starts may end in the same one.
 
     Two are the same where their exposures differ by less than the better one's deviation.
     """

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.averaged_fits import averaged
+from occ_model.photo.fit.averaged_fits import averaged, distinct
 from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
 from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
 from occ_model.photo.fit.joint_fit import JointFit, JointModel
@@ -75,7 +75,7 @@ def exposure_modes(
             _MOST_SQUARE_WAVE_RATIO * least,
             lambda fit: is_possible(first.timing(fit.values)),
         )
-    return sorted(kept, key=lambda fit: fit.misfit), alike
+    return distinct(kept), alike
 
 
 def _other_starts(

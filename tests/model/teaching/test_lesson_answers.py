@@ -179,9 +179,9 @@ def test_the_photos_give_what_the_answers_say(
         assert found.scene.transmitter.code == 345 != asked.scene.transmitter.code
         assert "doubtful" in asked.answer
         assert found.verdict == "doubtful"
-        assert "137 µs give or take 4" in asked.answer
-        assert found.exposure_time == pytest.approx(137e-6, abs=0.5e-6)
-        assert found.uncertainties["exposure_time"] == pytest.approx(4e-6, abs=0.5e-6)
+        assert "135.9 µs give or take 0.3" in asked.answer
+        assert found.exposure_time == pytest.approx(135.9e-6, abs=0.05e-6)
+        assert found.uncertainties["exposure_time"] == pytest.approx(0.3e-6, abs=0.05e-6)
         assert "it was 136 µs" in asked.answer
         assert abs(found.exposure_time - 136e-6) < 3 * found.uncertainties["exposure_time"]
 

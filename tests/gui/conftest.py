@@ -160,7 +160,7 @@ def application(
         with kept_window.lent(qtbot, small_scene) as application:
             yield application
         return
-    kept_window.look_before_lending()
+    kept_window.close()
     before = QApplication.topLevelWidgets()
     application = new_window(qtbot, small_scene)
     yield application

@@ -169,11 +169,6 @@ class SharedWindow:
         self._first: list[object] = []
         self._home: Home | None = None
         self._before: list[QWidget] = []
-        self._is_looked_at = False
-
-    def look_before_lending(self) -> None:
-        """Look at the kept window before it is lent again: a test has a window of its own."""
-        self._is_looked_at = True
 
     @property
     def is_kept(self) -> bool:
@@ -183,10 +178,6 @@ class SharedWindow:
     def lent(self, qtbot: QtBot, scene: Scene) -> Iterator[Application]:
         """Lend the window to a test: the one that is kept, or a new one."""
         if self._kept is not None and self._scene != scene:  # that of tests in another folder
-            self.close()
-        kept, is_looked_at, self._is_looked_at = self._kept, self._is_looked_at, False
-        if kept is not None and is_looked_at and not self._is_as_at_first(qtbot, scene, kept):
-            kept = None
             self.close()
         if self._kept is None:
             self._open(qtbot, scene)

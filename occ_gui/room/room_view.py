@@ -77,7 +77,7 @@ class RoomView(QWidget):
             widget.hide()
         self.measure = push_button(
             "&Measure the floor",
-            "Take a picture at each of 25 places below the lamps, and see where the place is found.",
+            "Take a picture at each of 25 places below the lamps, and see which place is found.",
             self.map_asked,
         )
         self.headline, self.sentences, self.floor = paragraph(), paragraph(), paragraph()

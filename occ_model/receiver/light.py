@@ -82,6 +82,13 @@ def _expected_light(scheme: Scheme | None, exposure: float) -> FloatArray:
         chips = np.concatenate([scheme.encode(payload) for payload in payloads])
     else:
         chips = random.integers(0, 2, _CHIPS, dtype=np.uint8)
+    light = light_of_chips(chips, exposure)
+    light.flags.writeable = False
+    return light
+
+
+def light_of_chips(chips: ByteArray, exposure: float) -> FloatArray:
+    """Return the lit fractions of exposures of repeated chips in the order of time, 16 a chip."""
     starts = (np.arange(len(chips) * PER_CHIP) + 0.5) / PER_CHIP
     lit = np.concatenate([[0.0], np.cumsum(chips)])
     ends = starts + exposure % len(chips)
@@ -89,6 +96,4 @@ def _expected_light(scheme: Scheme | None, exposure: float) -> FloatArray:
     integral = np.concatenate([lit, lit[1:] + lit[-1]])
     whole = np.floor(exposure / len(chips)) * lit[-1]
     light = np.interp(ends, chip_edges, integral) - np.interp(starts, chip_edges, integral) + whole
-    light /= exposure
-    light.flags.writeable = False
-    return np.asarray(light)
+    return np.asarray(light / exposure)

@@ -202,15 +202,24 @@ def test_the_number_of_bits_in_a_header_is_that_of_the_payload(bits: int) -> Non
         assert tuple(result.bits.tolist()) == scene.transmitter.payload_bits
 
 
-def test_chips_that_no_rule_refuses_are_read_rightly_or_not_at_all() -> None:
+@pytest.mark.parametrize(
+    ("decoder", "bits", "codes", "exposures", "read"),
+    [
+        ("sequence", 4, (1, 5, 7, 9), (2.7, 3.7), 4),
+        ("equalizer", 8, (48, 93, 102, 111), (3.4, 4.6, 5.5), 3),
+    ],
+)
+def test_chips_that_no_rule_refuses_are_read_rightly_or_not_at_all(
+    decoder: str, bits: int, codes: tuple[int, ...], exposures: tuple[float, ...], read: int
+) -> None:
     base = occ.Scene().replace(
-        line_code="nrz", framing="paper", bits=4, code=0, enhancement="none", columns=1000
+        line_code="nrz", framing="paper", bits=bits, code=0, enhancement="none", columns=1500
     )
-    read = []
-    for code in (1, 5, 7, 9):
-        for chips in (2.7, 3.7):
+    found = []
+    for code in codes:
+        for chips in exposures:
             scene = base.replace(code=code, exposure_time=chips / 10e3)
             signal = 40.0 + 160.0 * occ.on_time(scene) / scene.camera.exposure_time
-            result = occ.decode(signal, scene, decoder="sequence")
-            read += [] if result.code is None else [result.code == code]
-    assert read == [True] * 4
+            result = occ.decode(signal, scene, decoder)
+            found += [] if result.code is None else [result.code == code]
+    assert found == [True] * read

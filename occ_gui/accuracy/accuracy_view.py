@@ -69,7 +69,7 @@ class AccuracyView(QWidget):
             "What the tolerance limits",
             "What the tolerance limits: errors of the panel's pixels, of its column means, of "
             "the signal that a decoder reads, the column means after the enhancement, or of "
-            "the decision, as a share of the chips' margin.",
+            "the decision, as a fraction of the chips' margin.",
             {
                 "image": "picture",
                 "profile": "profile",

@@ -27,7 +27,7 @@ _Index = QModelIndex | QPersistentModelIndex
 Rows: TypeAlias = Callable[[], Sequence[EffectRow]]
 
 _GAP = 4  # pixels between two things that are drawn side by side
-_BAR_SHARE = 0.5  # share of the cell's width for the bar; the number takes the rest
+_BAR_SHARE = 0.5  # fraction of the cell's width for the bar; the number takes the rest
 
 
 def image_of(pixels: ByteArray) -> QImage:

@@ -13,7 +13,7 @@ _GAP = 8
 
 _TALL = 440  # height in pixels from which panels stand one over the other
 _COLUMNS = 1100  # width in pixels from which a high pane has two columns
-_TOP_SHARE = 0.56  # largest share of the height for the upper panel
+_TOP_SHARE = 0.56  # largest fraction of the height for the upper panel
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Panel:
     title: str
     widget: QWidget
     width: int  # the width in pixels that it needs beside others
-    weight: int  # its share of the width that is left over
+    weight: int  # its fraction of the width that is left over
 
 
 class Panels(QWidget):

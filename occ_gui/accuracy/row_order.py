@@ -13,7 +13,7 @@ STAGE, PICTURE, EFFECT, ERROR, TIME, SWITCH = range(6)
 SORTED = (STAGE, EFFECT, ERROR, TIME)
 
 LEAST_SCATTER = 0.1
-"""Times that differ by less than this share of the longer one are about equal, measured or not."""
+"""Times that differ by less than this fraction of the longer are about equal, measured or not."""
 
 Order: TypeAlias = tuple[int, bool]  # a column, and whether its largest value comes first
 

@@ -17,7 +17,7 @@ _MISSING = re.compile(r"^(\S+): cannot open shared object file")
 
 _LARGEST, _LEAST = QSize(1680, 1050), QSize(1280, 800)
 _SHARE = 0.92
-"""Share of the screen that the first window takes: what lies behind it stays in sight.
+"""Fraction of the screen that the first window takes: what lies behind it stays in sight.
 
 Where that is less than the sliders and the story need, the window takes the whole screen.
 """

@@ -18,7 +18,7 @@ from PySide6.QtCore import QObject, QTimer
 _INTERVAL_MS = 250
 
 _REST_S = 2.0  # how long the program is idle before memory is given back
-_IDLE = 0.1  # share of a processor that an idle program takes at most
+_IDLE = 0.1  # fraction of a processor that an idle program takes at most
 
 _WORTH_S = 1.0
 """Processor time of the work since memory was given back last, below which it is not again."""

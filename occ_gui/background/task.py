@@ -15,7 +15,7 @@ Result = TypeVar("Result")
 
 
 Report: TypeAlias = Callable[[Any], None]
-"""Takes a part of the result, the share of the work that is done, or None, which is not given on;
+"""Takes a part of the result, the fraction of the work done, or None, which is not given on;
 ends work that is not wanted by raising an exception."""
 
 

@@ -25,7 +25,7 @@ SYMBOLS = ("o", "s", "t1", "d", "star", "p")
 COLOURS: tuple[QColor, ...] = (SIMULATION, BAND, PHOTO, REGION, NOISE)
 
 _FLOOR = {RATES: -6, BITS: 0}  # powers of ten at which all that is smaller is drawn
-_MARGIN = 0.06  # margin beside the points, as a share of their range
+_MARGIN = 0.06  # margin beside the points, as a fraction of their range
 _TOP = 0.3  # margin above the points, in powers of ten
 
 _SIZE = 8

@@ -29,7 +29,7 @@ class BitStrip(QWidget):
 
     A right bit is a filled square; a wrong one is larger by its thick frame, crossed out, and
     orange; one that was not received is a dashed outline. Where there is no room for a digit, bars
-    stand for one bit or more: as high as their share of ones; higher than the row, and orange,
+    stand for one bit or more: as high as their fraction of ones; higher than the row, and orange,
     where one of them is wrong.
     """
 

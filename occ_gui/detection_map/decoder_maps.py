@@ -193,9 +193,9 @@ class MapPlots(QWidget):
             (share, self._number(low + share * (high - low), bool(low)))
             for share in (0.0, 0.25, 0.5, 0.75, 1.0)
         )
-        name = "Share of the bits that are read correctly, in percent"
+        name = "Fraction of the bits that are read correctly, in percent"
         if scheme == DIFFERENCES:
-            name = "Difference of the shares of bits that are read correctly, in percent"
+            name = "Difference of the fractions of bits that are read correctly, in percent"
         if self._shown == "bits":
             name = "Net bits a second, of pictures of which every bit is read correctly"
         self.bar.show_colours(image, numbers, name)

@@ -85,7 +85,7 @@ class MapView(QWidget):
         self.shown = KeyedComboBox(
             "What is shown",
             (
-                "Success rates, which are the shares of bits read; or the net bits a second of a "
+                "Success rates, the fractions of bits read; or the net bits a second of a "
                 "video, one payload a picture."
             ),
             {"rate": "success rate", "bits": "bits a second"},

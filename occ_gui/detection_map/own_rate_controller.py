@@ -20,7 +20,7 @@ _RANK = 1  # after a first answer of the map, before all else
 
 @dataclass(frozen=True, slots=True)
 class OwnRate:
-    """The share of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
+    """The fraction of right bits, from 0 to 1, with its 95 % interval, in so many pictures."""
 
     share: float
     low: float

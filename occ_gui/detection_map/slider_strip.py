@@ -1,4 +1,4 @@
-"""Strips as tracks of the sliders: the share of bits that a decoder would read along each."""
+"""Strips as tracks of the sliders: the fraction of bits that a decoder would read along each."""
 
 from typing import TYPE_CHECKING
 
@@ -36,7 +36,7 @@ class SliderStrip(QWidget):
         self._label = label
         self.shares: tuple[float | None, ...] = ()
         self.present: OwnRate | None = None
-        """The share of bits that are read at the scene's own value."""
+        """The fraction of bits that are read at the scene's own value."""
         slider.valueChanged.connect(self.update)
         self._is_outdated = self._is_faded = False
         self._fading = QTimer(self, singleShot=True)
@@ -49,7 +49,7 @@ class SliderStrip(QWidget):
     def _explain(self) -> None:
         known = [share for share in self.shares if share is not None]
         text = (
-            "Share of the bits that the decoder shown reads correctly along this slider, all "
+            "Fraction of the bits that the decoder shown reads correctly along this slider, all "
             f"else being equal: violet none, yellow all, grey not known. A mean over {IMAGES} "
             "pictures that begin at any time."
         )
@@ -212,7 +212,7 @@ class SliderStrips(QObject):
             self.legend.setVisible(shown)
 
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
-        """Show the share of bits read correctly at positions along a slider, None if not known."""
+        """Show the fraction of bits read correctly at positions of a slider, None if not known."""
         self.strips[name].show_shares(shares)
 
     def show_present(self, rate: "OwnRate | None") -> None:

@@ -21,7 +21,7 @@ RANKS = (3, 3)  # after all points of a map that is seen, before further images 
 
 class SliderStripPane(Protocol):
     def show_shares(self, name: str, shares: tuple[float | None, ...]) -> None:
-        """Show the share of correct bits at positions along a slider, None: not known."""
+        """Show the fraction of correct bits at positions along a slider, None: not known."""
 
     def show_outdated(self, name: str, outdated: bool) -> None: ...
 
@@ -119,7 +119,7 @@ def _share(point: SweepPoint) -> float | None:
 
 
 def _nearest(shares: Mapping[int, float | None], place: int) -> float | None:
-    """Return a position's share, or that of the known one on the coarser lattice beside it."""
+    """Return a position's fraction, or that of the known one on the coarser lattice beside it."""
     if place in shares:
         return shares[place]
     return shares.get(round(place / STRIDES[0]) * STRIDES[0])

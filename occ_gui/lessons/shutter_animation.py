@@ -20,7 +20,7 @@ from occ_model.results.teaching import RollingShutter
 
 _LOOP_MS = 9000
 _TURN_MS = 33
-_PAUSE = 0.12  # share of a loop for which the finished picture stays
+_PAUSE = 0.12  # fraction of a loop for which the finished picture stays
 
 _LIT, _DARK = QColor("#f2c14e"), QColor("#3c4048")
 _LAMP_HEIGHT, _STRIPE_HEIGHT, _GAP = 18, 26, 6
@@ -36,7 +36,7 @@ class ShutterAnimation(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self._shutter: RollingShutter | None = None
-        self.moment = 0.0  # share of the animation that has passed, from 0 to 1
+        self.moment = 0.0  # fraction of the animation that has passed, from 0 to 1
         self._is_stopped = False
         self._turns = QTimer(self)
         self._turns.setInterval(_TURN_MS)
@@ -166,7 +166,7 @@ class _Drawing:
 
 
 def _light(share: float) -> QColor:
-    """Return the colour between dark and lit that stands for a share of light."""
+    """Return the colour between dark and lit that stands for a fraction of light."""
     return mixed(_LIT, _DARK, share)
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _LEAST_HEIGHT = 56
 
-_PADDING = 0.2  # of the axis above and below its last ticks, as a share of what is between them
+_PADDING = 0.2  # of the axis above and below its last ticks, as a fraction of what is between them
 
 _STEPS = (5.0, 10.0, 15.0, 20.0, 30.0, 50.0, 75.0, 100.0, 150.0, 200.0, 255.0)
 """Grey levels at which the axis can end, so that it rarely changes."""

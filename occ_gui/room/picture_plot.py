@@ -10,7 +10,7 @@ from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.pens import BAND, SIMULATION, thin
 from occ_gui.widgets.plot import new_plot
 
-_NAME = 0.025  # share of the picture's height that half a name takes
+_NAME = 0.025  # fraction of the picture's height that half a name takes
 
 
 class PicturePlot(QWidget):

@@ -21,7 +21,7 @@ from occ_model.room.room import Place
 _DEVIATIONS = 2.0
 _ROUND = np.linspace(0.0, 2.0 * math.pi, 49)
 
-_SEEN_SIZE = 0.04  # share of the plan's width from which an ellipse can be seen
+_SEEN_SIZE = 0.04  # fraction of the plan's width from which an ellipse can be seen
 _MARGIN = 0.8  # metres around the lamps
 
 _DASHES = Qt.PenStyle.DashLine

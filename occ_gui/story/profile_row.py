@@ -28,7 +28,7 @@ _ROUNDED = 20.0
 
 _GRID = 38
 _SHADE = 22 / 255
-"""Share of the text's colour in that of the columns that the decoder does not read."""
+"""Fraction of the text's colour in that of the columns that the decoder does not read."""
 
 _WIDTH, _THIN = 2.0, 1.2
 _CROWDED = 2  # columns a pixel of the screen from which a curve is drawn thinner

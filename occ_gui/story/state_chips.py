@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from occ_gui.detection_map.own_rate_controller import OwnRate
 
 _COMPUTING = "computing"  # the chip of results that are still to come
-_READS = 0.99  # share of the bits from which a decoder counts as reading
+_READS = 0.99  # fraction of the bits from which a decoder counts as reading
 _MOST_FORCED = 2  # effects switched by hand that have a chip each; more share one
 
 

@@ -19,7 +19,7 @@ from occ_model.study.reading_facts import film_facts
 _INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
 _LIVE_INTERVAL = 0.03  # the same for a camera, whose picture is shown with each
 _LOOK_INTERVAL = 1.0  # seconds between two looks at all frames together
-_LOOK_SHARE = 0.2  # largest share of the time that looking at all frames together takes
+_LOOK_SHARE = 0.2  # largest fraction of the time that looking at all frames together takes
 MOST_LIVE = 900  # frames of a live film that are remembered: half a minute of 30 a second
 MOST_MARKS = 1_000_000  # packets up to which each has a mark of its own
 

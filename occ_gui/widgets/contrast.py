@@ -40,7 +40,7 @@ def _seen(paper_rgba: int, ink_rgba: int) -> QColor:
 
 
 def mixed(one: QColor, other: QColor, share: float) -> QColor:
-    """Return the opaque colour that a share of one colour over another has."""
+    """Return the opaque colour that a fraction of one colour over another has."""
     parts = zip(one.getRgb()[:3], other.getRgb()[:3], strict=True)  # type: ignore[index]
     return QColor(*(round(share * a + (1.0 - share) * b) for a, b in parts))
 

@@ -26,7 +26,7 @@ from occ_gui.window.style_sheet import style_sheet
 from occ_gui.window.toolbar.toolbar import ToolBar
 
 _OPENED_BELOW, _OPENED_BESIDE = 0.37, 0.26
-"""Shares of the window's height and width of a pane that opens below the middle, or beside it."""
+"""Fractions of the window's height and width for a pane opened below the middle, or beside it."""
 
 _FIRST_SIZE = QSize(1280, 800)
 _PROPAGATED = Qt.ApplicationAttribute.AA_UseStyleSheetPropagationInWidgetStyles

@@ -216,7 +216,7 @@ class Menus(QObject):
         tip = "The window as large as the screen, as for a projector."
         FullScreen(window, self._add(menu, "full_screen", "Fu&ll screen", "F11", tip))
         self._add(menu, "reset_layout", "&Reset layout")
-        tip = "The share of bits that the decoder reads along each slider."
+        tip = "The fraction of bits that the decoder reads along each slider."
         self._add(menu, "slider_strips", "&Slider strips", tip=tip, is_checkable=True)
         menu.addSeparator()
         for dock in docks:

@@ -141,7 +141,7 @@ def _lit_fraction(
     columns: int,
     start_time: float,
 ) -> FloatArray:
-    """Return the share for all that it depends on: what a scene is seen from changes nothing."""
+    """Return the fraction for all that it depends on: what a scene is seen from changes nothing."""
     waveform = _waveform(chips)
     frequency = Fraction(switching_frequency)
     exposure = Duration.of(Fraction(exposure_time) * frequency, waveform.period)

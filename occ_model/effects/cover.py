@@ -1,4 +1,4 @@
-"""The panel's share of the light of each pixel: its outline, bent and blurred by effects."""
+"""The panel's fraction of the light of each pixel: its outline, bent and blurred by effects."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -57,7 +57,7 @@ def covers_of(
     blurs: Mapping[str, float],
     plain: Optics,
 ) -> dict[frozenset[str], FloatArray | None]:
-    """Return the panel's share of each pixel, with each set of effects on the outline."""
+    """Return the panel's fraction of each pixel, with each set of effects on the outline."""
     found: dict[frozenset[str], FloatArray | None] = {}
     distances: dict[str, tuple[FloatArray, ...]] = {}
     for chosen in sets_of([*moved, *blurs]):
@@ -83,7 +83,7 @@ def sets_of(names: list[str]) -> list[frozenset[str]]:
 
 
 def _blurred(distance: FloatArray, blur: float) -> FloatArray:
-    """Return the share of the light at some distance within a blurred rim.
+    """Return the fraction of the light at some distance within a blurred rim.
 
     A narrow blur is one of whole pixels, whose weights are those of a Gaussian at whole distances.
     """

@@ -28,10 +28,10 @@ _LEAST_ESTIMATE = 1e-9
 """Estimate in grey levels of an effect that a scene has and a sample does not show."""
 
 _UNDITHERED_FRACTION = 0.25
-"""Share of a mean square by which a file without noise may change it further."""
+"""Fraction of a mean square by which a file without noise may change it further."""
 
 _READ_FRACTION = 0.15
-"""Share of a chip from its middle at which it is read."""
+"""Fraction of a chip from its middle at which it is read."""
 
 
 def observed(pixels: SampledPixels, observable: Observable) -> Observed:

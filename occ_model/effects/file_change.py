@@ -207,7 +207,7 @@ class FileChange:
         return np.asarray(moved_steps_of_noise(size[..., None] * spectrum) @ self._rim_weights)
 
     def _spectrum_along(self, dark: float, is_level: bool) -> FloatArray:
-        """Return the shares of the horizontal frequencies in a row of the panel, as amplitudes.
+        """Return the fractions of the horizontal frequencies in a row of the panel, as amplitudes.
 
         A rim that lies along the rows has those of the stripes, any other besides its own.
         """
@@ -220,7 +220,7 @@ class FileChange:
 
     @property
     def undithered_share(self) -> float:
-        """The share of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
+        """The fraction of rounding's sawtooth, 0 to 1, that noise leaves: mean over the steps."""
         return float(np.exp(-DAMPING * self._s**2).mean())
 
     def undithered(self) -> float:
@@ -233,7 +233,7 @@ class FileChange:
         return float(sharp.sum()) / 2.0 / 64.0
 
     def added_at_rims(self, shares: FloatArray, squares: FloatArray) -> FloatArray:
-        """Return what a file adds to changes that lie in some shares of the blocks.
+        """Return what a file adds to changes that lie in some fractions of the blocks.
 
         The changes are given as mean squares over all of the picture.
         """

@@ -54,7 +54,7 @@ def ambient_shares(scene: Scene) -> FloatArray:
 
 
 def response(scene: Scene) -> float:
-    """Return sinc(F t), the share of the flicker that an exposure leaves.
+    """Return sinc(F t), the fraction of the flicker that an exposure leaves.
 
     Whole cycles are subtracted before the sine, so that it is exactly 0 for a whole number of them.
     """

@@ -1,4 +1,4 @@
-"""The standard normal distribution, from tables: its share, and what a limit cuts off."""
+"""The standard normal distribution, from tables: its probabilities, and what a limit cuts off."""
 
 import math
 from functools import lru_cache
@@ -15,7 +15,7 @@ _PER_DEVIATION = 256
 
 @lru_cache(maxsize=1)
 def _tables() -> tuple[FloatArray, FloatArray]:
-    """Tabulate the share Q(u) above u, and phi(u) - u Q(u), from -FAR to FAR."""
+    """Tabulate the probability Q(u) above u, and phi(u) - u Q(u), from -FAR to FAR."""
     u = np.arange(-FAR * _PER_DEVIATION, FAR * _PER_DEVIATION + 1.0) / _PER_DEVIATION
     beyond = np.array([0.5 * math.erfc(x / math.sqrt(2.0)) for x in u.tolist()])
     lost = np.exp(-0.5 * u * u) / math.sqrt(2.0 * math.pi) - u * beyond
@@ -31,7 +31,7 @@ def _place(u: FloatArray) -> np.ndarray:
 
 
 def normal_share(u: FloatArray) -> FloatArray:
-    """Return the share of a normal distribution below some standard deviations."""
+    """Return the probability of a normal distribution below some standard deviations."""
     return _tables()[0].take(_place(-u))
 
 
@@ -48,6 +48,6 @@ def clipped_mean(levels: FloatArray, spread: FloatArray, white: float) -> FloatA
 
 
 def share_unclipped(levels: FloatArray, spread: FloatArray, white: float) -> FloatArray:
-    """Return the share of noisy pixels that are cut off neither at black nor at white."""
+    """Return the fraction of noisy pixels that are cut off neither at black nor at white."""
     least = np.maximum(spread, 1e-9)
     return normal_share(levels / least) - normal_share((levels - white) / least)

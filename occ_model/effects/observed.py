@@ -41,7 +41,7 @@ class Observed:
         self.known: dict[str, float] = {}
         """Factor on the root of that for the most that it is, where its law is known."""
         self.unsure = 0.0
-        """Share by which any mean square may be larger."""
+        """Fraction by which any mean square may be larger."""
         found = seen([names, *(names - {name} for name in changing)])
         self.complete = found[0]
         self._moved = moved = found[1:] - found[0]
@@ -50,7 +50,7 @@ class Observed:
     def add_noise(self, squares: Mapping[str, float], values: int) -> None:
         """Add the mean squares of noise whose law is known, over so many independent values.
 
-        The root mean square of n normal numbers deviates by a share of 1 / sqrt(2 n) from theirs.
+        The root mean square of n normal numbers deviates by 1 / sqrt(2 n) of theirs.
         """
         self.alone.update(squares)
         self.known.update(dict.fromkeys(squares, 1.0 + _SURE_DEVIATIONS / math.sqrt(2.0 * values)))

@@ -52,7 +52,7 @@ def plan(
         ``"image"``: the camera's pixels of the panel's bounding rectangle; ``"profile"``: the means
         of its columns; ``"signal"``: the means of its columns after the receiver's contrast
         enhancement, which is what a decoder reads; ``"decision"``: the code that is read by a
-        threshold. The tolerance is then a share of the chips' margin from it.
+        threshold. The tolerance is then a fraction of the chips' margin from it.
     force
         Effects that are always simulated (True) or left out (False). The tolerance does not cover
         what is left out by hand.

@@ -27,7 +27,7 @@ class Rims:
 
     @cached_property
     def shares(self) -> tuple[float, float]:
-        """The shares of the pixels in blocks of a file with rims along the rows, and upright ones.
+        """The fractions of pixels in blocks of a file with rims along the rows, and upright ones.
 
         A turned rim is both.
         """
@@ -42,11 +42,11 @@ class Rims:
 
     @property
     def share(self) -> float:
-        """The share of the pixels in a file's blocks with any rim."""
+        """The fraction of the pixels in a file's blocks with any rim."""
         return min(1.0, sum(self.shares))
 
     def _moved(self, name: str) -> FloatArray | None:
-        """Return what an effect changes in the panel's share of each pixel, None for nothing."""
+        """Return what an effect changes in the panel's fraction of each pixel, None for nothing."""
         covers, outline = self._sample.covers, self._sample.outline
         whole, without = covers[outline], covers[outline - {name}]
         if whole is without or whole is None or without is None:
@@ -64,10 +64,10 @@ class Rims:
         return float(((above * 1.0 + below) * sample.weights).sum())
 
     def crossed(self, name: str) -> float:
-        """Return the mean square of the error of a column's share of an upright rim.
+        """Return the mean square of the error of a column's fraction of an upright rim.
 
         Where an effect moves the rim in some of a column's nodes within the panel and not in the
-        others, the nodes tell the share of its rows to a third.
+        others, the nodes tell the fraction of its rows to a third.
         """
         moved = self._moved(name)
         if moved is None:

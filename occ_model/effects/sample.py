@@ -53,16 +53,16 @@ class Sample:
 
     columns: IndexArray
     weights: FloatArray
-    """Share of the region's columns that each stands for; their sum is 1."""
+    """Fraction of the region's columns that each stands for; their sum is 1."""
 
     rows: FloatArray
     """Those that are sampled in each column, (columns, nodes), as all that follows."""
 
     row_weights: FloatArray
-    """Share of the region's rows that each stands for; their sum is 1 in each column."""
+    """Fraction of the region's rows that each stands for; their sum is 1 in each column."""
 
     covers: Mapping[frozenset[str], FloatArray | None]
-    """The panel's share of each pixel's light, by the effects on the outline that are simulated.
+    """The panel's fraction of each pixel's light, by the effects on the outline that are simulated.
 
     None where it is 1 everywhere."""
 
@@ -101,7 +101,7 @@ class Sample:
 
     @cached_property
     def pixel_weights(self) -> FloatArray:
-        """The share of the region's pixels that each stands for, shape as ``rows``."""
+        """The fraction of the region's pixels that each stands for, shape as ``rows``."""
         return self.weights[:, None] * self.row_weights
 
 

@@ -33,7 +33,7 @@ class FullWell(PixelEffect):
 
 
 class FixedPattern(NoiseEffect):
-    """Photo response non-uniformity: each pixel's gain differs from the mean by a share p.
+    """Photo response non-uniformity: each pixel's gain differs from the mean by a fraction p.
 
     n electrons become n (1 + p z), z standard normal and the same in every picture that the camera
     takes (J. R. Janesick, *Photon Transfer*, 2007).

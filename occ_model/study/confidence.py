@@ -19,9 +19,9 @@ def wilson_interval(successes: int, trials: int, level: float = 0.95) -> tuple[f
 
     p = (2 s + z^2 -+ z sqrt(z^2 + 4 s (n - s) / n)) / (2 (n + z^2)),
 
-    with z the normal deviate that a share ``level`` lies within (E. B. Wilson, "Probable inference,
-    the law of succession, and statistical inference", J. Amer. Statist. Assoc. 22, 1927). Unlike
-    s / n and its standard error it is not empty where all trials or none succeeded.
+    with z the normal deviate that the probability ``level`` lies within (E. B. Wilson, "Probable
+    inference, the law of succession, and statistical inference", J. Amer. Statist. Assoc. 22,
+    1927). Unlike s / n and its standard error it is not empty where all trials or none succeeded.
 
     Parameters
     ----------

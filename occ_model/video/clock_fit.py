@@ -72,7 +72,7 @@ def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> lis
         count = max(2, count // 2)
     times = phases.times[:count] - phases.times[0]
     number = _grid(times, low, high, phases.period)
-    # Of so many random phasors the mean is longer than r in the share exp(-count r^2).
+    # Of so many random phasors the mean is longer than r in the fraction exp(-count r^2).
     by_chance = math.sqrt(2.0 * math.log(max(number / _TRIED_WITHOUT_CHANCE, 1.0)) / count)
     if number > _MAX_TRIED or by_chance >= 1.0:
         return []

@@ -47,7 +47,7 @@ class WatchedFile(io.BufferedReader):
         """Number of bytes of the last read."""
 
     def watch(self, size: int, first: float, last: float) -> None:
-        """Report from now on progress between two shares, while ``size`` bytes are read."""
+        """Report from now on progress between two fractions, while ``size`` bytes are read."""
         self._from, self._to, self._size = first, last, max(size, 1)
         self.total, self._next = 0, 0
 

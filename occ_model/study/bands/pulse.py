@@ -18,7 +18,7 @@ def pulse_depth(duty: float, periods: float | Fraction) -> Depth:
     Parameters
     ----------
     duty
-        Share D of a period in which the lamp is lit, above 0 and at most 1.
+        Fraction D of a period in which the lamp is lit, above 0 and at most 1.
     periods
         Length a of the exposure in periods, above 0, exact as a fraction.
 

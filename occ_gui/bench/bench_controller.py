@@ -29,7 +29,7 @@ class BenchController(QObject):
         self._request: BenchRequest | None = None
         self._points: list[BenchPoint] = []
         channel.results_ready.connect(self._take)
-        channel.finished.connect(lambda _request: pane.show_ended(""))
+        channel.finished.connect(self._finish)
         channel.failed.connect(pane.show_ended)
         scenes.changed.connect(self._mark)
         self._frame_rate.changed.connect(self._show_frame_rate)
@@ -92,6 +92,9 @@ class BenchController(QObject):
         self._points.sort(key=lambda one: order[one.scheme, one.axis, one.exposure, one.decibels])
         self._pane.show_points(self._points)
         self._pane.show_progress(len(self._points) // len(request.decoders), len(request.points))
+
+    def _finish(self, _request: BenchRequest) -> None:
+        self._pane.show_ended("")
 
     def _show_frame_rate(self) -> None:
         refusal, request = "", self._request

@@ -73,7 +73,7 @@ class AdvisorController(QObject):
         self._look.setInterval(_LOOK_MS)
         self._look.timeout.connect(self._show_progress)
         channel.results_ready.connect(self._take)
-        channel.finished.connect(lambda _request: self._end(""))
+        channel.finished.connect(self._finish)
         channel.failed.connect(self._end)
         for store in (scenes, scenes.settings):
             store.changed.connect(self._move_on)
@@ -139,6 +139,9 @@ class AdvisorController(QObject):
             name for name in SEARCHED if self._advised.along(name) == request.along(name)
         )
         self._pane.show_advice_outdated(request != self._advised, reachable)
+
+    def _finish(self, _request: AdviceRequest) -> None:
+        self._end("")
 
     def _end(self, sentence: str) -> None:
         self._pane.show_advice_ended(sentence)

@@ -39,18 +39,17 @@ def exposure_modes(
         model.take_noise(first)
     groups = [possible_near(models, usual.values)]
     is_square, alike = len(explanation.chips) == 2, list[JointFit]()
-    # Of the same model: another one may explain every exposure better.
-    least = min(one.fit.misfit for one in groups[0] if one.model is first)
-    for start in _other_starts(
-        first, min(groups[0], key=lambda one: one.fit.misfit), explanation, is_possible
-    ):
-        other = first.fit(start)
+    # By the model that explains this exposure best: another one may explain none of them.
+    found = min(groups[0], key=lambda one: one.fit.misfit)
+    least = found.fit.misfit
+    for start in _other_starts(found, explanation, is_possible):
+        other = found.model.fit(start)
         exposures = [one.fit.exposure for group in groups for one in group]
         exposures += [fit.exposure for fit in alike]
         if any(abs(other.exposure - exposure) <= SAME_EXPOSURE for exposure in exposures):
             continue
         if other.misfit < least + _MOST_EXCESS_MISFIT:
-            groups.append([Possible(first, other)])
+            groups.append([Possible(found.model, other)])
         elif is_square and other.misfit < _MOST_SQUARE_WAVE_RATIO * least:
             alike.append(other)
     likely = min((one for group in groups for one in group), key=lambda one: one.fit.misfit)
@@ -79,12 +78,10 @@ def exposure_modes(
 
 
 def _other_starts(
-    model: JointModel,
-    found: Possible,
-    explanation: Explanation,
-    is_possible: Callable[[Timing], bool],
+    found: Possible, explanation: Explanation, is_possible: Callable[[Timing], bool]
 ) -> list[FloatArray]:
     """Return the parameters to start from, for other exposures than the one found."""
+    model = found.model
     if len(explanation.chips) != 2:
         return scanned_starts(model, found.fit.values, is_possible)
     best = min(explanation.fits, key=lambda fit: fit.residual).timing

@@ -121,8 +121,8 @@ def test_other_exposures_of_a_square_wave_start_from_the_best_fit(
     )
     best, worse = stripe_fit(0.11, 2.0), stripe_fit(0.2, 5.0)
     explanation: Any = SimpleNamespace(chips=np.array([1, 0]), fits=[worse, best])
-    found: Any = SimpleNamespace(fit=FIT)
-    starts = _other_starts(model, found, explanation, lambda timing: timing.exposure < 5.0)
+    found: Any = SimpleNamespace(fit=FIT, model=model)
+    starts = _other_starts(found, explanation, lambda timing: timing.exposure < 5.0)
     # From the first fit, and from that without blur, the camera being as found.
     assert [one.exposure for one in near] == [0.8, 0.8]
     assert near[0].step == near[1].step == 0.11

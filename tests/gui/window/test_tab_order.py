@@ -54,10 +54,11 @@ def comes_after(place: QRect, other: QRect) -> bool:
 
 def show_mode(application: Application, qtbot: QtBot, mode: str) -> None:
     application.window.resize(1280, 800)
-    application.window.activateWindow()
     application.window.modes.switch(mode)
     qtbot.waitUntil(lambda: application.is_idle)
-    QApplication.processEvents()
+    # Where the mode shows its panes for the first time, the window may have lost it.
+    application.window.activateWindow()
+    qtbot.waitUntil(application.window.isActiveWindow)
 
 
 @pytest.mark.parametrize(

@@ -195,7 +195,7 @@ class LimitCard(QFrame):
             return
         inside = end.inside
         value = _written(end.value)
-        limit = f"{value}, searched to" if end.fails is None else f"{value} ({rate:g} %)"
+        limit = f"at least {value}" if end.fails is None else f"{value} ({rate:g} %)"
         self._show(limit, text, None if inside is None else inside.value)
 
     def show_range(self, found: WorkingRange) -> None:

@@ -66,7 +66,7 @@ def test_a_search_that_met_no_end_says_so_and_without_a_place_to_go_the_button_r
     cards: LimitCards, small_scene: Scene
 ) -> None:
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, None, INSIDE)))
-    assert cards.cards["threshold"].value.text() == "14.7 kHz, searched to"
+    assert cards.cards["threshold"].value.text() == "at least 14.7 kHz"
     card = cards.cards["threshold"]
     cards.show_advice(with_end(small_scene, RangeEnd(GOOD, BAD)))
     assert not card.go.isEnabled()
@@ -133,7 +133,7 @@ def test_limits_that_are_found_do_not_widen_the_window(qtbot: QtBot, small_scene
         assert end is not None
         works, inside = replace(end.works, value=58.82e3), replace(INSIDE, value=58.82e3)
         card.show_limit(replace(end, works=works, fails=None, inside=inside, interval=None), "", 99)
-        assert card.value.text() == "58.82 kHz, searched to"
+        assert card.value.text() == "at least 58.82 kHz"
         assert card.go.text() == "Go to 58.82 kHz", decoder
     assert cards.minimumSizeHint().width() <= 910
     cards.resize(910, 80)

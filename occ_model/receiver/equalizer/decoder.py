@@ -16,7 +16,7 @@ from occ_model.receiver.decoder import Decoder
 from occ_model.receiver.equalizer.undo_exposure import undo_exposure
 from occ_model.receiver.light import PER_CHIP, in_light, light_of_chips
 from occ_model.receiver.read_payload import with_bits
-from occ_model.receiver.signal import why_flat
+from occ_model.receiver.signal import MAX_UNEXPLAINED, unexplained_fraction, why_flat
 from occ_model.receiver.threshold.decoder import read_stripes as read_by_threshold
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
@@ -31,12 +31,6 @@ _CURVE_UNKNOWN = (
 
 _MAX_VOTES = 15  # packets that are compared; more take time and change nothing
 _MAX_EXPOSURE_FRACTION = 0.25  # of the columns: the longest exposure that is undone
-
-_MAX_UNEXPLAINED = 0.05
-"""Fraction of the variance of a packet's light that is neither its chips' nor noise.
-
-Of packets that were read rightly up to 3 %, of wrong ones as a rule more than 7 %.
-"""
 
 _UNCHECKED = "this scheme finds not all wrong chips; the framing raw checks the payload."
 
@@ -125,7 +119,7 @@ def _why_unexplained(
     place = np.floor(PER_CHIP * begun).astype(np.int64)
     model = light_of_chips(chips, exposure / length)
     unexplained = _unexplained(light[columns], model[(place + _SHIFTS[:, None]) % len(model)])
-    if unexplained <= _MAX_UNEXPLAINED:
+    if unexplained <= MAX_UNEXPLAINED:
         return None
     return (
         f"The packet that was read does not explain its columns: {100.0 * unexplained:.2g} % of "
@@ -138,14 +132,14 @@ def _is_packet(seen: ByteArray, chips: ByteArray) -> bool:
 
 
 def _unexplained(light: FloatArray, models: FloatArray) -> float:
-    """Return the fraction of the variance, as neighbours share it, that the best model leaves."""
+    """Return the fraction of the variance that the best model leaves."""
     seen = light - light.mean()
     models = models - models.mean(axis=1, keepdims=True)
     swings = np.maximum(np.einsum("ij,ij->i", models, models), 1e-12)
     fits = models @ seen
     best = int(np.argmax(np.maximum(fits, 0.0) ** 2 / swings))
     residual = seen - max(float(fits[best]), 0.0) / swings[best] * models[best]
-    return float(residual[1:] @ residual[:-1]) / max(float(seen @ seen), 1e-12)
+    return unexplained_fraction(light, residual)
 
 
 DECODER = Decoder(

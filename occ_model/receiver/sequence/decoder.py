@@ -27,7 +27,7 @@ from occ_model.receiver.sequence.follow_timing import follow_timing
 from occ_model.receiver.sequence.soft_frame import probability, read_frame
 from occ_model.receiver.sequence.trellis import Word
 from occ_model.receiver.short_chips import has_short_chips, with_short_chips
-from occ_model.receiver.signal import why_flat
+from occ_model.receiver.signal import MAX_UNEXPLAINED, why_flat
 from occ_model.results.decoding import DecodeResult
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.scheme import scheme_of
@@ -44,9 +44,8 @@ _DOUBTFUL_FRACTION = 0.02
 """Fraction of the signal's variance that is neither the chips' light nor noise, above which their
 timing may be another one."""
 
-_MAX_UNEXPLAINED = 0.05  # of the signal's variance that is neither the chips' light nor noise
 _MAX_UNEXPLAINED_OF_ANY_CHIPS = 0.005
-"""The same where no rule refuses wrong chips, and their light need not be that of random data."""
+"""``MAX_UNEXPLAINED`` where no rule refuses chips, whose light need not be that of random data."""
 
 
 def read_signal(signal: FloatArray, scene: Scene) -> DecodeResult:
@@ -132,7 +131,7 @@ def _improved(
         before, fit = fit, detect(rows, *improve(rows, fit), words)
         same = np.array_equal(fit.chips.values, before.chips.values)
         settled = (same and not light.is_estimated) or fit.noise > _MAX_NOISE_RATIO * before.noise
-        if settled and fit.unexplained() <= _MAX_UNEXPLAINED:
+        if settled and fit.unexplained() <= MAX_UNEXPLAINED:
             break
     return fit, light
 
@@ -166,9 +165,7 @@ def _framed(result: DecodeResult, fit: Fit, scene: Scene, header: tuple[int, ...
     read = replace(read, bit_likelihoods=frame.likelihoods, confidence=frame.certainty)
     failure = read.failure
     unexplained = fit.unexplained()
-    if unexplained > (
-        _MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else _MAX_UNEXPLAINED
-    ):
+    if unexplained > (_MAX_UNEXPLAINED_OF_ANY_CHIPS if scheme.takes_any_chips else MAX_UNEXPLAINED):
         failure = (
             "The chips found do not explain the signal: "
             f"{100.0 * unexplained:.2g} % of its variance is neither theirs nor noise. No such "

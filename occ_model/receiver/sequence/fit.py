@@ -16,6 +16,7 @@ from occ_model.receiver.sequence.code_words import MOST_STATES
 from occ_model.receiver.sequence.exposures import ChipStatistics, Timing, gather, taps
 from occ_model.receiver.sequence.max_log import Chips, best_chips, least_distances
 from occ_model.receiver.sequence.trellis import Word, most_states, trellis_of
+from occ_model.receiver.signal import unexplained_fraction
 
 _PHASES = 8  # phases of the chips that are tried, evenly over one chip
 TRIED_CHIPS = 96  # chips in the middle of the picture that the phases are tried on
@@ -69,10 +70,8 @@ class Fit:
         return np.asarray(self.chips.margins / (2.0 * self.noise_of_sums()))
 
     def unexplained(self) -> float:
-        """Fraction of the variance, as neighbours share it, that is neither model nor noise."""
-        own = _autocorrelation(self.residual, 1)
-        variance = float((self.model + self.residual).var())
-        return float(own[1:].sum()) * float(self.residual.var()) / max(variance, _MIN_NOISE)
+        """Fraction of the variance that is neither model nor noise."""
+        return unexplained_fraction(self.model + self.residual, self.residual)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

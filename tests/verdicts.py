@@ -18,28 +18,14 @@ SHORTEST_VIEW, LONGEST_VIEW = 1.5, 20.0
 
 @dataclass(frozen=True)
 class Said:
-    """What a match says of one picture.
-
-    Parameters
-    ----------
-    seed, what
-        The picture.
-    verdict
-        ``"sure"``, ``"doubtful"`` or ``"refused"``.
-    why
-        The reasons.
-    scene_s
-        Whether the scene's chips are said to be sent.
-    right
-        Whether the chips are those sent, up to rotation.
-    """
+    """What a match says of one picture."""
 
     seed: int
     what: str
-    verdict: str
+    verdict: str  # ``"sure"``, ``"doubtful"`` or ``"refused"``
     why: str
-    scene_s: bool
-    right: bool
+    scene_s: bool  # whether the scene's chips are said to be sent
+    right: bool  # whether the chips are those sent, up to rotation
 
 
 def said_of_negative(seed: int) -> Said:

@@ -10,8 +10,7 @@ from occ_gui.values.photo_choice import PhotoChoice, PhotoFrame
 from occ_gui.values.photo_results import FoundMatch, StripeSearch
 from occ_gui.values.placement import Placement
 from occ_model.errors import ParameterError
-from occ_model.photo.reading.load import Photo
-from occ_model.photo.reading.part import region_within
+from occ_model.photo.reading.load import Photo, region_within
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Match, Stripes

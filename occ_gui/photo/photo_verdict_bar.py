@@ -8,8 +8,7 @@ from occ_gui.widgets.chip_row import Chip
 from occ_gui.widgets.state_bar import StateBar
 from occ_gui.widgets.state_look import State
 from occ_model.errors import one_line
-from occ_model.photo.estimate_text import estimate_text
-from occ_model.photo.match_facts import known_of
+from occ_model.photo.match_facts import estimate_text, known_of
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import PLAIN_STRIPES, Match
 from occ_model.results.photo_table import SURE, PhotoRow

@@ -10,9 +10,9 @@ from occ_model.commands.options import assumption_of
 from occ_model.commands.progress_bar import progress_bar
 from occ_model.errors import ParameterError, one_line
 from occ_model.files.writing import check_replaceable, write_whole
-from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.match_photos import MOST_JOBS, match_photos, usual_jobs
 from occ_model.photo.many.other_programs import frame_readout_time, stated_lines
+from occ_model.photo.match_facts import estimate_text
 from occ_model.program import EXIT_FAILURE, EXIT_INTERRUPTED
 from occ_model.results.photo_table import (
     DOUBTFUL,

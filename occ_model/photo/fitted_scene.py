@@ -18,7 +18,7 @@ from occ_model.photo.stripes.evenly_lit import Cells
 from occ_model.results.decoding import Region
 from occ_model.results.match import Match, Stripes
 from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters import PARAMETERS, quantity
 from occ_model.scene.scene import Scene
 from occ_model.transmitter.packet import sent_chips
 
@@ -142,8 +142,7 @@ def _doubts_by_note(photo: Photo, exposure: float, deviation: float) -> list[str
     off = abs(exposure - noted)
     if off <= _MOST_DEVIATIONS * math.hypot(deviation, _NOTE_ERROR * noted):
         return []
-    unit = PARAMETERS["exposure_time"]
-    assert isinstance(unit, Quantity)  # noqa: S101 - it is one
+    unit = quantity("exposure_time")
     return [
         f"The exposure time found, {unit.format(exposure)}, and the one that the camera noted, "
         f"{unit.format(noted)}, are {off / deviation:.1f} standard deviations apart."

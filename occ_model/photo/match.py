@@ -14,8 +14,7 @@ import numpy as np
 from occ_model.errors import MatchError, ParameterError
 from occ_model.photo.evidence.candidates import Candidates
 from occ_model.photo.evidence.hypothesis import Hypothesis, is_turned
-from occ_model.photo.evidence.rows import rows_alike
-from occ_model.photo.evidence.verdict import Judge
+from occ_model.photo.evidence.verdict import Judge, rows_alike
 from occ_model.photo.fit.camera_response import AVERAGINGS, CameraTone, camera_tones
 from occ_model.photo.fit.chip_runs import is_single_pulse
 from occ_model.photo.fitted_scene import (
@@ -25,8 +24,7 @@ from occ_model.photo.fitted_scene import (
     readout_and_frequency,
 )
 from occ_model.photo.photo_scene import with_notes
-from occ_model.photo.reading.load import Photo
-from occ_model.photo.reading.part import Corners
+from occ_model.photo.reading.load import Corners, Photo
 from occ_model.photo.stripes.find import find_stripes
 from occ_model.results.lamp import Lamp
 from occ_model.results.match import Alternative, Match, Stripes
@@ -103,7 +101,7 @@ def match_photo(  # noqa: PLR0913 - all but the first two are words with default
     candidates = Candidates(
         stripes,
         scene,
-        _cameras(stripes, scene, averaging, fit_gamma),
+        _cameras(stripes, scene, averaging, fit_gamma, report.again),
         fit_gamma,
         lambda fit, rate: exposure_time(fit, _at_rate(scene, rate), estimate),
         photo.exposure_time,
@@ -210,12 +208,14 @@ def check_words(scene: Scene, estimate: str, sent: str, averaging: str) -> None:
     check_choice("averaging", averaging, ("auto", *AVERAGINGS))
 
 
-def _cameras(stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool) -> list[CameraTone]:
+def _cameras(
+    stripes: Stripes, scene: Scene, averaging: str, fit_gamma: bool, check: Callable[[], object]
+) -> list[CameraTone]:
     averagings = AVERAGINGS if averaging == "auto" else (averaging,)
     if fit_gamma:
         averagings = ("light",)
     low, high = float(np.median(stripes.low)), float(np.median(stripes.high))
-    return camera_tones(scene, averagings, low, high)
+    return camera_tones(scene, averagings, low, high, check)
 
 
 def _hypotheses(

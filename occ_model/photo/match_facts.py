@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.other_programs import frame_of_match
 from occ_model.results.fact import Fact
 from occ_model.results.match import Alternative, Match
+from occ_model.scene.parameter_kinds import Quantity
 from occ_model.scene.parameters import quantity
 from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ, Unit
@@ -40,6 +40,9 @@ LABELS = {
 """What each fact is called, in the order of all of them."""
 
 _DIGITS = 4
+
+_LARGEST_ERROR = 0.5  # relative standard deviation above which only an upper limit is stated
+_LIMIT_DEVIATIONS = 2.0  # number of standard deviations by which the limit exceeds the estimate
 
 
 def known_of(match: Match) -> str:
@@ -93,7 +96,7 @@ def _estimate(match: Match, name: str, condition: str) -> tuple[str, str]:
 
 
 def _fit(match: Match) -> dict[str, tuple[str, str]]:
-    region, stripes = match.region, match.stripes
+    stripes = match.stripes
     how = "read from the photo" if match.pattern_was_read else "as the scene sends it"
     found = {
         "pattern": (match.pattern, how),
@@ -102,11 +105,7 @@ def _fit(match: Match) -> dict[str, tuple[str, str]]:
         "exposed": (f"{match.exposure_in_chips:.3g}", ""),
         "duty": _duty(match),
         "averaging": (match.scene.model.averaging, ""),
-        "region": (
-            f"columns {region.first_column} to {region.last_column - 1}, "
-            f"rows {region.first_row} to {region.last_row - 1}",
-            "",
-        ),
+        "region": (str(match.region), ""),
         # The comparison of both profiles leaves the rims out, where blur mixes in what is beside.
         "correlation": (f"{match.correlation:.4f}", "rims included"),
         "residual": (f"{match.rmse:.2f} grey levels", "rims included"),
@@ -144,3 +143,17 @@ def _alternative(other: Alternative, estimated: str, condition: str) -> str:
         f"{text}; {condition}{declared.label.lower()} {declared.format(value, _DIGITS)}, exposed "
         f"for {exposure}"
     )
+
+
+def estimate_text(quantity: Quantity, value: float, deviation: float | None) -> str:
+    """Write an estimate with its standard deviation, to the digits that are significant.
+
+    An exposure time that is hardly known is stated as an upper limit, since the value less its
+    error would be negative.
+
+    ``value``, ``deviation``: in SI units; without a deviation the value alone is written.
+    """
+    text = quantity.unit.format_estimate(value, deviation)
+    if quantity.name != "exposure_time" or deviation is None or deviation <= _LARGEST_ERROR * value:
+        return text
+    return f"below {quantity.format(value + _LIMIT_DEVIATIONS * deviation, 2)} ({text})"

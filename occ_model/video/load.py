@@ -13,7 +13,7 @@ from occ_model.errors import ParameterError, SceneFileError, VideoError, one_lin
 from occ_model.files.film_kinds import FIRST_BYTES, container_of
 from occ_model.files.reading import read_start
 from occ_model.photo.reading.choices import SCAN_AXES
-from occ_model.photo.reading.scan_axis import roughness_along
+from occ_model.photo.reading.load import roughness_along
 from occ_model.results.video import LATEST, Video, VideoFrame
 from occ_model.scene.argument_checks import check_choice, check_count
 from occ_model.scene.provenance import first_scene_in

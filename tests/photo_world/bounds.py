@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from occ_model.photo.fit.joint_fit import USUAL
+from occ_model.photo.fit.joint_model import USUAL
 from occ_model.photo.stripes.envelope import smooth_shapes
 from photo_world.photograph import World, blurred, falloff, lit_fraction, scale
 from photo_world.pixel_noise import cosines_of_eight, jpeg_noise, jpeg_steps, square_of, whitened

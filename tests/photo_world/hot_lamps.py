@@ -12,13 +12,14 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
-from photo_world.lamp_scenes import LampScene, Thing
+from photo_world.lamp_scenes import LampScene, Thing, apart
 from photo_world.photograph import blurred, compressed
 from photo_world.tone_curves import unknown_curve
 
 _PLACES = 60
 """Places that are tried for a lamp before it is left out."""
 
+_GAP = 20.0  # fewest pixels between lamps
 _STEEPEST = 0.15
 _SEEN = 0.1
 """Depth of a lamp's stripes, as a fraction of its light, from which it is to be found."""
@@ -159,18 +160,9 @@ def _placed(
             height, width, math.exp(random.uniform(-1.5, 2.0)),
             tuple(map(float, wave.chips)), wave.chip,
         )  # fmt: skip
-        if all(_apart(thing, other) for other in others):
+        if all(apart(thing, other, _GAP) for other in others):
             return thing
     return None
-
-
-def _apart(one: Thing, other: Thing) -> bool:
-    gap = 20.0
-    top, bottom, left, right = one.box
-    above, below, before, after = other.box
-    return (
-        bottom + gap <= above or below + gap <= top or right + gap <= before or after + gap <= left
-    )
 
 
 def _mirrored(random: np.random.Generator, thing: Thing, shape: tuple[int, int]) -> Thing:

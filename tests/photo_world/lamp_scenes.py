@@ -7,7 +7,7 @@ tone curve that nobody knows, noise, white that is clipped, and JPEG.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
 import cv2
@@ -106,7 +106,6 @@ def _lamps(
         found = _place(random, lamp, rows, columns, placed, touching)
         if found is not None:
             lamps.append(found)
-            placed.append(found)
     return tuple(lamps) if lamps else _lamps(random, rows, columns, readout, placed)
 
 
@@ -134,21 +133,19 @@ def _place(
     placed: list[Thing],
     touching: Thing | None = None,
 ) -> Thing | None:
-    """Move a thing to a free place, beside another one if that is named."""
+    """Move a thing to a free place, beside another one if that is named, and take that place."""
     for _ in range(_PLACES):
         row = float(random.uniform(thing.height / 2 + 8, max(rows - thing.height / 2 - 8, 9)))
         column = float(random.uniform(thing.width / 2 + 8, max(columns - thing.width / 2 - 8, 9)))
         if touching is not None and random.random() < 0.8:
             row, column = _beside(random, thing, touching)
-        moved = Thing(
-            thing.shape, row, column, thing.height, thing.width,
-            thing.radiance, thing.wave, thing.chip, thing.phase,
-        )  # fmt: skip
+        moved = replace(thing, row=row, column=column)
         top, bottom, left, right = moved.box
         inside = top >= 4 and left >= 4 and bottom <= rows - 4 and right <= columns - 4
         gaps = [(-1.0 if other is touching else float(_GAP)) for other in placed]
-        free = all(_apart(moved, other, gap) for other, gap in zip(placed, gaps, strict=True))
+        free = all(apart(moved, other, gap) for other, gap in zip(placed, gaps, strict=True))
         if inside and free:
+            placed.append(moved)
             return moved
     return None
 
@@ -166,7 +163,8 @@ def _beside(random: np.random.Generator, thing: Thing, other: Thing) -> tuple[fl
     return other.row + aside * (thing.height + other.height) / 2, other.column + off * other.width
 
 
-def _apart(one: Thing, other: Thing, gap: float) -> bool:
+def apart(one: Thing, other: Thing, gap: float) -> bool:
+    """Whether the boxes of two things are so many pixels apart; less than 0: they may touch."""
     top, bottom, left, right = one.box
     above, below, before, after = other.box
     return (
@@ -178,17 +176,14 @@ def _others(
     random: np.random.Generator, rows: int, columns: int, placed: list[Thing], count: int
 ) -> tuple[Thing, ...]:
     """Place lamps of constant light."""
-    found = []
+    found: list[Thing | None] = []
     for _ in range(count):
         shape: Shape = "round" if random.random() < 0.5 else "rectangular"
         width = float(random.uniform(50.0, 200.0))
         height = width if shape == "round" else float(random.uniform(50.0, 200.0))
         thing = Thing(shape, 0.0, 0.0, height, width, float(np.exp(random.uniform(-0.6, 1.2))))
-        here = _place(random, thing, rows, columns, placed)
-        if here is not None:
-            found.append(here)
-            placed.append(here)
-    return tuple(found)
+        found.append(_place(random, thing, rows, columns, placed))
+    return tuple(one for one in found if one is not None)
 
 
 def _panes(
@@ -205,7 +200,6 @@ def _panes(
     here = _place(random, whole, rows, columns, placed)
     if here is None:
         return ()
-    placed.append(here)
     top, _, left, _ = here.box
     return tuple(
         Thing(
@@ -224,19 +218,13 @@ def _reflections(
     lamps: tuple[Thing, ...],
 ) -> tuple[Thing, ...]:
     """Place fainter pictures of lamps: they blink with them."""
-    found = []
+    found: list[Thing | None] = []
     for lamp in lamps[:2]:
         if random.random() < 0.5:
             share = float(random.uniform(0.05, 0.3))
-            faint = Thing(
-                lamp.shape, 0.0, 0.0, lamp.height, lamp.width,
-                share * min(lamp.radiance, 1.0), lamp.wave, lamp.chip, lamp.phase,
-            )  # fmt: skip
-            here = _place(random, faint, rows, columns, placed)
-            if here is not None:
-                found.append(here)
-                placed.append(here)
-    return tuple(found)
+            faint = replace(lamp, radiance=share * min(lamp.radiance, 1.0))
+            found.append(_place(random, faint, rows, columns, placed))
+    return tuple(one for one in found if one is not None)
 
 
 def _background(random: np.random.Generator, rows: int, columns: int) -> Floats:

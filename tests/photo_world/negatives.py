@@ -14,7 +14,7 @@ from simulated_photos import photo_of
 
 import occ_model as occ
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.reading.scan_axis import stripes_are_lines
+from occ_model.photo.reading.load import stripes_are_lines
 
 Random = np.random.Generator
 

@@ -1,7 +1,7 @@
 """Matches of photographs whose truth is known: how far off they are, by what they state."""
 
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 from both_cores import on_both_cores
@@ -28,11 +28,6 @@ class Trial:
     # Readout_deviation, exposure_deviation: relative standard deviations, as stated.
     readout_deviation: float = np.nan
     exposure_deviation: float = np.nan
-    # Light_bounds, picture_bounds: relative standard deviations of readout and exposure that no
-    # unbiased estimate can fall below: by light alone, and by the stored picture with the unknowns
-    # that a match has.
-    light_bounds: tuple[float, float] = (np.nan, np.nan)
-    picture_bounds: tuple[float, float] = (np.nan, np.nan)
     # Doubts, exposure_doubts: why the match is not sure, and why its exposure time alone is not.
     doubts: tuple[str, ...] = ()
     exposure_doubts: tuple[str, ...] = ()
@@ -46,6 +41,17 @@ class Trial:
     def seed(self) -> int:
         """The number by which it is drawn."""
         return self.world if isinstance(self.world, int) else self.world.seed
+
+    # light_bounds, picture_bounds: relative standard deviations of readout and exposure that no
+    # unbiased estimate can fall below: by light alone, and by the stored picture with the unknowns
+    # that a match has.
+    @cached_property
+    def light_bounds(self) -> tuple[float, float]:
+        return (np.nan, np.nan) if isinstance(self.world, int) else bound_of_light(self.world)
+
+    @cached_property
+    def picture_bounds(self) -> tuple[float, float]:
+        return (np.nan, np.nan) if isinstance(self.world, int) else bound_of_picture(self.world)
 
     @property
     def is_sure(self) -> bool:
@@ -85,8 +91,6 @@ def trial(world: World) -> Trial:
         match.exposure_time / world.exposure_time - 1.0,
         match.uncertainties["readout_time"] / world.readout_time,
         match.uncertainties["exposure_time"] / world.exposure_time,
-        bound_of_light(world),
-        bound_of_picture(world),
         doubts=match.reasons,
         exposure_doubts=match.exposure_reasons,
     )

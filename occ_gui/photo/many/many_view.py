@@ -14,9 +14,8 @@ from occ_gui.photo.paste_lines import PasteLines
 from occ_gui.widgets.copying import copy_text
 from occ_gui.widgets.scroll_pane import ScrollPane
 from occ_gui.widgets.work_bar import WorkBar
-from occ_model.photo.estimate_text import estimate_text
 from occ_model.photo.many.other_programs import frame_readout_time, lines_to_paste, stated_lines
-from occ_model.photo.match_facts import LABELS
+from occ_model.photo.match_facts import LABELS, estimate_text
 from occ_model.results.photo_table import (
     VERDICTS,
     CombinedEstimate,

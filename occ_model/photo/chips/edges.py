@@ -1,12 +1,30 @@
-"""The edges of stripes: where a profile crosses half-way between dark and bright."""
+"""The edges of stripes, and the lattice of chips on which they lie.
 
+Edges are where a profile crosses half-way between dark and bright. Gamma and saturation make bright
+runs longer than dark ones, so that rising and falling edges are shifted oppositely: each kind has a
+lattice of its own, of the same spacing.
+"""
+
+import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
-from occ_model.arrays import FloatArray
+from occ_model.arrays import ByteArray, FloatArray
 
 _HYSTERESIS = 0.15  # height beyond the middle, on both sides of an edge, that is not noise
+
+LEAST_COHERENCE_RATIO = 0.93
+"""Minimum coherence of a coarser lattice relative to the most coherent one."""
+
+_SHORTENING = 0.7  # minimum ratio of the mean shortest run to a chip: noise shortens runs
+
+LEAST_COLUMNS = 2.0
+"""Minimum number of columns per chip."""
+
+_STEPS_PER_CHIP = 6.0  # lattices tried while the last edge moves by a chip against the first
+_RIM_DISTANCE = 0.2  # chips off the lattice beyond which an outermost edge is the panel's rim
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,3 +84,112 @@ def _crossing(part: FloatArray, first: int) -> float:
     before = np.flatnonzero((part[1:] > 0.5) != (part[:-1] > 0.5))
     low, high = part[before], part[before + 1]
     return first + float(np.mean(before + (0.5 - low) / (high - low)))
+
+
+@dataclass(frozen=True, slots=True)
+class Lattice:
+    """Two lattices of the same spacing, that of the rising and that of the falling edges."""
+
+    frequency: float  # chips per column
+    # rising, falling: position of each lattice in chips, at column 0; they differ by half a chip at
+    # most.
+    rising: float
+    falling: float
+    coherence: float  # length of the edges' mean phase factor, from 0 to 1
+
+
+def coherence(edges: Edges, frequencies: FloatArray) -> FloatArray:
+    """Return the coherence of edges with pairs of lattices, by their chips per column."""
+    sums = [np.abs(_phase_factors(kind, frequencies)) for kind in (edges.rising, edges.falling)]
+    return np.asarray((sums[0] + sums[1]) / max(edges.count, 1))
+
+
+def _phase_factors(places: FloatArray, frequencies: FloatArray) -> NDArray[np.complex128]:
+    return np.asarray(np.exp(2j * np.pi * np.outer(frequencies, places)).sum(axis=1))
+
+
+def coarsest(edges: Edges) -> Lattice | None:
+    """Find the coarsest pair of lattices on which edges lie; None if none is coherent."""
+    longest = edges.shortest_pair / 2.0 / _SHORTENING
+    if edges.count < 4 or not LEAST_COLUMNS < longest < np.inf:
+        return None
+    extent = float(np.ptp(edges.places))
+    step = 1.0 / (_STEPS_PER_CHIP * extent)
+    frequencies = np.arange(1.0 / longest, 1.0 / LEAST_COLUMNS, step)
+    if frequencies.size < 3:
+        return None
+    coherent = coherence(edges, frequencies)
+    peaks = 1 + np.flatnonzero((coherent[1:-1] >= coherent[:-2]) & (coherent[1:-1] >= coherent[2:]))
+    peaks = np.unique(np.append(peaks, 0)) if coherent[0] > coherent[1] else peaks
+    if peaks.size == 0:
+        return None
+    good = peaks[coherent[peaks] >= LEAST_COHERENCE_RATIO * coherent[peaks].max()]
+    fine = frequencies[good[0]] + np.linspace(-step, step, 41)
+    return lattice_at(edges, float(fine[coherence(edges, fine).argmax()]))
+
+
+def lattice_at(edges: Edges, frequency: float) -> Lattice:
+    """Return the pair of lattices of a spacing that lie best on the edges."""
+    one = np.array([frequency])
+    turns = [
+        float(np.angle(_phase_factors(kind, one)[0])) / (2.0 * np.pi)
+        for kind in (edges.rising, edges.falling)
+    ]
+    apart = (turns[1] - turns[0] + 0.5) % 1.0 - 0.5
+    return Lattice(frequency, turns[0], turns[0] + apart, float(coherence(edges, one)[0]))
+
+
+def chip_numbers(edges: Edges, lattice: Lattice) -> tuple[FloatArray, FloatArray]:
+    """Return the rising and the falling edges' positions in chips: whole numbers but for noise."""
+    return (
+        edges.rising * lattice.frequency - lattice.rising,
+        edges.falling * lattice.frequency - lattice.falling,
+    )
+
+
+def without_rims(edges: Edges, lattice: Lattice) -> Edges:
+    """Leave out an outermost edge that is the panel's rim, not a chip's.
+
+    It is off the lattice, or lies by chance on the place in the lattice of the edge beside it.
+    """
+    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
+    numbers, places = np.concatenate(chip_numbers(edges, lattice))[order], edges.places
+    nearest = np.rint(numbers)
+    off, lengths = np.abs(numbers - nearest), np.diff(nearest)
+    first = places[1] if off[0] > _RIM_DISTANCE or lengths[0] < 1 else places[0]
+    last = places[-2] if off[-1] > _RIM_DISTANCE or lengths[-1] < 1 else places[-1]
+    return edges.within(float(first), float(last))
+
+
+def chips_between(edges: Edges, lattice: Lattice) -> tuple[ByteArray, int] | None:
+    """Return the chips between the outermost edges and the first's number; None if they collide."""
+    rising, falling = (np.rint(kind).astype(int) for kind in chip_numbers(edges, lattice))
+    numbers = np.concatenate([rising, falling])
+    kinds = np.concatenate([np.ones(len(rising), int), np.zeros(len(falling), int)])
+    order = np.argsort(np.concatenate([edges.rising, edges.falling]))
+    numbers, kinds = numbers[order], kinds[order]
+    lengths = np.diff(numbers)
+    if len(lengths) == 0 or lengths.min() < 1:
+        return None
+    return np.repeat(kinds[:-1], lengths).astype(np.uint8), int(numbers[0])
+
+
+def certainty(edges: Edges, lattice: Lattice) -> float:
+    """Return the probability that all edges are those of the chips they are nearest to.
+
+    Two parts: that the coherence is not by chance (Rayleigh's test: n edges of random phase have a
+    mean phase factor longer than R with the probability exp(-n R^2), for each lattice tried), and
+    that no edge is displaced by half a chip or more, were their displacements normal.
+    """
+    off = [kind - np.rint(kind) for kind in chip_numbers(edges, lattice)]
+    both = np.concatenate(off)
+    if len(both) < 5:
+        return 0.0
+    strength = sum(
+        len(kind) * abs(np.exp(2j * np.pi * kind).mean()) ** 2 for kind in off if len(kind) > 1
+    )
+    tried = max(1.0, float(np.ptp(edges.places)) * lattice.frequency)
+    by_chance = min(1.0, tried * math.exp(-strength))
+    deviation = max(float(np.sqrt((both**2).sum() / (len(both) - 3))), 1e-9)
+    misplaced = math.erfc(0.5 / deviation / math.sqrt(2.0))
+    return (1.0 - by_chance) * (1.0 - misplaced) ** len(both)

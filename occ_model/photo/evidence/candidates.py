@@ -13,7 +13,7 @@ from occ_model.photo.fit.best_timing import EXPLAINED, Explanation, explain, exp
 from occ_model.photo.fit.camera_response import CameraTone
 from occ_model.photo.fit.chip_runs import canonical, is_single_pulse, pulse
 from occ_model.photo.fit.chips_of_harmonics import ReadPattern
-from occ_model.photo.fit.least_squares import StripeFit, Tone
+from occ_model.photo.fit.least_squares import StripeFit
 from occ_model.photo.fit.read_pattern import MOST_CHIPS, read_otherwise, read_patterns
 from occ_model.photo.photo_scene import with_chips
 from occ_model.results.match import Stripes
@@ -187,26 +187,17 @@ class Candidates:
             return None
         bits = max(found.bits, float(self.scene.transmitter.bits))
         # They differ so little that what explains them best is near: it need not be searched.
-        other = explain_from(
-            [found.fit.timing], self.stripes, chips, self._checked_cameras(), self.fit_gamma
-        )
+        other = explain_from([found.fit.timing], self.stripes, chips, self.cameras, self.fit_gamma)
         sent = f"{self._named(chips)} instead"
         return self._supposed(sent, other, bits=bits, was_read=True, rate=found.rate)
-
-    def _checked(self, tone: Tone) -> Tone:
-        def checked(lit: FloatArray, gamma: float) -> FloatArray:
-            self.check()
-            return tone(lit, gamma)
-
-        return checked
 
     def _near(self, step: float) -> FloatArray:
         return step + _STEP_CHANGES / len(self.stripes.profile)
 
     def _named(self, chips: ByteArray) -> str:
         """Name chips by their code where they are a packet, else by their number."""
-        scene, _ = with_chips(self.scene, chips)
-        return f"{len(chips)} chips" if scene.transmitter.pattern else f"the code {_code(scene)}"
+        sends = with_chips(self.scene, chips)[0].transmitter
+        return f"{len(chips)} chips" if sends.pattern else f"the code {sends.code:0{sends.bits}b}"
 
     def _fitted(
         self,
@@ -222,7 +213,7 @@ class Candidates:
         found = explain(
             self.stripes,
             chips,
-            self._checked_cameras(),
+            self.cameras,
             gamma,
             self.fit_gamma,
             steps,
@@ -235,14 +226,5 @@ class Candidates:
     ) -> Hypothesis | None:
         if found is None:
             return None
-        return Hypothesis(sent, found, self._nearest(found, rate), bits, was_read, rate)
-
-    def _nearest(self, found: Explanation, rate: float) -> StripeFit:
-        return found.nearest(lambda fit: self.exposed(fit, rate), self.noted)
-
-    def _checked_cameras(self) -> list[CameraTone]:
-        return [replace(camera, tone=self._checked(camera.tone)) for camera in self.cameras]
-
-
-def _code(scene: Scene) -> str:
-    return f"{scene.transmitter.code:0{scene.transmitter.bits}b}"
+        fit = found.nearest(lambda fit: self.exposed(fit, rate), self.noted)
+        return Hypothesis(sent, found, fit, bits, was_read, rate)

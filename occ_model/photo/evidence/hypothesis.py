@@ -9,7 +9,6 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import canonical, chips_as_one, is_single_pulse
 from occ_model.photo.fit.least_squares import StripeFit, level_freedom
-from occ_model.photo.stripes.period import correlated_columns
 
 UNCLIPPED = 0.02
 """Saturated fraction of the pixels up to which saturation hardly changes the width of the
@@ -89,11 +88,6 @@ def log_likelihood(power: float, columns: int, independent: float, freedom: floa
     """
     variance = max(power / columns, 1e-12)
     return -0.5 * independent * math.log(variance) - 0.5 * freedom * math.log(max(independent, 2.0))
-
-
-def independent_columns(residual: FloatArray) -> float:
-    """Return the number of columns that count as independent, by a fit's residual."""
-    return len(residual) / correlated_columns(residual)
 
 
 def is_turned(one: Hypothesis, other: Hypothesis) -> bool:

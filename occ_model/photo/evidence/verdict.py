@@ -1,27 +1,42 @@
-"""Choose among hypotheses by their likelihood, and say how sure the choice is."""
+"""Choose among hypotheses by likelihood, and say how sure the choice is, or why none holds."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 
+from occ_model.arrays import FloatArray
 from occ_model.errors import MatchError
 from occ_model.photo.evidence.doubts import doubts, exposure_doubts
-from occ_model.photo.evidence.hypothesis import Hypothesis, independent_columns, log_likelihood
-from occ_model.photo.evidence.refusal import refusals
-from occ_model.photo.evidence.without_code import likelihood_of_curve, likelihood_of_wave
+from occ_model.photo.evidence.hypothesis import Hypothesis, log_likelihood
+from occ_model.photo.fit.chip_runs import is_single_pulse
+from occ_model.photo.reading.load import Photo
+from occ_model.photo.stripes.envelope import without_trend
+from occ_model.photo.stripes.period import correlated_columns, harmonics_within, without_repetition
+from occ_model.results.decoding import Region
 from occ_model.results.match import PLAIN_STRIPES, Stripes
 
 _DECISIVE = 10.0  # difference of log-likelihoods that decides: a factor of 22,000
 _MODEL_ERROR = 0.02  # error in heights of the stripes that every explanation may have
 _COSINES_PER_CHIP = 2.0  # maximum number of cosines of a smooth curve per chip in view
 
+_LEAST_GIVEN, _LEAST_READ = 0.8, 0.9  # minimum correlations of chips given and read
+
+_LEAST_OF_OBJECTS = 0.975
+"""Minimum correlation of chips that were read where no lamp is known to blink: some chips explain
+the stripes of any regular object about as well."""
+
+_LEAST_INFORMATION = 30.0  # minimum bits: the best of many timings has 15 to 20 in any picture
+_LEAST_ROW_CORRELATION = 0.7  # minimum correlation between the stripes of different rows
+
+_BANDS = 8  # number of bands of rows that are compared
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Verdict:
-    """The hypothesis that was chosen."""
+    """How sure a hypothesis is."""
 
-    found: Hypothesis
     reasons: tuple[str, ...]  # why it is doubtful, in sentences; none where it is sure
     exposure_reasons: tuple[str, ...]  # why its exposure alone is doubtful
     others: tuple[tuple[Hypothesis, float], ...]
@@ -37,9 +52,10 @@ class Judge:
 
     def choose(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
         """Choose the likeliest hypothesis."""
-        likelihoods = self._likelihoods(hypotheses)
+        independent = self._independent(hypotheses)
+        likelihoods = self._likelihoods(hypotheses, independent)
         order = sorted(range(len(likelihoods)), key=lambda i: -likelihoods[i])
-        reasons = [self._refusals(hypotheses[i], likelihoods[i], hypotheses) for i in order]
+        reasons = [self._refusals(hypotheses[i], likelihoods[i], independent) for i in order]
         best = likelihoods[order[0]]
         for i, why in zip(order, reasons, strict=True):
             # What holds but is decidedly less likely than what was refused explains nothing.
@@ -57,12 +73,11 @@ class Judge:
 
         ``is_given``: whether it is given what was sent: as many other chips then change no timing.
         """
-        everyone = [found, *others]
-        likelihoods = self._likelihoods(everyone)
+        independent = self._independent([found, *others])
+        own, *likelihoods = self._likelihoods([found, *others], independent)
         reasons = doubts(found, self._stripes, self._rows_alike)
         beside = sorted(
-            zip(others, (one - likelihoods[0] for one in likelihoods[1:]), strict=True),
-            key=lambda pair: -pair[1],
+            zip(others, (one - own for one in likelihoods), strict=True), key=lambda pair: -pair[1]
         )
         reasons += [
             f"Nearly as likely is {other.sent}, with a correlation of {other.fit.correlation:.3f} "
@@ -70,38 +85,118 @@ class Judge:
             for other, more in beside
             if more > -_DECISIVE and not found.shares_timing_with(other, is_given=is_given)
         ]
-        if likelihoods[0] - self._of_curve(found, everyone) < _DECISIVE:
+        if own - self._of_curve(found, independent) < _DECISIVE:
             reasons.append("Light that varies slowly, without any code, is nearly as likely.")
         of_exposure = exposure_doubts(found, self._stripes)
-        return Verdict(found, tuple(reasons), tuple(of_exposure), tuple(beside))
+        return Verdict(tuple(reasons), tuple(of_exposure), tuple(beside))
 
-    def _refusals(
-        self, found: Hypothesis, likelihood: float, everyone: Sequence[Hypothesis]
-    ) -> list[str]:
-        independent = self._independent(everyone)
-        return refusals(
-            found,
-            curve=self._of_curve(found, everyone),
-            wave=likelihood_of_wave(self._stripes.profile, found, independent, self._error),
-            likelihood=likelihood,
-            rows_alike=self._rows_alike,
-            blinks=self._blinks,
-        )
-
-    def _of_curve(self, found: Hypothesis, everyone: Sequence[Hypothesis]) -> float:
-        most = int(_COSINES_PER_CHIP * found.counted_chips)
-        independent = self._independent(everyone)
-        return likelihood_of_curve(self._stripes.profile, most, independent, self._error)
-
-    def _likelihoods(self, hypotheses: Sequence[Hypothesis]) -> list[float]:
-        independent, profile = self._independent(hypotheses), self._stripes.profile
-        return [
-            log_likelihood(one.fit.residual + self._error, len(profile), independent, one.freedom)
-            - np.log(2.0) * one.bits
-            for one in hypotheses
-        ]
+    def _refusals(self, found: Hypothesis, likelihood: float, independent: float) -> list[str]:
+        """Say why a hypothesis is refused: something else explains the stripes, or chance does."""
+        least = _LEAST_GIVEN
+        if found.was_read:
+            least = _LEAST_READ if self._blinks else _LEAST_OF_OBJECTS
+        what = found.sent[0].upper() + found.sent[1:]
+        if found.fit.correlation < least:
+            return [
+                f"{what} does not explain the stripes: the best correlation is "
+                f"{found.fit.correlation:.2f}; at least {least} is needed."
+            ]
+        reasons = []
+        if found.was_read and not self._blinks and is_single_pulse(found.chips):
+            share = 100.0 * float(found.chips.mean())
+            columns = len(found.chips) / found.fit.timing.step
+            reasons += [
+                PLAIN_STRIPES,
+                f"They repeat after {columns:.1f} columns and are bright for {share:.0f} % of "
+                "them, as those of any regular object are, such as a blind.",
+            ]
+        elif found.was_read and not self._blinks and likelihood < self._of_wave(found, independent):
+            reasons.append(
+                "A wave of another shape that repeats as often, as of any regular object, explains "
+                f"the stripes better than {found.sent}."
+            )
+        if found.information < _LEAST_INFORMATION:
+            reasons.append(
+                f"{what} explains the stripes hardly better than chance: {found.chips_in_view:.1f} "
+                f"chips are in view, and the exposure is {found.fit.timing.exposure:.1f} chips "
+                "long."
+            )
+        if likelihood < self._of_curve(found, independent):
+            reasons.append(
+                "Light that varies slowly, without any code, explains the stripes better than "
+                f"{found.sent}."
+            )
+        if self._rows_alike < _LEAST_ROW_CORRELATION:
+            reasons.append(
+                "The rows do not show the same stripes: their correlation is "
+                f"{self._rows_alike:.2f}; at least {_LEAST_ROW_CORRELATION} is needed."
+            )
+        return reasons
 
     def _independent(self, hypotheses: Sequence[Hypothesis]) -> float:
         """Count the independent columns by the least residual: what is left of others is signal."""
         best = min(hypotheses, key=lambda one: one.fit.residual)
-        return independent_columns(best.residual(self._stripes.profile))
+        residual = best.residual(self._stripes.profile)
+        return len(residual) / correlated_columns(residual)
+
+    def _likelihoods(self, hypotheses: Sequence[Hypothesis], independent: float) -> list[float]:
+        columns = len(self._stripes.profile)
+        return [
+            log_likelihood(one.fit.residual + self._error, columns, independent, one.freedom)
+            - np.log(2.0) * one.bits
+            for one in hypotheses
+        ]
+
+    def _of_wave(self, found: Hypothesis, independent: float) -> float:
+        """Return the log-likelihood of any wave that repeats as often as a hypothesis' chips do.
+
+        Its amplitude and mean follow the levels of the hypothesis' fit.
+        """
+        profile, columns = self._stripes.profile, len(self._stripes.profile)
+        period = len(found.chips) / found.fit.timing.step
+        flattened = (profile - found.fit.low) / found.fit.swing
+        left = without_repetition(flattened, period) * found.fit.swing
+        # The period itself, and a cosine and a sine of each harmonic, beside the levels.
+        freedom = found.freedom - 2 + 2 * harmonics_within(columns, period)
+        return log_likelihood(float(left @ left) + self._error, columns, independent, freedom)
+
+    def _of_curve(self, found: Hypothesis, independent: float) -> float:
+        """Return the log-likelihood of as few cosines, from the slowest, as are worth their number.
+
+        There are no more than a hypothesis' chips allow: faster ones are stripes.
+        """
+        # Imported only when a photo is matched: it is slow.
+        from scipy.fft import dct
+
+        profile, columns = self._stripes.profile, len(self._stripes.profile)
+        most = min(int(_COSINES_PER_CHIP * found.counted_chips), columns // 2)
+        about = profile - profile.mean()
+        whole = float(about @ about)
+        explained = np.cumsum(dct(about, norm="ortho") ** 2)[: max(2, most)]
+        left = np.maximum(whole - explained, 1e-9 * max(whole, 1e-9))
+        return max(
+            log_likelihood(power + self._error, columns, independent, number + 1)
+            for number, power in enumerate(left.tolist(), 1)
+        )
+
+
+def rows_alike(photo: Photo, region: Region) -> float:
+    """Return the correlation of a band of rows with the other ones, in the median of the bands.
+
+    Slow changes along the columns are removed: the shape of the lamp differs between the rows. A
+    rolling shutter's stripes are the same in all rows but for noise; those of a picture's objects
+    are not where they lean, end, or are broken. The result is from -1 to 1, and 1 for one row.
+    """
+    part = region.crop(photo.samples)
+    bands = min(_BANDS, len(part))
+    if bands < 2:
+        return 1.0
+    means = cv2.resize(part, (part.shape[1], bands), interpolation=cv2.INTER_AREA)
+    even = np.array([without_trend(band) for band in means.astype(np.float64)])
+    return float(np.median([_correlation(even, band) for band in range(bands)]))
+
+
+def _correlation(even: FloatArray, band: int) -> float:
+    others = np.delete(even, band, axis=0).mean(axis=0)
+    energy = float(np.sqrt((even[band] ** 2).sum() * (others**2).sum()))
+    return float(even[band] @ others) / energy if energy > 0.0 else 0.0

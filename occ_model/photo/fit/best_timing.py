@@ -104,7 +104,13 @@ def explain_from(
         ratio = _EQUALIZED_RATIO if is_equalized else 1.0
         if fits and (best is None or fits[0].residual < ratio * best[0][0].residual):
             best = fits, camera
-    return None if best is None else Explanation(chips, tuple(_as_good(best[0])), best[1])
+    if best is None:
+        return None
+    fits, camera = best
+    least = min(fit.residual for fit in fits)
+    good = [fit for fit in fits if fit.residual <= _MOST_EQUAL_RATIO * least]
+    good.sort(key=lambda fit: fit.timing.exposure)
+    return Explanation(chips, tuple(good), camera)
 
 
 def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> list[StripeFit]:
@@ -114,7 +120,8 @@ def _fits(model: StripeModel, starts: Sequence[Timing], with_gamma: bool) -> lis
     rough.sort(key=lambda fit: (not fit.is_possible, fit.residual))
     good = [fit for fit in rough if fit.residual <= _MOST_RESIDUAL_RATIO * rough[0].residual]
     apart = _apart(good)[:_MOST_FINISHED]
-    return _distinct([model.fit(fit.timing, with_gamma) for fit in apart])
+    fits = [model.fit(fit.timing, with_gamma) for fit in apart]
+    return _apart(sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual))
 
 
 def _candidates(
@@ -139,21 +146,11 @@ def _promising(candidates: Sequence[Candidate]) -> list[Timing]:
     return list(dict.fromkeys([*good[:_BEST], *shortest[:_SHORTEST]]))
 
 
-def _distinct(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    """Keep the best possible fit of each exposure, in order of the residual."""
-    return _apart(sorted((one for one in fits if one.is_possible), key=lambda fit: fit.residual))
-
-
 def _apart(fits: Sequence[StripeFit]) -> list[StripeFit]:
+    """Keep the first fit of each exposure."""
     kept: list[StripeFit] = []
     for fit in fits:
         exposures = [other.timing.exposure for other in kept]
         if all(abs(fit.timing.exposure - other) > SAME_EXPOSURE for other in exposures):
             kept.append(fit)
     return kept
-
-
-def _as_good(fits: Sequence[StripeFit]) -> list[StripeFit]:
-    least = min(fit.residual for fit in fits)
-    good = [fit for fit in fits if fit.residual <= _MOST_EQUAL_RATIO * least]
-    return sorted(good, key=lambda fit: fit.timing.exposure)

@@ -1,7 +1,7 @@
 """The camera's response: from a column's lit fraction to its value between two levels."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -34,23 +34,28 @@ class CameraTone:
 
 
 def camera_tones(
-    scene: Scene, averagings: Sequence[str], low: float, high: float
+    scene: Scene,
+    averagings: Sequence[str],
+    low: float,
+    high: float,
+    check: Callable[[], object] = lambda: None,
 ) -> list[CameraTone]:
     """Return the responses that a scene's camera can have, for stripes between two grey levels.
 
     Where the scene equalizes histograms, the response of an equalized picture is returned too. With
-    gamma the levels give the luminance of the dark panel relative to the lit one.
+    gamma the levels give the luminance of the dark panel relative to the lit one. What ``check``
+    raises ends the fit that asks for a response.
     """
     tones = []
     for averaging in averagings:
-        tone = _camera_tone(scene.replace(averaging=averaging), low, high)
+        tone = _camera_tone(scene.replace(averaging=averaging), low, high, check)
         tones.append(CameraTone(averaging, "none", tone))
         if scene.model.enhancement == "equalization":
             tones.append(CameraTone(averaging, "equalization", _equalized(tone), _RANK_RESOLUTION))
     return tones
 
 
-def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
+def _camera_tone(scene: Scene, low: float, high: float, check: Callable[[], object]) -> Tone:
     @lru_cache(maxsize=4)  # a fit evaluates the same gamma many times
     def levels(gamma: float) -> tuple[Scene, float, float]:
         dark = (low / high) ** gamma if low > _DARKEST else 0.0
@@ -64,6 +69,7 @@ def _camera_tone(scene: Scene, low: float, high: float) -> Tone:
         return camera, black, white
 
     def tone(lit: FloatArray, gamma: float) -> FloatArray:
+        check()
         camera, black, white = levels(gamma)
         values = panel_values(camera, ColumnLight(lit, _STEADY_LIGHT))
         return np.asarray((values - black) / (white - black))

@@ -6,6 +6,7 @@ each P, exposure and phase the chips that explain the harmonics best therefore f
 and are rounded to on and off.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,14 @@ _MOST_EVALUATIONS = 120
 
 _MOST_LONGER = 0.5  # maximum change, in chips, of bright runs by gamma and saturation
 
+Harmonics = NDArray[np.complex128]
+
+_DENSE_EXPOSURES = (0.5, 0.9, 1.15, 1.3, 1.5, 1.7, 1.85, 2.0, 2.15, 2.3, 2.5, 2.7, 2.85, 3.0, 3.15)
+_DENSE_PHASES = np.arange(16) / 16.0
+"""Exposures and phases in chips that are tried, twice as dense as for division."""
+
+_LEAST_GAIN = 1e-9  # increase of the likeness beyond rounding error
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReadPattern:
@@ -38,9 +47,6 @@ class ReadPattern:
     exposure: float
     phase: float
     times: int = 1  # how many times the chips are sent in a period of the stripes
-
-
-Harmonics = NDArray[np.complex128]
 
 
 def harmonics_of(even: FloatArray, period: float) -> Harmonics:
@@ -177,3 +183,52 @@ def _rounded(levels: FloatArray) -> ByteArray:
 def _likeness(a: Harmonics, b: Harmonics) -> float:
     energy = float(np.sqrt((np.abs(a) ** 2).sum() * (np.abs(b) ** 2).sum()))
     return float((a * np.conj(b)).real.sum()) / energy if energy > 0.0 else 0.0
+
+
+def chips_by_descent(
+    lines: Harmonics, count: int, check: Callable[[], object] = lambda: None
+) -> list[ReadPattern]:
+    """Find sequences of chips whose harmonics are like those given, the most alike first."""
+    exposures, phases = (part.ravel() for part in np.meshgrid(_DENSE_EXPOSURES, _DENSE_PHASES))
+    boxes = boxes_of(len(lines), count, exposures, phases)
+    order = np.arange(1, len(lines) + 1)
+    of_chips = np.exp(-2j * np.pi / count * np.outer(np.arange(count), order))
+    length = float(np.sqrt((np.abs(lines) ** 2).sum()))
+    found: dict[bytes, ReadPattern] = {}
+    for box, first, exposure, phase in zip(
+        boxes, rounded_chips(lines, boxes, count), exposures.tolist(), phases.tolist(), strict=True
+    ):
+        check()
+        responses = box * of_chips
+        towards = (np.conj(responses) * lines).real.sum(axis=1) / length
+        chips, alike = _ascended(first, towards, (responses @ np.conj(responses).T).real)
+        key = min(np.roll(chips, turn).tobytes() for turn in range(count))
+        if chips.min() < chips.max() and (key not in found or found[key].explained < alike):
+            found[key] = ReadPattern(chips, alike, exposure, phase)
+    return sorted(found.values(), key=lambda one: -one.explained)
+
+
+def _ascended(
+    first: ByteArray, towards: FloatArray, products: FloatArray
+) -> tuple[ByteArray, float]:
+    """Change chips while their likeness c'a / sqrt(c'Qc) rises.
+
+    One is changed, or two neighbours are, the way that raises it most.
+    """
+    one = np.eye(len(first), dtype=np.uint8)
+    changes = np.concatenate([one, one ^ np.roll(one, 1, axis=1)])
+    chips, best = first, float(_alike(first[None], towards, products)[0])
+    while True:
+        others = chips ^ changes
+        alike = _alike(others, towards, products)
+        most = int(alike.argmax())
+        if alike[most] <= best + _LEAST_GAIN:
+            return chips, best
+        chips, best = others[most], float(alike[most])
+
+
+def _alike(chips: ByteArray, towards: FloatArray, products: FloatArray) -> FloatArray:
+    """Return the likeness of each row of chips; that of chips without a change is -1."""
+    energy = np.einsum("ij,ij->i", chips @ products, chips)
+    varies = chips.min(axis=1) < chips.max(axis=1)
+    return np.where(varies, chips @ towards / np.sqrt(np.maximum(energy, 1e-300)), -1.0)

@@ -1,14 +1,18 @@
-"""Find the exposures with which chips explain stripes about as well as with the likeliest one."""
+"""Find the exposures with which chips explain stripes about as well as with the likeliest one.
 
+Edges show the width of an exposure and of blur together, so that one may be mistaken for the other.
+"""
+
+import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.averaged_fits import averaged, distinct
 from occ_model.photo.fit.best_timing import SAME_EXPOSURE, Explanation
-from occ_model.photo.fit.blur_or_exposure import Possible, possible_near
-from occ_model.photo.fit.joint_fit import JointFit, JointModel
-from occ_model.photo.fit.other_starts import alike_among, alike_starts, scanned_starts
+from occ_model.photo.fit.initial_search import EXPOSURES
+from occ_model.photo.fit.joint_fit import JointFit, averaged, distinct
+from occ_model.photo.fit.joint_model import JointModel
+from occ_model.photo.fit.seen_stripes import BlurShape
 from occ_model.photo.fit.timing import Timing
 
 _MOST_EXCESS_MISFIT = 60.0  # excess of the misfit above which an exposure is not refined
@@ -21,6 +25,105 @@ _MOST_SQUARE_WAVE_RATIO = 3.0
 """The same ratio for a square wave, whose stripes at such exposures differ by blur and saturation
 only: an exposure of 2.2 chips had 1.5 to 2.4 times the misfit of 0.23, where 2.15 was right (seed
 730036)."""
+
+_MOST_COLUMNS = 12.0  # exposure in columns below which blur may be taken for it
+_BLURS = (0.2, 0.7, 1.1, 1.5)  # standard deviations of blur, in columns, that are tried
+
+_BLUR_FRACTIONS: dict[BlurShape | None, tuple[float, ...]] = {
+    None: (0.9,),
+    "box": (0.1, 0.5, 0.75),
+    "exponential": (0.1, 0.5, 0.75),
+}
+"""Fractions of an edge's variance due to blur from which fits start, by the shape of the blur. A
+box of blur and an exposure look alike, and each shape has several minima: starts at one half alone
+took a blur of 1.3 columns and an exposure of 2.2 for one of 1.1 and 3.5, with a larger misfit."""
+
+_LAST_ROUNDS = 10
+_SHORTEST = 0.2  # shortest exposure in columns to start from
+
+_LONGEST = 4.2  # longest exposure in chips to start from
+
+_MOST_SCANNED = 2
+_MOST_MISFIT_RATIO = 4.0  # maximum misfit ratio of a starting value
+_HELD = (0, 3, 4, 5, 6, 7, 8)  # indices of the parameters held while exposures are compared
+_ROUGH_ROUNDS = 3  # number of iterations that separate promising exposures from others
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Possible:
+    """A model's fit, and the number of its steps once the noise is known."""
+
+    model: JointModel
+    fit: JointFit
+    rounds: int = 1
+
+    def again(self) -> list[JointFit]:
+        """Fit again, the noise having been estimated, also with each shape of the blur.
+
+        Each minimum counts once, however many starts end in it.
+        """
+        free = self.model.fit(self.fit.values, rounds=self.rounds)
+        if free.values[1] >= _MOST_COLUMNS * free.values[0]:
+            return [free]
+        found = {shape: self._shared(free.values, shape) for shape in _BLUR_FRACTIONS}
+        found["box"] += self._exchanged(found["box"])
+        found[None].append(free)
+        best = min((fit for fits in found.values() for fit in fits), key=lambda fit: fit.misfit)
+        for shape, fits in found.items():
+            # A blur of the wrong shape bends the tone curve: each begins from the best one, too.
+            fits.append(self.model.fit(best.values, rounds=_LAST_ROUNDS, shape=shape))
+        return [fit for fits in found.values() for fit in distinct(fits)]
+
+    def _exchanged(self, boxes: Sequence[JointFit]) -> list[JointFit]:
+        """Fit with exposure and blur exchanged: two boxes make the same edge in either order."""
+        found = min(boxes, key=lambda fit: fit.misfit).values
+        step, exposure, blur = float(found[0]), float(found[1]), float(found[7])
+        starts = []
+        # Blur far below a column is hardly seen, so that a box of a column is exchanged, too.
+        for box in (max(math.sqrt(12.0) * blur, _SHORTEST), 1.0):
+            values = found.copy()
+            values[1], values[7] = step * box, exposure / step / math.sqrt(12.0)
+            starts.append(values)
+        return [self.model.fit(one, rounds=_LAST_ROUNDS, shape="box") for one in starts]
+
+    def _shared(self, values: FloatArray, shape: BlurShape | None) -> list[JointFit]:
+        """Fit with another shape of the blur, starting from its fractions of the edges' width."""
+        columns = float(values[1] / values[0])
+        width = columns**2 / 12.0 + float(values[7]) ** 2
+        return [
+            self.model.fit(_with_blur(values, math.sqrt(share * width)), rounds=4, shape=shape)
+            for share in _BLUR_FRACTIONS[shape]
+        ]
+
+
+def possible_near(models: Sequence[JointModel], values: FloatArray) -> list[Possible]:
+    """Fit each model near an exposure; a short one with every blur, which it may be taken for."""
+    columns = float(values[1] / values[0])
+    if columns > _MOST_COLUMNS:
+        return [Possible(one, one.fit(one.adapted(values))) for one in models]
+    found = []
+    for model in models:
+        here = model.adapted(values)
+        others = [_with_blur(here, blur) for blur in _BLURS]
+        if not model.is_wide:
+            # Each blur starts from what is usual of all else: tone and switching can make up for
+            # it. Where gamma is asked for, it must not start anew.
+            others = [model.with_usual(other) for other in others]
+        starts = [here, *others]
+        fits = [model.fit(start, rounds=5) for start in starts]
+        best = min(fits, key=lambda fit: fit.misfit)
+        found.append(Possible(model, best, _LAST_ROUNDS))
+    return found
+
+
+def _with_blur(values: FloatArray, blur: float) -> FloatArray:
+    """Set the blur, and the exposure that leaves the edges' width as it is."""
+    values = values.copy()
+    step = float(values[0])
+    width = (values[1] / step) ** 2 + 12.0 * (values[7] ** 2 - blur**2)
+    values[1] = step * math.sqrt(max(float(width), _SHORTEST**2))
+    values[7] = blur
+    return values
 
 
 def exposure_modes(
@@ -94,3 +197,77 @@ def _other_starts(
             values[1:3] = one.exposure, one.middle
             starts.append(values)
     return starts
+
+
+def alike_starts(best: Timing) -> list[Timing]:
+    """Return the timings of other exposures by which a square wave's stripes look the same."""
+    t = best.exposure
+    alike = [2.0 * turns + sign * t for turns in (0, 1, 2) for sign in (-1.0, 1.0)]
+    # From one such exposure to the next the stripes are turned about: shifted by a chip.
+    return [
+        replace(
+            best,
+            exposure=other,
+            middle=best.middle + (math.floor(t / 2.0) + math.floor(other / 2.0)) % 2,
+        )
+        for other in alike
+        if 0.0 < other < _LONGEST and abs(other - t) > SAME_EXPOSURE
+    ]
+
+
+def scanned_starts(
+    model: JointModel, found: FloatArray, is_possible: Callable[[Timing], bool]
+) -> list[FloatArray]:
+    """Return the parameters of the best other exposures of all, the camera being as usual.
+
+    The first search compares exposures by a profile without blur and by one tone curve: it may keep
+    only a wrong one, whose errors look small.
+
+    ``model``: the model, its noise being that of the exposure found.
+    """
+    usual = model.with_usual(found)
+
+    def rough(exposure: float) -> tuple[float, FloatArray]:
+        values = usual.copy()
+        values[1] = exposure
+        return model.rough(values, _HELD, _ROUGH_ROUNDS)
+
+    most = _MOST_MISFIT_RATIO * rough(float(found[1]))[0]
+    fits = sorted((rough(one) for one in EXPOSURES if one < _LONGEST), key=lambda fit: fit[0])
+    kept: list[FloatArray] = []
+    for misfit, values in fits:
+        apart = all(abs(values[1] - other[1]) > SAME_EXPOSURE for other in [found, *kept])
+        if misfit < most and apart and is_possible(model.timing(values)):
+            kept.append(values)
+    return kept[:_MOST_SCANNED]
+
+
+def alike_among(
+    tried: Sequence[JointFit],
+    kept: Sequence[JointFit],
+    most: float,
+    is_possible: Callable[[JointFit], bool],
+) -> list[JointFit]:
+    """Return the fits of a square wave by other exposures that look like one of those kept.
+
+    A search that begins near one exposure may end at another, where blur of a wrong shape fits
+    better: one ended at 1.61 chips where 2.38 were right, and 2.39 among those tried (seed
+    4480060).
+    """
+    found: list[JointFit] = []
+    for fit in sorted(tried, key=lambda one: one.misfit):
+        known = [one.exposure for one in (*kept, *found)]
+        if (
+            fit.misfit < most
+            and all(abs(fit.exposure - other) > SAME_EXPOSURE for other in known)
+            and any(_look_alike(fit.exposure, one.exposure) for one in kept)
+            and is_possible(fit)
+        ):
+            found.append(fit)
+    return found
+
+
+def _look_alike(one: float, other: float) -> bool:
+    """Whether a square wave's stripes look the same by two exposures in chips, blur left aside."""
+    turns = [math.remainder(sum_, 2.0) for sum_ in (one - other, one + other)]
+    return min(map(abs, turns)) <= SAME_EXPOSURE

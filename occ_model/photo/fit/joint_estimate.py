@@ -9,16 +9,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
 from occ_model.photo.fit.best_timing import Explanation
 from occ_model.photo.fit.chip_runs import runs_of
 from occ_model.photo.fit.exposure_modes import exposure_modes
-from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
-from occ_model.photo.fit.lamp_rims import without_rims
+from occ_model.photo.fit.joint_fit import JointFit
+from occ_model.photo.fit.joint_model import USUAL, JointModel
 from occ_model.photo.fit.least_squares import StripeFit, StripeModel, exposure_deviation
 from occ_model.photo.fit.timing import Timing
-from occ_model.photo.stripes.evenly_lit import Cells
+from occ_model.photo.stripes.evenly_lit import Cells, EvenProfile
 from occ_model.results.match import Stripes
 
 _CHIPS_LIT = 8
@@ -46,6 +47,12 @@ _CONTRADICTION = (
     "The pixels that are lit equally give another exposure than the mean of all pixels: its stated "
     "error may not hold."
 )
+
+
+_ROUNDS = 6  # number of iterations after which the rims are seen in the residual
+_COLUMNS = 16  # number of columns that are left out together
+_MOST_RATIO = 3.0  # root mean square of their residual over the median above which they are
+_LEAST_KEPT = 24  # minimum number of columns of a profile
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -220,3 +227,31 @@ def _exposure_doubts(seen: float, alike: Sequence[JointFit]) -> tuple[str, ...]:
             "surroundings are bright."
         )
     return tuple(doubts)
+
+
+def without_rims(
+    profiles: Sequence[EvenProfile], model: JointModel, first: StripeFit, profile: FloatArray
+) -> list[EvenProfile]:
+    """Return profiles without the columns at their ends that fits do not follow.
+
+    Neither the fit to the mean of all pixels, ``profile``, nor one that knows of blur: the levels
+    of the latter bend after a rim, the blur that the former lacks may hide it.
+    """
+    start = model.start(first.timing)
+    model.estimate_noise(start)
+    misfit = model.misfit_of_columns(model.rough(start, (), _ROUNDS)[1])
+    shows = within_rims(misfit) & within_rims((profile - first.profile) ** 2)
+    found = [replace(one, kept=one.kept & shows, clipped=one.clipped & shows) for one in profiles]
+    return [one for one in found if one.kept.sum() >= _LEAST_KEPT] or list(profiles)
+
+
+def within_rims(misfit: FloatArray) -> NDArray[np.bool_]:
+    """Return which columns lie between the rims, by the misfit of each; NaN where none is seen."""
+    starts = np.arange(0, max(1, len(misfit) - _COLUMNS + 1), _COLUMNS)
+    seen = ~np.isnan(misfit)
+    count = np.add.reduceat(seen.astype(np.float64), starts)
+    squares = np.add.reduceat(np.where(seen, misfit, 0.0), starts) / np.maximum(count, 1.0)
+    inside = np.flatnonzero(squares <= _MOST_RATIO**2 * np.median(squares[count > 0.0]))
+    shows = np.zeros(len(misfit), dtype=bool)
+    shows[starts[inside[0]] : np.append(starts, len(misfit))[inside[-1] + 1]] = True
+    return shows

@@ -1,66 +1,33 @@
-"""Fit the timing together with what else is unknown of the camera, and state its uncertainty.
+"""A joint fit's timing with its covariance, and the mean over the fits of several models.
 
-The light of a column is a(i) + b(i) x lit(i), with levels a and b that vary slowly; the camera's
-tone curve makes it a grey level. Tone curve, blur and the LED's switching are not known: they are
-fitted too, held by what is usual (a Gaussian prior each), so that the timing's uncertainty includes
-them. Clipped columns enter as "at least white": a residual where the model is darker (a censored
-normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
+The residual of a fit to stripes is not mere noise. The mean weighs each model by how likely it is.
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from occ_model.arrays import ByteArray, FloatArray, IndexArray
-from occ_model.photo.fit.blurred_light import BlurShape
-from occ_model.photo.fit.chip_runs import chips_as_one
-from occ_model.photo.fit.damped_least_squares import minimized
-from occ_model.photo.fit.joint_covariance import CORRELATED_COLUMNS, covariance_of
-from occ_model.photo.fit.least_squares import level_freedom
-from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
-from occ_model.photo.fit.scaled_parameters import ScaledParameters
-from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, OF_TONE, SeenStripes
-from occ_model.photo.fit.timing import Timing
-from occ_model.photo.stripes.evenly_lit import EvenProfile
-from occ_model.photo.stripes.period import correlated_columns
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
+from occ_model.arrays import FloatArray
+from occ_model.photo.fit.timing import SHORTEST
 
-USUAL = {
-    "gamma": (0.0, 0.12),
-    "offset": (0.03, 0.04),
-    "shoulder": (0.0, 0.25),
-    "contrast": (0.0, 0.35),
-    "blur": (0.5, 0.5),
-    "longer": (0.0, 0.02),
-}
-"""Mean and standard deviation of the priors: gamma's logarithm over the scene's gamma, the tone
-curve's bends, the blur in columns, and the chips by which the LED is on longer."""
+_UNMODELLED = 0.05
+"""Fraction of the data's misfit by which explanations must differ: effects outside the model change
+the misfit of each by chance. Without it, a blur of the wrong shape is often the only one left. The
+misfit of the priors has no such error and counts in full."""
 
-_KURTOSIS = 1.6
-"""Standard deviation of the blur's excess kurtosis: its root mean square if half of all blur is
-normal (0), a quarter a box from resizing (-1.2), and a quarter has exponential tails (3). It is not
-fitted, since it would absorb what the model leaves unexplained."""
+_MOST_STEP_RATIO = 5.0
+"""Maximum ratio of a step's standard deviation to the smallest one: all models have the same
+distances of edges, so that a larger one comes from a degenerate fit."""
 
-_KURTOSIS_CHANGE = 0.2  # finite difference of the excess kurtosis
-_ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
-_EDGE_SHIFT = 0.4  # deviation in columns of edges' distances where pixel values are blurred
+_MOST_GAMMA_VARIANCE = 1e3  # that of gamma's logarithm is larger only at its bound
 
-_CHIPS_PER_BLOCK = 2
-_LEAST_BLOCK = 16
-"""Length of a block of columns with correlated residuals, and its minimum: two of the blocks of
-JPEG."""
-
-_CHIPS_PER_SLOW_SHAPE = 4
-_MOST_SLOW_SHAPES = 32
-"""Polynomials that are projected out of a residual: a lamp's brightness along the columns is not a
-combination of a few of them. The rest would count as noise of many columns, and the priors would
-outweigh the data."""
-
-_EDGE = 0.05  # distance from both levels, relative to the swing, at which a column is on an edge
-_GAMMA_BOUNDS = (-0.9, 0.9)  # bounds of gamma's logarithm where it is roughly known
+CORRELATED_COLUMNS = 4.0
+"""Number of columns of a residual that count as one: it is not mere noise, but repeats with the
+stripes. Of 151 exposures of simulated photographs one standard deviation covers 76 %, and two 91 %;
+with 6 one covers 81 %, with 2 two cover 87 %."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -95,243 +62,79 @@ class JointFit:
         return math.sqrt(float(self.covariance[1, 1]))
 
 
-class JointModel:
-    """The model of profiles of one lamp, by one sequence of chips.
+def covariance_of(
+    slopes: FloatArray, residual: FloatArray, tails: FloatArray, block: NDArray[np.int64]
+) -> FloatArray:
+    """Return the parameters' covariance.
 
-    ``step``: chips per column, roughly. ``gamma``: usual one; 1 where pixel values are averaged.
-    ``values_blurred``: pixel values are blurred (noise reduction, resizing), else light
-    (demosaicing). ``wide``: gamma may be any that a scene's may be.
+    Of two estimates the larger one is taken: the inverse of the information, and the sandwich with
+    the scores summed over blocks of columns (White, Econometrica 50:1, 1982; Newey and West,
+    Econometrica 55:703, 1987), times n/(n-1) for n blocks. For the step the information is that of
+    noise alone, as if every column counted: what repeats with the stripes makes the edges wider or
+    narrower, and leaves their distances as they are. Added is what one standard deviation of the
+    blur's tails changes (a parameter that is considered, and not estimated: Jazwinski, Stochastic
+    Processes and Filtering Theory, 8.4).
+
+    ``slopes``: shape (residuals, parameters); the first parameter is the step. ``residual``: in
+    standard deviations; after the data's come those of what is usual. ``tails``: its change by one
+    standard deviation of the blur's tails. ``block``: that of each of the data. All profiles show
+    the same stripes with the same errors of compression: a block holds the columns of all of them.
     """
-
-    def __init__(
-        self,
-        profiles: Sequence[EvenProfile],
-        chips: ByteArray,
-        step: float,
-        gamma: float,
-        *,
-        values_blurred: bool = False,
-        wide: bool = False,
-        check: Callable[[], object] = lambda: None,
-    ) -> None:
-        self._check = check
-        columns, as_one = len(profiles[0].values), chips_as_one(chips)
-        self._columns, self._step, self.gamma = columns, step, gamma
-        self._values_blurred = values_blurred
-        counted = step * columns / as_one
-        freedom = level_freedom(counted)
-        slow = int(np.clip(counted / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
-        self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
-        width = max(_LEAST_BLOCK, round(_CHIPS_PER_BLOCK * as_one / step))
-        self._block = np.concatenate(
-            [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
-        )
-        self._noise = [np.ones(part.data.size + part.clipped.size) for part in self._parts]
-        self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
-        usual = np.array(list(USUAL.values()))
-        self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
-        self._deviation[5] = math.hypot(as_one * self._deviation[5], _EDGE_SHIFT * step)
-        if wide:
-            self._deviation[0] = _ANY_GAMMA
-        allowed = PARAMETERS["gamma"]
-        assert isinstance(allowed, Quantity)  # noqa: S101 - it is one
-        self._allowed = np.array([allowed.low, allowed.high])
-        self._free = np.array(
-            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
-        )
-        self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
-        self._seen = SeenStripes(chips, columns, gamma, values_blurred=values_blurred)
-
-    def start(self, timing: Timing) -> FloatArray:
-        """Return the parameters of a timing, and what is usual."""
-        values = np.array([timing.step, timing.exposure, timing.middle, *self._mean])
-        if self.gamma == 1.0:
-            values[4] = 0.0
-        return values
-
-    def timing(self, values: FloatArray) -> Timing:
-        """Return the timing of parameters, by the usual gamma."""
-        step, exposure, middle = values[:3].tolist()
-        return Timing(step, exposure, middle, self.gamma)
-
-    def adapted(self, values: FloatArray) -> FloatArray:
-        """Return another model's parameters, what this one does not fit being as usual."""
-        usual = self.start(self.timing(values))
-        return np.where(self._free, values, usual)
-
-    @property
-    def is_wide(self) -> bool:
-        """Whether gamma may be any."""
-        return bool(self._deviation[0] == _ANY_GAMMA)
-
-    def with_usual(self, values: FloatArray) -> FloatArray:
-        """Keep the timing and the blur of parameters, and let all else be as usual."""
-        usual = self.start(self.timing(values))
-        usual[7] = values[7]
-        return usual
-
-    def take_noise(self, other: "JointModel") -> None:
-        """Take the noise that another model of the same profiles found."""
-        self._noise, self._slow = other._noise, other._slow
-
-    def fit(
-        self,
-        first: FloatArray,
-        fixed: Sequence[int] = (),
-        rounds: int = 12,
-        shape: BlurShape | None = None,
-    ) -> JointFit:
-        """Fit from a first guess.
-
-        ``fixed``: indices of parameters. ``shape``: the blur's; None: normal, of unknown tails.
-        """
-        index, blur = self._index(fixed), shape or "normal"
-        scaled, found, residual, slopes = self._minimized(first, index, rounds, blur)
-        values = scaled.values(found)
-        rates = scaled.rates(values)
-        covariance = np.zeros((9, 9))
-        moved = np.zeros_like(residual)
-        if shape is None:
-            moved = (self._residual(values, _KURTOSIS_CHANGE) - residual) * (
-                _KURTOSIS / _KURTOSIS_CHANGE
-            )
-        covariance[np.ix_(index, index)] = covariance_of(
-            slopes, residual, moved, self._block
-        ) * np.outer(rates, rates)
-        prior = residual[-len(USUAL) :]
-        shift = np.zeros(9)
-        # Where pixel values are blurred, the model itself blurs the product.
-        if 2 in index and not self._values_blurred:
-            by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
-            shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
-        return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
-
-    def rough(
-        self, first: FloatArray, fixed: Sequence[int], rounds: int
-    ) -> tuple[float, FloatArray]:
-        """Return the misfit of a fit of few rounds, and its parameters."""
-        scaled, found, residual, _ = self._minimized(first, self._index(fixed), rounds, "normal")
-        return float(residual @ residual), scaled.values(found)
-
-    def _index(self, fixed: Sequence[int]) -> IndexArray:
-        free = self._free.copy()
-        free[list(fixed)] = False
-        return np.flatnonzero(free)
-
-    def _minimized(
-        self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape
-    ) -> tuple[ScaledParameters, FloatArray, FloatArray, FloatArray]:
-        """Return the scaled parameters of an index that fit best, with residual and slopes."""
-        scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
-        of_tone = bool(np.isin(index, OF_TONE).any())
-        found = minimized(
-            lambda place: self._residual(scaled.values(place), 0.0, blur),
-            np.zeros(len(index)),
-            rounds,
-            slopes=lambda place: (
-                self._slopes(scaled.values(place), blur, of_tone)[:, index] * scaled.slopes(place)
-            ),
-        )
-        return scaled, *found
-
-    def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
-        """Return by how many chips the place of each residual is later because levels are blurred.
-
-        The model multiplies blurred stripes by the levels, but a lens blurs their product. Where
-        the swing E changes along the columns, a blur of variance s^2 thus moves an edge towards the
-        darker side by s^2 (ln E)': an exponential times a normal distribution is one that is moved.
-        """
-        seen = self._seen.by(values, 0.0, shape)
-        slopes = [part.relative_slope(seen) for part in self._parts]
-        moved = float(values[0] * values[7] ** 2) * np.concatenate(slopes)
-        return np.concatenate([moved, np.zeros(len(USUAL))])
-
-    def unusual(self, values: FloatArray) -> float:
-        """Return by how many standard deviations the unknowns of a fit are off what is usual."""
-        return float(np.linalg.norm((values[3:] - self._mean) / self._deviation))
-
-    def estimate_noise(self, values: FloatArray) -> None:
-        """Take a fit's residual as the noise of each profile, neighbours being correlated."""
-        seen = self._seen.by(values)
-        for number, part in enumerate(self._parts):
-            residual = part.residual(seen)[: part.data.size]
-            slow = part.slow(np.ones(part.data.size))
-            residual -= slow @ (slow.T @ residual)
-            deviation = deviation_of(residual, part.slope, part.freedom + slow.shape[1] / 2.0)
-            whole = np.zeros(self._columns)
-            whole[part.kept] = residual / deviation
-            deviation *= math.sqrt(CORRELATED_COLUMNS * correlated_columns(whole))
-            white = np.full(part.clipped.size, float(np.median(deviation)))
-            self._noise[number] = np.concatenate([deviation, white])
-            self._slow[number] = part.slow(deviation)
-
-    def misfit_of_columns(self, values: FloatArray) -> FloatArray:
-        """Return the mean square of each column's residual over the profiles that show it.
-
-        In grey levels, shape (columns,); NaN for a column that none shows unclipped.
-        """
-        seen, squares, count = (
-            self._seen.by(values),
-            np.zeros(self._columns),
-            np.zeros(self._columns),
-        )
-        for part in self._parts:
-            squares[part.kept] += part.residual(seen)[: part.data.size] ** 2
-            count[part.kept] += 1.0
-        return np.where(count > 0.0, squares / np.maximum(count, 1.0), np.nan)
-
-    def edges_seen(self, values: FloatArray) -> float:
-        """Return the largest unclipped fraction of the edges' columns in a profile."""
-        lit = self._seen.by(values).lit
-        low, high = float(lit.min()), float(lit.max())
-        edges = (lit > low + _EDGE * (high - low)) & (lit < high - _EDGE * (high - low))
-        count = max(1, int(edges.sum()))
-        return max(float(edges[part.kept].sum()) / count for part in self._parts)
-
-    def _gammas(self) -> tuple[float, float]:
-        if not self.is_wide:
-            return _GAMMA_BOUNDS
-        inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
-        low, high = np.log(self._allowed * inside / self.gamma).tolist()
-        return low, high
-
-    def _residual(
-        self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
-    ) -> FloatArray:
-        self._check()
-        seen = self._seen.by(values, tails, shape)
-        unusual = (values[3:] - self._mean) / self._deviation
-        return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
-
-    def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
-        """Return the residual's slopes over all nine parameters, shape (residuals, 9).
-
-        Those over the tone curve's are 0 unless they are wanted.
-        """
-        self._check()
-        seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape, of_tone)
-        found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
-        slopes = np.zeros((9, found.shape[1] + len(USUAL)))
-        slopes[IN_ORDER[: len(found)], : -len(USUAL)] = found
-        slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
-        slopes[3:, -len(USUAL) :] = np.diag(1.0 / self._deviation)
-        return slopes.T
-
-    def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
-        """Divide residuals, or slopes, by the noise, and take out what is slow."""
-        found = []
-        for values, part, noise, slow in zip(
-            parts, self._parts, self._noise, self._slow, strict=True
-        ):
-            white = values / noise
-            own = white[..., : part.data.size]
-            own -= (own @ slow) @ slow.T
-            found.append(white)
-        return found
-
-
-def _explained(slopes: FloatArray, change: FloatArray) -> FloatArray:
-    """Return the changes of the parameters that best explain a change of the residual."""
     information = slopes.T @ slopes
     information[np.diag_indices_from(information)] += 1e-9
-    return np.asarray(np.linalg.solve(information, slopes.T @ change))
+    inverse = np.linalg.inv(information)
+    data, blocks = len(block), int(block.max()) + 1
+    products = slopes[:data] * residual[:data, None]
+    scores = np.stack([np.bincount(block, part, blocks) for part in products.T], axis=1)
+    prior = slopes[data:].T @ slopes[data:]
+    sandwich = inverse @ (scores.T @ scores + prior) @ inverse * (blocks / max(1, blocks - 1))
+    ratio = np.diag(sandwich) / np.diag(inverse)
+    ratio = np.maximum(ratio, np.append(1.0 / CORRELATED_COLUMNS, np.ones(len(ratio) - 1)))
+    moved = inverse @ (slopes.T @ tails)
+    return np.asarray(inverse * np.sqrt(np.outer(ratio, ratio)) + np.outer(moved, moved))
+
+
+def averaged(fits: Sequence[JointFit]) -> JointFit:
+    """Average over models, each weighted by the density of its best fit.
+
+    The estimate is the fit of the median exposure: where an edge is either blur's or the
+    exposure's, the mean of both is neither. The deviation is that of densities which are trusted
+    less, since they are of noise alone. An exposure that has shrunk to nothing, a gamma at its
+    bound, or a step that is far less known than by another fit, has no slope, and so no
+    covariance: such a fit counts only where there is no other.
+    """
+    most = _MOST_STEP_RATIO**2 * min(one.covariance[0, 0] for one in fits)
+    known = [one for one in fits if one.covariance[0, 0] <= most]
+    usable = [
+        one
+        for one in known
+        if one.exposure > 2.0 * SHORTEST and one.covariance[3, 3] < _MOST_GAMMA_VARIANCE
+    ]
+    fits = sorted(usable or known, key=lambda fit: fit.exposure)
+    likeliest = min(fits, key=lambda fit: fit.misfit)
+    likely = np.cumsum(_weights(np.array([fit.misfit for fit in fits])))
+    middle = fits[int(np.searchsorted(likely, 0.5))].values
+    trust = max(1.0, _UNMODELLED * (likeliest.misfit - likeliest.prior))
+    weights = _weights(np.array([(fit.misfit - fit.prior) / trust + fit.prior for fit in fits]))
+    covariance = sum(
+        weight * (fit.covariance + np.outer(fit.values - middle, fit.values - middle))
+        for weight, fit in zip(weights, fits, strict=True)
+    )
+    return JointFit(middle, np.asarray(covariance), likeliest.misfit, likeliest.prior)
+
+
+def distinct(fits: Sequence[JointFit]) -> list[JointFit]:
+    """Keep the best fit of each minimum, the best first: several starts may end in the same one.
+
+    Two are the same where their exposures differ by less than the better one's deviation.
+    """
+    kept: list[JointFit] = []
+    for fit in sorted(fits, key=lambda one: one.misfit):
+        if all(abs(fit.exposure - other.exposure) > other.deviation for other in kept):
+            kept.append(fit)
+    return kept
+
+
+def _weights(misfits: FloatArray) -> FloatArray:
+    density = np.exp(-0.5 * (misfits - misfits.min()))
+    return np.asarray(density / density.sum())

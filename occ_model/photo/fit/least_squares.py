@@ -17,13 +17,11 @@ from occ_model.arrays import ByteArray, FloatArray
 from occ_model.camera.photometry import FLAT, WHITE
 from occ_model.photo.fit.chip_runs import chips_as_one
 from occ_model.photo.fit.damped_least_squares import DIFFERENCE, minimized
-from occ_model.photo.fit.lit_columns import LitColumns
-from occ_model.photo.fit.normal_equations import NormalEquations
+from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations
 from occ_model.photo.fit.timing import SHORTEST, Timing
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.period import correlated_columns
-from occ_model.scene.parameter_kinds import Quantity
-from occ_model.scene.parameters import PARAMETERS
+from occ_model.scene.parameters import quantity
 from occ_model.transmitter.waveform import Waveform
 
 Tone = Callable[[FloatArray, float], FloatArray]
@@ -120,8 +118,7 @@ class StripeModel:
     ) -> StripeFit:
         """Fit the timing from a first guess."""
         columns = len(self._profile)
-        gamma = PARAMETERS["gamma"]
-        assert isinstance(gamma, Quantity)  # noqa: S101 - it is one
+        gamma = quantity("gamma")
         low = np.array([0.5 * start.step, SHORTEST, -np.inf, gamma.low])
         high = np.array([2.0 * start.step, np.inf, np.inf, gamma.high])
         first = np.array([start.step, start.exposure, start.middle, start.gamma])

@@ -13,10 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.fit.blurred_light import BLUR, REACH, blurred
-from occ_model.photo.fit.lit_columns import LitColumns
-from occ_model.photo.fit.normal_equations import NormalEquations, at_least_one, solved
-from occ_model.photo.fit.tone_curve import ToneSlopes, ToneTable
+from occ_model.photo.fit.normal_equations import LitColumns, NormalEquations, at_least_one, solved
+from occ_model.photo.fit.seen_stripes import BLUR, REACH, Seen, SeenSlopes, blurred
 from occ_model.photo.stripes.envelope import LEAST_SWING, smooth_shapes
 from occ_model.photo.stripes.evenly_lit import EvenProfile
 
@@ -24,33 +22,6 @@ _LEAST_DEVIATION = 0.02  # minimum standard deviation of a column mean in grey l
 _MOST_CORRECTIONS = 4  # steps by which levels are corrected for the blur of grey levels
 _LEAST_CORRECTION = 1e-4  # light of white
 _COLUMNS_PER_SLOW_SHAPE = 8  # minimum number of columns per polynomial that is projected out
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Seen:
-    """What the columns see: lit fractions, blurred, or sharp and blurred as pixel values."""
-
-    lit: FloatArray
-    table: ToneTable
-    sharp: FloatArray | None  # also of the columns beside that blur reaches
-    kernel: FloatArray
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class SeenSlopes:
-    """The slopes of what the columns see."""
-
-    lit: FloatArray  # shape (light's parameters, columns); of the lit fractions, blurred
-    tone: ToneSlopes  # of the tone curve, over its own parameters
-    # Shape (light's parameters, columns and those beside that blur reaches); of the sharp lit
-    # fractions, where pixel values are blurred.
-    sharp: FloatArray | None
-    kernel: FloatArray  # shape (weights,); of the blur's weights, over the blur
-
-    @property
-    def parameters(self) -> int:
-        """The number of all parameters."""
-        return len(self.lit) + self.tone.parameters
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -82,7 +53,9 @@ class LitProfile:
         slope = np.abs(np.gradient(profile.values))
         self.slope = cv2.dilate(slope[None], np.ones((1, 3), np.uint8))[0][self.kept]
         self.freedom = freedom
-        self._slow = self._slow_shapes(len(profile.values), slow)
+        slow = min(slow, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
+        slow_shapes = smooth_shapes(len(profile.values), slow)
+        self._slow = np.ascontiguousarray(slow_shapes[self.kept])
         shapes = smooth_shapes(len(profile.values), 2 * freedom - 1)
         self._shapes = np.ascontiguousarray(shapes[:, :freedom].T)
         self._wide_shapes = np.pad(self._shapes, ((0, 0), (REACH, REACH)), mode="edge")
@@ -127,10 +100,6 @@ class LitProfile:
         swing = np.maximum(swing, LEAST_SWING * float(swing.max()))
         slope = np.gradient(np.log(np.maximum(swing, 1e-12)))
         return np.concatenate([slope[self.kept], slope[self.clipped]])
-
-    def _slow_shapes(self, columns: int, count: int) -> FloatArray:
-        count = min(count, self.kept.size // _COLUMNS_PER_SLOW_SHAPE)
-        return np.ascontiguousarray(smooth_shapes(columns, count)[self.kept])
 
     def slow(self, noise: FloatArray) -> FloatArray:
         """Return an orthonormal basis of slow changes in a residual divided by its noise."""

@@ -10,14 +10,19 @@ from dataclasses import replace
 import numpy as np
 
 from occ_model.arrays import FloatArray
-from occ_model.photo.chips.edges import Edges, edges_of
-from occ_model.photo.chips.lattice import LEAST_COHERENCE_RATIO, LEAST_COLUMNS, coherence
+from occ_model.photo.chips.edges import (
+    LEAST_COHERENCE_RATIO,
+    LEAST_COLUMNS,
+    Edges,
+    coherence,
+    edges_of,
+)
 from occ_model.photo.fit.chip_runs import canonical
-from occ_model.photo.fit.chips_by_descent import chips_by_descent
 from occ_model.photo.fit.chips_of_harmonics import (
     Harmonics,
     ReadPattern,
     best_chips,
+    chips_by_descent,
     harmonics_of,
     refined,
 )

@@ -1,24 +1,196 @@
-"""What the columns see of one lamp's chips, by the parameters of a joint fit."""
+"""What the columns see of one lamp's chips: lit fractions that are blurred, and a tone curve.
+
+Image processing blurs along the columns, and an LED that turns on faster than off (or a driver that
+does) is on a little longer than its chips say.
+"""
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
+from typing import Literal
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
 
 from occ_model.arrays import ByteArray, FloatArray
-from occ_model.photo.fit.blurred_light import (
-    BlurredLight,
-    BlurShape,
-    blur_kernel,
-    kernel_slope,
-)
-from occ_model.photo.fit.lit_profile import Seen, SeenSlopes
 from occ_model.photo.fit.timing import Timing
-from occ_model.photo.fit.tone_curve import ToneCurve, ToneSlopes
+from occ_model.photo.fit.tone_curve import ToneCurve, ToneSlopes, ToneTable
+
+REACH = 8
+"""Maximum distance in columns over which blur acts."""
+
+_LEAST_BLUR = 0.05  # blur in columns below which a picture is sharp
+_CHANGE = 1e-5  # finite difference of the blur in columns
+
+BLUR = 3
+"""The blur's index among the parameters of slopes: step, exposure, middle, blur and longer."""
+
+BlurShape = Literal["normal", "box", "exponential"]
+"""Blur's distribution: of processing; a box, as resizing blurs; or one with long tails."""
 
 GAMMA = 3
 OF_TONE = [GAMMA, 4, 5, 6]
 IN_ORDER = [0, 1, 2, 7, 8, *OF_TONE]
 """Indices of gamma, of the tone curve's parameters, and of all in the order of slopes."""
+
+
+class BlurredLight:
+    """The light of chips that are sent repeatedly, as blurred columns see it.
+
+    ``chips``: shape (chips,), one period, neither all on nor all off.
+    """
+
+    def __init__(self, chips: ByteArray, columns: int) -> None:
+        self._period = len(chips)
+        self._columns = columns
+        change = chips.astype(np.int64) - np.roll(chips, 1)
+        places = np.flatnonzero(change)
+        turns = np.concatenate([places - self._period, places, places + self._period])
+        self._edges = turns.astype(np.float64)
+        self._changes = np.tile(change[places], 3).astype(np.float64)
+        self._level_before = float(chips[int(turns[0] - 1) % self._period])
+        # By the number of edges that were passed, which repeats after a period.
+        self._levels = chips[places - 1].astype(np.float64)
+
+    def lit_fraction(
+        self,
+        timing: Timing,
+        blur: float,
+        longer: float,
+        tails: float = 0.0,
+        shape: BlurShape = "normal",
+    ) -> FloatArray:
+        """Return the fraction of each column's exposure in which the LED is on, shape (columns,).
+
+        ``blur``: its standard deviation in columns. ``longer``: chips by which each time on is
+        longer than the chips say. ``tails``: excess kurtosis of a blur that is about normal.
+        """
+        return blurred(self.sharp(timing, longer), blur_kernel(blur, tails, shape))
+
+    def sharp(self, timing: Timing, longer: float) -> FloatArray:
+        """Return the fractions without blur, also of the columns beside that blur reaches."""
+        return self._integrated(timing, self._edges_of(longer))
+
+    def slopes(
+        self, timing: Timing, blur: float, longer: float, shape: BlurShape = "normal"
+    ) -> FloatArray:
+        """Return the lit fractions' slopes over step, exposure, middle, blur and longer.
+
+        Shape (5, columns).
+        """
+        slopes = blurred(self.sharp_slopes(timing, longer), blur_kernel(blur, 0.0, shape))
+        slopes[BLUR] = blurred(self.sharp(timing, longer), kernel_slope(blur, shape))
+        return slopes
+
+    def sharp_slopes(self, timing: Timing, longer: float) -> FloatArray:
+        """Return the slopes of the fractions without blur, of which those over the blur are 0.
+
+        The running integral's slope is the level, and the edges that were passed before are each
+        early by half of what the time on is longer.
+        """
+        edges = self._edges_of(longer)
+        place, exposure = self._places(timing), timing.exposure
+        first, last = (self._passed(edges, where) for where in (place, place + exposure))
+        before, after = (self._levels[passed % len(self._levels)] for passed in (first, last))
+        lit, rise = self._integrated(timing, edges), (after - before) / exposure
+        from_middle = np.arange(len(place)) - 0.5 * (len(place) - 1)
+        by_exposure = (0.5 * (after + before) - lit) / exposure
+        by_longer = 0.5 * (last - first) / exposure
+        return np.stack([rise * from_middle, by_exposure, rise, np.zeros_like(lit), by_longer])
+
+    def _edges_of(self, longer: float) -> FloatArray:
+        return self._edges - 0.5 * longer * self._changes
+
+    def _places(self, timing: Timing) -> FloatArray:
+        """Return where the exposures start of all columns that blur reaches."""
+        column = np.arange(-REACH, self._columns + REACH)
+        return np.asarray(timing.start(self._columns) + timing.step * column, dtype=np.float64)
+
+    def _integrated(self, timing: Timing, edges: FloatArray) -> FloatArray:
+        # The running integral has corners at the edges; it is 0 at the first of them.
+        levels = self._level_before + np.cumsum(self._changes)
+        integral = np.concatenate([[0.0], np.cumsum(levels[:-1] * np.diff(edges))])
+        ends = np.interp([0.0, float(self._period)], edges, integral)
+        a_period = float(ends[1] - ends[0])
+        place = self._places(timing)
+
+        def until(where: FloatArray) -> FloatArray:
+            turns = np.floor(where / self._period)
+            within = np.interp(where - turns * self._period, edges, integral)
+            return np.asarray(turns * a_period + within)
+
+        return np.asarray((until(place + timing.exposure) - until(place)) / timing.exposure)
+
+    def _passed(self, edges: FloatArray, where: FloatArray) -> NDArray[np.int64]:
+        """Count the edges before some places, from the first one on."""
+        turns = np.floor(where / self._period)
+        within = np.searchsorted(edges, where - turns * self._period)
+        return np.asarray(within + turns.astype(np.int64) * len(self._levels), dtype=np.int64)
+
+
+def blurred(rows: FloatArray, kernel: FloatArray) -> FloatArray:
+    """Blur a row, or several, along the columns, and leave out those that only blur reaches."""
+    found = cv2.filter2D(np.atleast_2d(rows), -1, kernel[None])[:, REACH:-REACH]
+    return np.asarray(found, dtype=np.float64).reshape(*rows.shape[:-1], -1)
+
+
+def blur_kernel(blur: float, tails: float = 0.0, shape: BlurShape = "normal") -> FloatArray:
+    """Return the weights of blur of the standard deviation ``blur``, in columns, around a column.
+
+    A normal distribution is multiplied by 1 + k/24 He4, which gives it the excess kurtosis
+    k = ``tails`` (Gram and Charlier's series; Kendall and Stuart, The Advanced Theory of
+    Statistics, 6.17); sharpening makes weights negative. A box of the half width sqrt(3) blur gives
+    each column the fraction of it that the column covers; exponential tails decay by the same ratio
+    from column to column.
+    """
+    off = np.abs(np.arange(-REACH, REACH + 1)).astype(np.float64)
+    blur = max(blur, _LEAST_BLUR)
+    if shape == "box":
+        half = math.sqrt(3.0) * blur
+        kernel = np.clip(np.minimum(off + 0.5, half) - np.maximum(off - 0.5, -half), 0.0, None)
+    elif shape == "exponential":
+        # Of weights r^|i| the variance is 2 r / (1 - r)^2.
+        middle = 1.0 + 1.0 / blur**2
+        kernel = (middle - math.sqrt(middle**2 - 1.0)) ** off
+    else:
+        square = (off / blur) ** 2
+        kernel = np.exp(-0.5 * square) * (1.0 + tails / 24.0 * (square**2 - 6.0 * square + 3.0))
+    return np.asarray(kernel / kernel.sum())
+
+
+def kernel_slope(blur: float, shape: BlurShape = "normal") -> FloatArray:
+    """Return the slope of the weights of blur over its standard deviation."""
+    more, less = (blur_kernel(blur + change, 0.0, shape) for change in (_CHANGE, -_CHANGE))
+    return np.asarray((more - less) / (2.0 * _CHANGE))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Seen:
+    """What the columns see: lit fractions, blurred, or sharp and blurred as pixel values."""
+
+    lit: FloatArray
+    table: ToneTable
+    sharp: FloatArray | None  # also of the columns beside that blur reaches
+    kernel: FloatArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SeenSlopes:
+    """The slopes of what the columns see."""
+
+    lit: FloatArray  # shape (light's parameters, columns); of the lit fractions, blurred
+    tone: ToneSlopes  # of the tone curve, over its own parameters
+    # Shape (light's parameters, columns and those beside that blur reaches); of the sharp lit
+    # fractions, where pixel values are blurred.
+    sharp: FloatArray | None
+    kernel: FloatArray  # shape (weights,); of the blur's weights, over the blur
+
+    @property
+    def parameters(self) -> int:
+        """The number of all parameters."""
+        return len(self.lit) + self.tone.parameters
 
 
 class SeenStripes:

@@ -9,17 +9,16 @@ from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import WHITE
 from occ_model.photo.lamps.blinking import Blinking, with_codes_joined
 from occ_model.photo.lamps.edges import Edges, edges_of, matches
-from occ_model.photo.lamps.extent import without_halo
-from occ_model.photo.lamps.grouping import (
+from occ_model.photo.lamps.segments import (
     LEAST_EQUAL_FRACTION,
     LEAST_STRIPS,
+    Segment,
     common_edges,
     groups_of,
+    segments_of,
 )
-from occ_model.photo.lamps.segments import Segment, segments_of
-from occ_model.photo.lamps.shape import around, spans_of
-from occ_model.photo.lamps.steady import steady_lamps
-from occ_model.photo.lamps.strips import strips_of
+from occ_model.photo.lamps.shape import around, spans_of, without_halo
+from occ_model.photo.lamps.strips import steady_lamps, strips_of
 from occ_model.photo.lamps.timing import LampTiming, timings_of
 from occ_model.photo.reading.load import Photo
 from occ_model.photo.stripes.envelope import without_trend
@@ -111,7 +110,10 @@ def _blinking(
         if len(spans) < LEAST_STRIPS:
             continue
         spans = without_halo(spans, timing, means, bounds)
-        if _columns(spans) < _least_columns(timing):
+        columns = int(spans[:, 3].max() - spans[:, 2].min()) if len(spans) else 0
+        # If a period is to be seen repeating, some of them are in view.
+        least = 0.0 if timing.is_code else _LEAST_PERIODS * timing.spacing
+        if columns < max(_LEAST_COLUMNS, least):
             continue
         if len(spans) >= LEAST_STRIPS and _is_seen(timing, spans, segments, bounds):
             shown = np.searchsorted(bounds, spans[:, 0]).tolist()
@@ -148,17 +150,6 @@ def _is_of(segment: Segment, timing: LampTiming) -> bool:
         return False
     near = np.count_nonzero(matches(segment.edges, timing.edges, timing.chip))
     return bool(near > 2 and near >= LEAST_EQUAL_FRACTION * len(segment.edges))
-
-
-def _columns(spans: IndexArray) -> int:
-    return int(spans[:, 3].max() - spans[:, 2].min()) if len(spans) else 0
-
-
-def _least_columns(timing: LampTiming) -> float:
-    """Return the columns that a lamp fills at least, if a period is to be seen repeating."""
-    return (
-        _LEAST_COLUMNS if timing.is_code else max(_LEAST_COLUMNS, _LEAST_PERIODS * timing.spacing)
-    )
 
 
 def _described(timing: LampTiming, spans: IndexArray, strips: Sequence[Edges]) -> Blinking:

@@ -1,15 +1,33 @@
-"""Combine the rows of several photos: what is in the mean, and what is to be said of them."""
+"""Combine the rows of several photos: their mean, outliers, and what is to be said of them.
 
+The mean is weighted by the inverse variances. The Birge ratio R is the root of chi-square over its
+degrees of freedom (R. T. Birge, "The calculation of errors by the method of least squares",
+Physical Review 40, 207, 1932). With s the standard deviation of a mean of n independent estimates:
+
+* R >= 1: the estimates scatter by more than their deviations say. That of the mean is R s, as the
+  Particle Data Group takes it.
+* R < 1: they scatter by less. What their deviations hold besides the scatter, a variance of
+  (1 - R^2) n s^2, may be the same error in all of them, as of photos of one scene, and does not
+  average out. The variance of the mean is (R^2 + n (1 - R^2)) s^2.
+"""
+
+import math
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
+from occ_model.arrays import FloatArray, IndexArray
 from occ_model.photo.many.row import MatchSettings
-from occ_model.photo.many.weighted_mean import combine
 from occ_model.results.photo_table import SURE, CombinedEstimate, PhotoRow, PhotoTable
 from occ_model.scene.parameters import quantity
 
 _SAME_EXPOSURE = 1.02  # maximum ratio of noted exposure times that are the same
+
+_FALSE_ALARM = 0.01  # probability that correct errors make an outlier
+_NORMAL_MAD = 1.4826  # standard deviation over median absolute deviation, if normal
+_LEAST_FOR_OUTLIERS = 3  # minimum number of estimates among which an outlier can be identified
 
 
 def table_of(settings: MatchSettings, rows: Sequence[PhotoRow]) -> PhotoTable:
@@ -72,3 +90,72 @@ def _notes(table: PhotoTable, exposures: Sequence[float]) -> list[str]:
             f"{time.format(max(exposures))}: they have no mean."
         )
     return notes
+
+
+def combine(
+    values: Sequence[float] | FloatArray, deviations: Sequence[float] | FloatArray
+) -> CombinedEstimate | None:
+    """Combine estimates of one quantity.
+
+    ``deviations``: their standard deviations, above 0.
+    """
+    if not len(values):
+        return None
+    x, sigma = np.asarray(values, dtype=np.float64), np.asarray(deviations, dtype=np.float64)
+    outliers = _outliers(x, sigma)
+    kept = np.setdiff1d(np.arange(len(x)), outliers)
+    x, sigma = x[kept], sigma[kept]
+    mean, internal = _weighted_mean(x, sigma)
+    chi_square = float(np.sum(((x - mean) / sigma) ** 2))
+    degrees = len(x) - 1
+    scale = _scale(chi_square, degrees)
+    return CombinedEstimate(
+        value=mean,
+        uncertainty=internal * scale,
+        count=len(x),
+        chi_square=chi_square,
+        probability=_probability(chi_square, degrees),
+        scale=scale,
+        outliers=tuple(outliers.tolist()),
+    )
+
+
+def _weighted_mean(x: FloatArray, sigma: FloatArray) -> tuple[float, float]:
+    weights = (sigma.min() / sigma) ** 2
+    total = float(weights.sum())
+    return float(weights @ x) / total, float(sigma.min()) / math.sqrt(total)
+
+
+def _scale(chi_square: float, degrees: int) -> float:
+    """Return the factor by which the mean is less certain than one of independent estimates."""
+    if not degrees:
+        return 1.0
+    square = chi_square / degrees
+    return math.sqrt(square if square >= 1.0 else square + (degrees + 1) * (1.0 - square))
+
+
+def _probability(chi_square: float, degrees: int) -> float:
+    if not degrees:
+        return 1.0
+    from scipy.special import gammaincc  # slow to import
+
+    return float(gammaincc(0.5 * degrees, 0.5 * chi_square))
+
+
+def _outliers(x: FloatArray, sigma: FloatArray) -> IndexArray:
+    """Find estimates that are too far from the median of all.
+
+    Distances are measured in standard deviations, or in those that the scatter shows where it is
+    larger: where all stated deviations are too small, that makes no outliers. The median has no
+    weights: one wrong estimate with a tiny deviation would have nearly all of it.
+    """
+    count = len(x)
+    if count < _LEAST_FOR_OUTLIERS:
+        return np.zeros(0, np.int64)
+    of_median = math.sqrt(0.5 * math.pi / count) * float(np.median(sigma))
+    distances = np.abs(x - np.median(x)) / np.hypot(sigma, of_median)
+    scatter = max(1.0, _NORMAL_MAD * float(np.median(distances)))
+    from scipy.special import ndtri  # slow to import
+
+    limit = -float(ndtri(0.5 * _FALSE_ALARM / count))
+    return np.flatnonzero(distances > limit * scatter)

@@ -1,18 +1,20 @@
-"""Decode a picture in the full depth of its file, and convert it part by part."""
+"""Decode a picture in the full depth of its file, convert it part by part, and take one channel."""
 
 import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, cast
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from occ_model.arrays import Pixels
+from occ_model.arrays import FloatArray, Pixels
 from occ_model.errors import PhotoError
 from occ_model.photo.reading.limits import is_deep_in_colours, raw_modes_of
+from occ_model.photo.reading.watched_file import Progress
 
 if TYPE_CHECKING:
     from PIL.Image import Image as PillowImage
@@ -38,6 +40,13 @@ _OTHER_BYTE = {
     for order, other in (("16B", "16L"), ("16L", "16B"), ("16N", _SWAPPED))
 }
 """Pillow keeps the upper byte of 16-bit colours; read in the other order it keeps the lower."""
+
+_Take: TypeAlias = Callable[[Samples], Samples]  # extracts a channel from some pixels
+
+_COLOURS = ("red", "green", "blue")
+_GREEN = 1
+
+_NEAR_TIE = 0.5  # difference of means in grey levels that lossy formats cause in grey
 
 
 class DecodedPicture:
@@ -196,3 +205,62 @@ def no_stderr() -> Iterator[None]:
     finally:
         os.dup2(kept, 2)
         os.close(kept)
+
+
+def white_of(samples: Samples) -> int:
+    """Return the sample value of white."""
+    return int(np.iinfo(samples.dtype).max)
+
+
+def take_channel(picture: DecodedPicture, channel: str, report: Progress) -> tuple[Samples, str]:
+    """Take one channel of a picture.
+
+    Where the brightest nearly ties with green, green is taken: a sensor has the most pixels of it.
+    The name is ``"grey"`` if the picture has no colours, also where its file has three equal
+    channels.
+    """
+    first = picture.part((0, 0, 1, 1))
+    take: _Take = lambda pixels: pixels  # noqa: E731 - a channel may be all there is
+    name = "grey"
+    if first.ndim == 3:
+        means, has_colours = _colours_of(picture, lambda share: report(0.5 * share))
+        take, name = _choice(means, has_colours, channel, _NEAR_TIE * white_of(first) / 255)
+    samples = np.empty(picture.shape, first.dtype)
+    rows = len(samples)
+    for left, top, right, bottom in picture.boxes():
+        samples[top:bottom, left:right] = take(picture.part((left, top, right, bottom)))
+        report(0.5 + 0.5 * bottom / rows)
+    return samples, name
+
+
+def _choice(means: FloatArray, has_colours: bool, channel: str, near: float) -> tuple[_Take, str]:
+    if not has_colours:
+        return _only(_GREEN), "grey"
+    if channel == "luma":
+        return lambda pixels: cast("Samples", cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY)), "luma"
+    index = int(np.argmax(means)) if channel == "brightest" else _COLOURS.index(channel)
+    if channel == "brightest" and means[index] - means[_GREEN] <= near:
+        index = _GREEN
+    return _only(index), _COLOURS[index]
+
+
+def _only(index: int) -> _Take:
+    return lambda pixels: cast("Samples", cv2.extractChannel(pixels, index))
+
+
+def _colours_of(picture: DecodedPicture, report: Progress) -> tuple[FloatArray, bool]:
+    rows, columns = picture.shape
+    sums, has_colours = np.zeros(3), False
+    for left, top, right, bottom in picture.boxes():
+        pixels = picture.part((left, top, right, bottom))
+        mean = np.array(cv2.mean(pixels)[:3])
+        sums += mean * (pixels.shape[0] * pixels.shape[1])
+        # The pixels are compared only where all means are equal, which is rare in colours.
+        has_colours = has_colours or mean.min() < mean.max() or not _has_no_colours(pixels)
+        report(bottom / rows)
+    return sums / (rows * columns), has_colours
+
+
+def _has_no_colours(pixels: Samples) -> bool:
+    green = pixels[..., _GREEN]
+    return all(np.array_equal(pixels[..., other], green) for other in (0, 2))

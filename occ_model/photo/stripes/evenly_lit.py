@@ -65,9 +65,7 @@ class Cells:
     @classmethod
     def of(cls, photo: Photo, region: Region) -> "Cells":
         """Average a region of a photo over bands of rows."""
-        part = photo.samples[
-            region.first_row : region.last_row, region.first_column : region.last_column
-        ]
+        part = region.crop(photo.samples)
         starts = np.linspace(0, len(part), min(BANDS, len(part)) + 1).astype(np.int64)
         full = (part >= _CLIPPED * photo.white).view(np.uint8)
         means, clipped = [], []

@@ -11,11 +11,9 @@ import numpy as np
 
 from occ_model.arrays import FloatArray, IndexArray
 from occ_model.camera.photometry import FLAT, WHITE
-from occ_model.errors import MatchError
-from occ_model.photo.reading.load import Photo, column_means
-from occ_model.photo.reading.part import Corners, part_of, region_within
+from occ_model.errors import MatchError, ParameterError
+from occ_model.photo.reading.load import Corners, Photo, column_means, part_of, region_within
 from occ_model.photo.stripes.envelope import envelope
-from occ_model.photo.stripes.lamp_profile import lamp_profile
 from occ_model.photo.stripes.period import repeat_period
 from occ_model.results.decoding import Region
 from occ_model.results.lamp import Lamp
@@ -38,6 +36,8 @@ _LEAST_EDGES = 3
 _LEAST_COHERENCE = 0.2  # minimum fraction of the variation that all bands have in common
 _FULL = 0.996  # fraction of white above which a sample is saturated
 _MOST_FULL = 0.8  # saturated fraction of the columns above which the others do not show the stripes
+
+_LEAST_STRIPS = 3  # above which the outermost ones, cut by the rim, are left out
 
 
 def find_stripes(photo: Photo, region: Corners | Lamp | None = None) -> Stripes:
@@ -108,9 +108,7 @@ def _stripes_between(photo: Photo, rows: Region, profile: FloatArray) -> Stripes
             "channel."
         )
     region = _moved(Region(0, rows.rows, first, last), rows)
-    part = photo.samples[
-        region.first_row : region.last_row, region.first_column : region.last_column
-    ]
+    part = region.crop(photo.samples)
     full = np.count_nonzero(part >= _FULL * photo.white) / part.size
     return Stripes(region, profile, low, high, period, uncertainty, full)
 
@@ -222,3 +220,30 @@ def _local_range(profile: FloatArray) -> FloatArray:
     kernel = np.ones((1, _SLOPE_COLUMNS), dtype=np.uint8)
     line = profile[None, :]
     return np.asarray((cv2.dilate(line, kernel) - cv2.erode(line, kernel))[0], dtype=np.float64)
+
+
+def lamp_profile(photo: Photo, lamp: Lamp) -> FloatArray:
+    """Average each column of a lamp over the rows in which the lamp covers it.
+
+    A round lamp is thus as bright in its outer columns, which cover few rows, as in its middle.
+    """
+    region = lamp.region
+    rows, columns = photo.samples.shape
+    if region.last_row > rows or region.last_column > columns:
+        raise ParameterError(
+            f"The lamp lies at rows up to {region.last_row - 1} and columns up to "
+            f"{region.last_column - 1}; allowed: a lamp of this photo, which has {rows} rows and "
+            f"{columns} columns."
+        )
+    sums, counts = np.zeros(region.columns), np.zeros(region.columns)
+    spans = lamp.spans[1:-1] if len(lamp.spans) > _LEAST_STRIPS else lamp.spans
+    for chosen in (spans, lamp.spans):
+        # Where only the outermost strips cover a column, they count.
+        missing = counts == 0
+        for first, last, left, right in chosen.tolist():
+            part = photo.samples[first:last, left:right]
+            here = slice(left - region.first_column, right - region.first_column)
+            sum_of_rows = cv2.reduce(part, 0, cv2.REDUCE_SUM, dtype=cv2.CV_64F)[0]
+            sums[here] += np.where(missing[here], sum_of_rows, 0.0)
+            counts[here] += np.where(missing[here], last - first, 0)
+    return np.asarray(sums / np.maximum(counts, 1) * (WHITE / photo.white))

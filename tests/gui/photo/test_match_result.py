@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 
 from occ_gui.photo.verdict_view import SIGNS, VerdictView
 from occ_gui.widgets.contrast import contrast
-from occ_model.photo.estimate_text import estimate_text
+from occ_model.photo.match_facts import estimate_text
 from occ_model.photo.reading.load import Photo
 from occ_model.results.match import Alternative, Match
 from occ_model.results.photo_table import DOUBTFUL, SURE, VERDICTS

@@ -15,6 +15,7 @@ import occ_model as occ
 from occ_model.cli import main
 from occ_model.errors import ParameterError, PhotoError
 from occ_model.photo.reading.choices import CHANNELS
+from occ_model.photo.reading.image_decoding import _deep_colours
 from occ_model.photo.reading.load import column_means, load_photo
 
 STRIPES = np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1))
@@ -224,8 +225,36 @@ def test_column_means_are_those_of_the_rows_asked_for(tmp_path: Path, bits: int)
 def test_the_decoder_reads_the_channel_asked_for(
     tmp_path: Path, channel: str, code: int, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    image = occ.render(occ.Scene().replace(rows=300)).image
+    image = occ.render(occ.Scene().replace(rows=60)).image
     red_led = np.dstack([image, np.full_like(image, 9), np.full_like(image, 9)])
     path = saved(tmp_path, red_led)
     assert main(["decode", str(path), "--channel", channel]) == code
     assert ("code" in capsys.readouterr().out) is (code == 0)
+
+
+RANDOM = np.random.default_rng(5)
+
+
+def halves(deep: np.ndarray) -> tuple[Image.Image, Image.Image]:
+    """Split colours into pictures of their upper and of their lower bytes."""
+    upper, lower = (deep >> 8).astype(np.uint8), (deep & 255).astype(np.uint8)
+    return Image.fromarray(upper), Image.fromarray(lower)
+
+
+def test_the_colour_that_is_called_transparent_is_black_and_no_other() -> None:
+    deep = RANDOM.integers(1, 65536, (5, 7, 3)).astype(np.uint16)
+    deep[2, 3] = deep[4, 4] = (700, 800, 900)
+    deep[0, 0] = (700, 800, 901)
+    upper, lower = halves(deep)
+    upper.info["transparency"] = (700, 800, 900)
+    expected = deep.copy()
+    expected[2, 3] = expected[4, 4] = 0
+    assert _deep_colours(upper, lower).tolist() == expected.tolist()
+
+
+def test_what_is_partly_transparent_is_as_much_darker_rounded_to_the_nearest() -> None:
+    deep = RANDOM.integers(0, 65536, (50, 70, 4)).astype(np.uint16)
+    expected = np.rint(deep[..., :3].astype(float) * deep[..., 3:] / 65535.0)
+    assert _deep_colours(*halves(deep)).tolist() == expected.tolist()
+    deep[..., 3] = 65535
+    assert _deep_colours(*halves(deep)).tolist() == deep[..., :3].tolist()

@@ -95,29 +95,3 @@ def test_a_photo_may_be_one_pixel_wide_or_high(
     photo = load_photo(saved(tmp_path, Image.new("RGB", size, (9, 8, 7))), axis)
     assert photo.image.size == size[0] * size[1]
     assert set(photo.profile) == {9.0}
-
-
-def stripe_period(profile: np.ndarray, shortest: int, longest: int) -> float:
-    """Period of the stripes by autocorrelation, its peak refined by a parabola."""
-    padded = np.pad(profile, 150, mode="reflect")
-    signal = profile - np.convolve(padded, np.full(301, 1 / 301), "valid")
-    lags = range(shortest - 1, longest + 2)
-    match = np.array([np.corrcoef(signal[lag:], signal[:-lag])[0, 1] for lag in lags])
-    best = 1 + int(match[1:-1].argmax())
-    assert match[best] > 0.8
-    before, at, after = match[best - 1 : best + 2]
-    return lags[best] + (before - after) / (2 * (before - 2 * at + after))
-
-
-@pytest.mark.photos
-def test_the_real_1_khz_photo_has_stripes_of_its_readout_time(photos: Path) -> None:
-    photo = load_photo(photos / "led_1khz_frame.png")
-    assert (photo.turned, photo.image.shape) == (True, (1920, 1080))
-    assert stripe_period(photo.profile, 40, 100) == pytest.approx(1e-3 / 14.565e-6, rel=0.01)
-
-
-@pytest.mark.photos
-def test_the_real_photo_of_21_chips_repeats_after_as_many(photos: Path) -> None:
-    photo = load_photo(photos / "vlcdetector_stripes.png")
-    assert (photo.turned, photo.image.shape) == (False, (890, 1080))
-    assert stripe_period(photo.profile, 200, 400) == pytest.approx(21 * 13.9, rel=0.01)

@@ -8,8 +8,8 @@ import pytest
 import occ_model as occ
 from occ_model.parallel import process_pool
 from occ_model.parallel.job import Job, JobResult, do_job
+from occ_model.photo.many.match_photos import rows_by_workers
 from occ_model.photo.many.row import MatchSettings
-from occ_model.photo.many.workers import rows_by_workers
 from occ_model.results.photo_table import PhotoRow
 
 FILES = [(place, Path(name)) for place, name in enumerate(["a.png", "b.png", "c.png", "d.png"])]

@@ -20,7 +20,7 @@ def scene_of(**changes: float | str) -> Scene:
         columns=LINES,
         switching_frequency=4e3,
         readout_time=9e-6,
-        exposure_time=100e-6,
+        exposure_time=120e-6,
         averaging="light",
         **changes,
     )
@@ -115,7 +115,7 @@ def test_match_gives_the_readout_time_of_a_sensor_line(tmp_path: Path, pattern: 
     photo = occ.load_photo(written(tmp_path / "x.dng", mosaic, pattern, bits=14, black=512))
     match = occ.match_photo(photo, scene.replace(readout_time=5e-6, gamma=2.22))
     assert match.readout_time == pytest.approx(9e-6, rel=2e-3)
-    assert match.exposure_time == pytest.approx(100e-6, rel=0.02)
+    assert match.exposure_time == pytest.approx(120e-6, rel=0.02)
     assert (match.gamma, match.scene.model.averaging) == (1.0, "light")
 
 
@@ -142,7 +142,7 @@ def test_files_with_wrong_bytes_are_read_or_refused(tmp_path: Path) -> None:
     path = written(tmp_path / "x.dng", mosaic_of(light_of(scene_of()), 24))
     content, random = path.read_bytes(), np.random.default_rng(3)
     refused = 0
-    for _ in range(60):
+    for _ in range(25):
         wrong = bytearray(content)
         wrong[int(random.integers(0, 600))] = int(random.integers(0, 256))
         path.write_bytes(wrong)
@@ -150,7 +150,7 @@ def test_files_with_wrong_bytes_are_read_or_refused(tmp_path: Path) -> None:
             occ.load_photo(path)
         except occ.PhotoError:
             refused += 1
-    assert 0 < refused < 60
+    assert 0 < refused < 25
 
 
 def test_black_level_of_white_is_damage(tmp_path: Path) -> None:

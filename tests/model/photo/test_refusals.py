@@ -1,4 +1,4 @@
-"""Files that are no photo are refused in one sentence."""
+"""Files that are no photo, or would take too long, are refused in one sentence."""
 
 import logging
 import os
@@ -9,6 +9,8 @@ import warnings
 import zlib
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +18,15 @@ from films import film_bytes
 from photo_files import saved
 from PIL import Image, PngImagePlugin
 
+import occ_model as occ
 from occ_model.errors import PhotoError, one_line
+from occ_model.photo.reading.limits import (
+    _MOST_BYTES,
+    _MOST_BYTES_IN_PYTHON,
+    _MOST_BYTES_OF_TIFF,
+    check_decoder,
+    check_file_size,
+)
 from occ_model.photo.reading.load import load_photo
 
 PICTURE = Image.fromarray(np.tile(np.repeat([30, 220, 90, 160], 12).astype(np.uint8), (32, 1)))
@@ -205,12 +215,14 @@ def test_a_heic_photo_without_its_reader_says_what_to_install(
     assert refusal(path) == wanted
 
 
-def test_texts_in_a_png_that_grow_without_bound_are_refused(tmp_path: Path) -> None:
+def test_texts_in_a_png_that_grow_without_bound_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(PngImagePlugin, "MAX_TEXT_MEMORY", 2_000_000)
     texts = PngImagePlugin.PngInfo()
-    for number in range(80):
+    for number in range(3):
         texts.add_text(f"x{number}", "x" * 1_000_000, zip=True)
     PICTURE.save(tmp_path / "x.png", pnginfo=texts)
-    assert (tmp_path / "x.png").stat().st_size < 200_000
     assert "the file is damaged (" in refusal(tmp_path / "x.png")
 
 
@@ -234,3 +246,35 @@ def test_a_tiff_without_its_last_rows_is_refused(tmp_path: Path) -> None:
     content[height + 8] = 64
     (tmp_path / "x.tif").write_bytes(content)
     assert "the file is damaged (" in refusal(tmp_path / "x.tif")
+
+
+PATH = Path("a-photo")
+
+
+@pytest.mark.parametrize(("kind", "most"), _MOST_BYTES.items())
+def test_a_file_may_have_as_many_bytes_as_are_read_within_seconds(kind: str, most: int) -> None:
+    check_file_size(PATH, kind, most)
+    with pytest.raises(occ.PhotoError, match=f"has {most + 1:,} bytes; .*up to {most:,}"):
+        check_file_size(PATH, kind, most + 1)
+
+
+def test_formats_that_are_read_as_fast_as_they_are_copied_have_no_limit() -> None:
+    check_file_size(PATH, "TIFF", 10**12)
+
+
+def picture_of(decoder: str, kind: str) -> Any:
+    return SimpleNamespace(tile=[(decoder, (0, 0, 1, 1), 0, "")], format=kind)
+
+
+@pytest.mark.parametrize(
+    ("decoder", "kind", "most"),
+    [("libtiff", "TIFF", _MOST_BYTES_OF_TIFF), ("qoi", "QOI", _MOST_BYTES_IN_PYTHON)],
+)
+def test_a_slow_decoder_has_a_limit_of_its_own(decoder: str, kind: str, most: int) -> None:
+    Image.init()  # Pillow knows its decoders in Python once they are imported
+    check_decoder(PATH, picture_of(decoder, kind), most)
+    with pytest.raises(
+        occ.PhotoError, match=rf"\({'compressed ' if kind == 'TIFF' else ''}{kind}\)"
+    ):
+        check_decoder(PATH, picture_of(decoder, kind), most + 1)
+    check_decoder(PATH, picture_of("raw", kind), 10**12)

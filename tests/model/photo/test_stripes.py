@@ -1,4 +1,4 @@
-"""Stripes are found where the panel is, with their period; a photo without any is refused."""
+"""Stripes are found where the panel is, or within a rectangle; a photo without any is refused."""
 
 from unittest.mock import Mock
 
@@ -12,7 +12,7 @@ from simulated_photos import photo_of, random_scene, take
 import occ_model as occ
 from occ_model.camera.projection import panel_corners
 from occ_model.errors import ParameterError
-from occ_model.photo.stripes.lamp_profile import lamp_profile
+from occ_model.photo.stripes.find import lamp_profile
 from occ_model.photo.stripes.period import autocorrelation, repeat_period, unrepeated_share
 from occ_model.results.decoding import Region
 
@@ -33,7 +33,7 @@ def test_the_region_is_the_panels(seed: int) -> None:
 
 def test_the_period_is_that_of_the_packet_within_its_uncertainty() -> None:
     off = []
-    photos = amount(8, 25)
+    photos = amount(5, 25)
     for seed in range(photos):
         scene = random_scene(seed)
         stripes = occ.find_stripes(take(scene, seed))
@@ -183,9 +183,49 @@ def test_no_period_nearby_explains_more_than_the_one_found(seed: int) -> None:
         assert share <= unrepeated_share(wave, period + off * uncertainty)
 
 
-def test_a_match_begins_at_nothing_done() -> None:
-    told: list[float] = []
-    grey = photo_of(np.full((40, 60), 90, dtype=np.uint8))
-    with pytest.raises(occ.MatchError):
-        occ.match_photo(grey, occ.Scene(), progress=told.append)
-    assert told == [0.0]
+SCENE = random_scene(3)
+KNOWN = SCENE.replace(readout_time=1e-6)
+
+
+def beside_a_fence() -> tuple[occ.Photo, tuple[int, int, int, int]]:
+    """A photo with stripes of another period below it, and the rectangle without those."""
+    lamp = take(SCENE).samples
+    rows, columns = lamp.shape
+    fence = np.where(np.arange(columns) // 7 % 2, 20, 230).astype(np.uint8)
+    return photo_of(np.vstack([lamp, np.tile(fence, (2 * rows, 1))])), (0, rows, 0, columns)
+
+
+def test_a_region_hides_what_lies_outside_it() -> None:
+    photo, region = beside_a_fence()
+    found, alone = occ.find_stripes(photo, region), occ.find_stripes(take(SCENE))
+    assert found.region == alone.region
+    np.testing.assert_array_equal(found.profile, alone.profile)
+
+
+def test_a_region_counts_in_the_photos_own_rows_and_columns() -> None:
+    photo = take(SCENE)
+    whole = occ.find_stripes(photo).region
+    part = (
+        whole.first_row + 20, whole.last_row - 10, whole.first_column + 100, whole.last_column - 150
+    )  # fmt: skip
+    found = occ.find_stripes(photo, part)
+    assert part[0] <= found.region.first_row < found.region.last_row <= part[1]
+    assert part[2] <= found.region.first_column < found.region.last_column <= part[3]
+    rows = slice(found.region.first_row, found.region.last_row)
+    columns = slice(found.region.first_column, found.region.last_column)
+    np.testing.assert_allclose(found.profile, photo.samples[rows, columns].mean(axis=0))
+
+
+def test_the_start_time_is_that_of_the_photo_not_of_the_region() -> None:
+    photo = take(SCENE)
+    whole = occ.match_photo(photo, KNOWN)
+    inner = whole.region
+    part = (0, photo.samples.shape[0], inner.first_column + 130, inner.last_column)
+    late = occ.match_photo(photo, KNOWN, region=part).start_time - whole.start_time
+    period = 24.0 / SCENE.transmitter.switching_frequency
+    assert abs((late + period / 2) % period - period / 2) < 0.01 * period
+
+
+def test_a_region_that_is_none_is_quoted_by_its_four_numbers() -> None:
+    with pytest.raises(occ.ParameterError, match=r"^region is \(5, 1, 0, 10\); allowed: first row"):
+        occ.find_stripes(take(SCENE), Region(5, 1, 0, 10))

@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from occ_model.photo.chips.edges import Edges, edges_of
-from occ_model.photo.chips.lattice import (
+from occ_model.photo.chips.edges import (
+    Edges,
     certainty,
     chips_between,
     coarsest,
     coherence,
+    edges_of,
     lattice_at,
-    without_rims,
 )
 
 COLUMNS = 9.0
@@ -85,19 +85,6 @@ def test_edges_that_do_not_alternate_on_a_lattice_have_no_chips() -> None:
     doubled = Edges(np.sort(np.append(edges.rising, edges.rising[2] + 0.5)), edges.falling)
     assert chips_between(doubled, lattice_at(doubled, 1.0 / COLUMNS)) is None
     assert coarsest(Edges(edges.rising[:2], edges.falling[:1])) is None
-
-
-@pytest.mark.parametrize("side", [0, -1])
-def test_the_panels_rim_is_left_out_and_a_chips_edge_is_not(side: int) -> None:
-    edges = edges_at()
-    lattice = lattice_at(edges, 1.0 / COLUMNS)
-    assert without_rims(edges, lattice).places.tolist() == edges.places.tolist()
-    places = edges.places
-    rim = places[side] + (-0.4 if side == 0 else 0.4) * COLUMNS
-    rises = (side == 0) == bool(edges.rising[0] > edges.falling[0])
-    more = np.sort(np.append(edges.rising, rim)), np.sort(np.append(edges.falling, rim))
-    torn = Edges(more[0], edges.falling) if rises else Edges(edges.rising, more[1])
-    assert without_rims(torn, lattice).places.tolist() == places.tolist()
 
 
 def test_the_surer_the_nearer_edges_lie_to_their_chips() -> None:

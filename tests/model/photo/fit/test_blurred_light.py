@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel
+from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 

@@ -5,16 +5,16 @@ import itertools
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.blurred_light import BlurredLight
-from occ_model.photo.fit.chips_by_descent import chips_by_descent
 from occ_model.photo.fit.chips_of_harmonics import (
     ReadPattern,
     best_chips,
     boxes_of,
+    chips_by_descent,
     harmonics_of,
     refined,
     rounded_chips,
 )
+from occ_model.photo.fit.seen_stripes import BlurredLight
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 

@@ -6,9 +6,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.blur_or_exposure import Possible, _with_blur
-from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel
-from occ_model.photo.fit.joint_fit import USUAL, JointFit, JointModel
+from occ_model.photo.fit.exposure_modes import Possible, _with_blur
+from occ_model.photo.fit.joint_fit import JointFit
+from occ_model.photo.fit.joint_model import USUAL, JointModel
+from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import EvenProfile

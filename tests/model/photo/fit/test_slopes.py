@@ -10,8 +10,8 @@ import cv2
 import numpy as np
 import pytest
 
-from occ_model.photo.fit.blurred_light import BlurredLight, BlurShape, blur_kernel, kernel_slope
-from occ_model.photo.fit.joint_fit import JointModel
+from occ_model.photo.fit.joint_model import JointModel
+from occ_model.photo.fit.seen_stripes import BlurredLight, BlurShape, blur_kernel, kernel_slope
 from occ_model.photo.fit.timing import Timing
 from occ_model.photo.fit.tone_curve import ToneCurve
 from occ_model.photo.stripes.evenly_lit import EvenProfile

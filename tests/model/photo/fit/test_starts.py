@@ -9,8 +9,8 @@ import pytest
 
 import occ_model as occ
 from occ_model.photo.fit.camera_response import camera_tones
+from occ_model.photo.fit.exposure_modes import alike_among, alike_starts, scanned_starts
 from occ_model.photo.fit.initial_search import Search
-from occ_model.photo.fit.other_starts import alike_among, alike_starts, scanned_starts
 from occ_model.photo.fit.timing import Timing
 from occ_model.transmitter.waveform import Waveform
 

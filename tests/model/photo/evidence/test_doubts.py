@@ -1,13 +1,13 @@
-"""A residual that still repeats makes a match doubtful, and its period is named."""
+"""A residual that still repeats makes a match doubtful; numbers beyond limits are told apart."""
 
 import re
 
 import numpy as np
 import pytest
-from simulated_photos import photo_of, random_scene, take
+from simulated_photos import photo_of
 
 import occ_model as occ
-from occ_model.photo.evidence.repetition import strongest_line
+from occ_model.photo.evidence.doubts import strongest_line, told_apart
 
 READOUT, LAMP, MAINS = 63.1e-6, 1920.0, 120.0
 COLUMNS = 3000
@@ -44,11 +44,6 @@ def test_mains_ripple_taken_for_the_lamp_is_doubted() -> None:
     assert float(named[1]) == pytest.approx(1.0 / (LAMP * READOUT), rel=0.01)
 
 
-def test_a_clear_photos_residual_does_not_repeat() -> None:
-    match = occ.match_photo(take(random_scene(3)), random_scene(3), sent="scene")
-    assert not any("repeats" in why for why in match.reasons)
-
-
 @pytest.mark.parametrize("amplitude", [0.03, 0.1])
 def test_a_line_in_noise_has_its_period_and_amplitude(amplitude: float) -> None:
     random, place = np.random.default_rng(3), np.arange(1500)
@@ -81,3 +76,17 @@ def test_sharp_edges_between_columns_leave_no_single_line(chip: float) -> None:
     residual = 100.0 * (seen[1] - seen[0]) + noise
     line = strongest_line(residual, np.full(columns, 100.0), 10 * chip, 10)
     assert line.share < 0.15
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "texts"),
+    [
+        (10.04, 3.0, ("10.0", "3.0")),
+        (3.54, 3.52, ("3.54", "3.52")),
+        (3.500_04, 3.5, ("3.50004", "3.50000")),
+    ],
+)
+def test_a_number_and_its_limit_are_written_apart(
+    value: float, limit: float, texts: tuple[str, str]
+) -> None:
+    assert told_apart(value, limit) == texts

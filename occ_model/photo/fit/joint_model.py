@@ -1,0 +1,301 @@
+"""Fit the timing together with what else is unknown of the camera, and state its uncertainty.
+
+The light of a column is a(i) + b(i) x lit(i), with levels a and b that vary slowly; the camera's
+tone curve makes it a grey level. Tone curve, blur and the LED's switching are not known: they are
+fitted too, held by what is usual (a Gaussian prior each), so that the timing's uncertainty includes
+them. Clipped columns enter as "at least white": a residual where the model is darker (a censored
+normal likelihood's one-sided limit: Tobin, Econometrica 26:24, 1958).
+"""
+
+import math
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
+from occ_model.photo.fit.chip_runs import chips_as_one
+from occ_model.photo.fit.damped_least_squares import minimized
+from occ_model.photo.fit.joint_fit import CORRELATED_COLUMNS, JointFit, covariance_of
+from occ_model.photo.fit.least_squares import level_freedom
+from occ_model.photo.fit.lit_profile import LitProfile, deviation_of
+from occ_model.photo.fit.scaled_parameters import ScaledParameters
+from occ_model.photo.fit.seen_stripes import GAMMA, IN_ORDER, OF_TONE, BlurShape, SeenStripes
+from occ_model.photo.fit.timing import Timing
+from occ_model.photo.stripes.evenly_lit import EvenProfile
+from occ_model.photo.stripes.period import correlated_columns
+from occ_model.scene.parameters import quantity
+
+USUAL = {
+    "gamma": (0.0, 0.12),
+    "offset": (0.03, 0.04),
+    "shoulder": (0.0, 0.25),
+    "contrast": (0.0, 0.35),
+    "blur": (0.5, 0.5),
+    "longer": (0.0, 0.02),
+}
+"""Mean and standard deviation of the priors: gamma's logarithm over the scene's gamma, the tone
+curve's bends, the blur in columns, and the chips by which the LED is on longer."""
+
+_KURTOSIS = 1.6
+"""Standard deviation of the blur's excess kurtosis: its root mean square if half of all blur is
+normal (0), a quarter a box from resizing (-1.2), and a quarter has exponential tails (3). It is not
+fitted, since it would absorb what the model leaves unexplained."""
+
+_KURTOSIS_CHANGE = 0.2  # finite difference of the excess kurtosis
+_ANY_GAMMA = 0.5  # standard deviation of gamma's logarithm where nothing is known of it
+_EDGE_SHIFT = 0.4  # deviation in columns of edges' distances where pixel values are blurred
+
+_CHIPS_PER_BLOCK = 2
+_LEAST_BLOCK = 16
+"""Length of a block of columns with correlated residuals, and its minimum: two of the blocks of
+JPEG."""
+
+_CHIPS_PER_SLOW_SHAPE = 4
+_MOST_SLOW_SHAPES = 32
+"""Polynomials that are projected out of a residual: a lamp's brightness along the columns is not a
+combination of a few of them. The rest would count as noise of many columns, and the priors would
+outweigh the data."""
+
+_EDGE = 0.05  # distance from both levels, relative to the swing, at which a column is on an edge
+_GAMMA_BOUNDS = (-0.9, 0.9)  # bounds of gamma's logarithm where it is roughly known
+
+
+class JointModel:
+    """The model of profiles of one lamp, by one sequence of chips.
+
+    ``step``: chips per column, roughly. ``gamma``: usual one; 1 where pixel values are averaged.
+    ``values_blurred``: pixel values are blurred (noise reduction, resizing), else light
+    (demosaicing). ``wide``: gamma may be any that a scene's may be.
+    """
+
+    def __init__(
+        self,
+        profiles: Sequence[EvenProfile],
+        chips: ByteArray,
+        step: float,
+        gamma: float,
+        *,
+        values_blurred: bool = False,
+        wide: bool = False,
+        check: Callable[[], object] = lambda: None,
+    ) -> None:
+        self._check = check
+        columns, as_one = len(profiles[0].values), chips_as_one(chips)
+        self._columns, self._step, self.gamma = columns, step, gamma
+        self._values_blurred = values_blurred
+        counted = step * columns / as_one
+        freedom = level_freedom(counted)
+        slow = int(np.clip(counted / _CHIPS_PER_SLOW_SHAPE, 1, _MOST_SLOW_SHAPES))
+        self._parts = [LitProfile(profile, freedom, slow) for profile in profiles]
+        width = max(_LEAST_BLOCK, round(_CHIPS_PER_BLOCK * as_one / step))
+        self._block = np.concatenate(
+            [np.concatenate([part.kept, part.clipped]) // width for part in self._parts]
+        )
+        self._noise = [np.ones(part.data.size + part.clipped.size) for part in self._parts]
+        self._slow = [part.slow(np.ones(part.data.size)) for part in self._parts]
+        usual = np.array(list(USUAL.values()))
+        self._mean, self._deviation = usual[:, 0], usual[:, 1].copy()
+        self._deviation[5] = math.hypot(as_one * self._deviation[5], _EDGE_SHIFT * step)
+        if wide:
+            self._deviation[0] = _ANY_GAMMA
+        allowed = quantity("gamma")
+        self._allowed = np.array([allowed.low, allowed.high])
+        self._free = np.array(
+            [True, True, True, gamma != 1.0, gamma != 1.0, True, True, True, True]
+        )
+        self._scale = np.array([0.1 / columns, 0.02, 0.02, *self._deviation])
+        self._seen = SeenStripes(chips, columns, gamma, values_blurred=values_blurred)
+
+    def start(self, timing: Timing) -> FloatArray:
+        """Return the parameters of a timing, and what is usual."""
+        values = np.array([timing.step, timing.exposure, timing.middle, *self._mean])
+        if self.gamma == 1.0:
+            values[4] = 0.0
+        return values
+
+    def timing(self, values: FloatArray) -> Timing:
+        """Return the timing of parameters, by the usual gamma."""
+        step, exposure, middle = values[:3].tolist()
+        return Timing(step, exposure, middle, self.gamma)
+
+    def adapted(self, values: FloatArray) -> FloatArray:
+        """Return another model's parameters, what this one does not fit being as usual."""
+        usual = self.start(self.timing(values))
+        return np.where(self._free, values, usual)
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether gamma may be any."""
+        return bool(self._deviation[0] == _ANY_GAMMA)
+
+    def with_usual(self, values: FloatArray) -> FloatArray:
+        """Keep the timing and the blur of parameters, and let all else be as usual."""
+        usual = self.start(self.timing(values))
+        usual[7] = values[7]
+        return usual
+
+    def take_noise(self, other: "JointModel") -> None:
+        """Take the noise that another model of the same profiles found."""
+        self._noise, self._slow = other._noise, other._slow
+
+    def fit(
+        self,
+        first: FloatArray,
+        fixed: Sequence[int] = (),
+        rounds: int = 12,
+        shape: BlurShape | None = None,
+    ) -> JointFit:
+        """Fit from a first guess.
+
+        ``fixed``: indices of parameters. ``shape``: the blur's; None: normal, of unknown tails.
+        """
+        index, blur = self._index(fixed), shape or "normal"
+        scaled, found, residual, slopes = self._minimized(first, index, rounds, blur)
+        values = scaled.values(found)
+        rates = scaled.rates(values)
+        covariance = np.zeros((9, 9))
+        moved = np.zeros_like(residual)
+        if shape is None:
+            moved = (self._residual(values, _KURTOSIS_CHANGE) - residual) * (
+                _KURTOSIS / _KURTOSIS_CHANGE
+            )
+        covariance[np.ix_(index, index)] = covariance_of(
+            slopes, residual, moved, self._block
+        ) * np.outer(rates, rates)
+        prior = residual[-len(USUAL) :]
+        shift = np.zeros(9)
+        # Where pixel values are blurred, the model itself blurs the product.
+        if 2 in index and not self._values_blurred:
+            by_middle = slopes[:, np.searchsorted(index, 2)] / self._scale[2]
+            shift[index] = rates * _explained(slopes, by_middle * self._displacement(values, blur))
+        return JointFit(values, covariance, float(residual @ residual), float(prior @ prior), shift)
+
+    def rough(
+        self, first: FloatArray, fixed: Sequence[int], rounds: int
+    ) -> tuple[float, FloatArray]:
+        """Return the misfit of a fit of few rounds, and its parameters."""
+        scaled, found, residual, _ = self._minimized(first, self._index(fixed), rounds, "normal")
+        return float(residual @ residual), scaled.values(found)
+
+    def _index(self, fixed: Sequence[int]) -> IndexArray:
+        free = self._free.copy()
+        free[list(fixed)] = False
+        return np.flatnonzero(free)
+
+    def _minimized(
+        self, first: FloatArray, index: IndexArray, rounds: int, blur: BlurShape
+    ) -> tuple[ScaledParameters, FloatArray, FloatArray, FloatArray]:
+        """Return the scaled parameters of an index that fit best, with residual and slopes."""
+        scaled = ScaledParameters(first, index, self._scale, self._step, self._gammas())
+        of_tone = bool(np.isin(index, OF_TONE).any())
+        found = minimized(
+            lambda place: self._residual(scaled.values(place), 0.0, blur),
+            np.zeros(len(index)),
+            rounds,
+            slopes=lambda place: (
+                self._slopes(scaled.values(place), blur, of_tone)[:, index] * scaled.slopes(place)
+            ),
+        )
+        return scaled, *found
+
+    def _displacement(self, values: FloatArray, shape: BlurShape) -> FloatArray:
+        """Return by how many chips the place of each residual is later because levels are blurred.
+
+        The model multiplies blurred stripes by the levels, but a lens blurs their product. Where
+        the swing E changes along the columns, a blur of variance s^2 thus moves an edge towards the
+        darker side by s^2 (ln E)': an exponential times a normal distribution is one that is moved.
+        """
+        seen = self._seen.by(values, 0.0, shape)
+        slopes = [part.relative_slope(seen) for part in self._parts]
+        moved = float(values[0] * values[7] ** 2) * np.concatenate(slopes)
+        return np.concatenate([moved, np.zeros(len(USUAL))])
+
+    def unusual(self, values: FloatArray) -> float:
+        """Return by how many standard deviations the unknowns of a fit are off what is usual."""
+        return float(np.linalg.norm((values[3:] - self._mean) / self._deviation))
+
+    def estimate_noise(self, values: FloatArray) -> None:
+        """Take a fit's residual as the noise of each profile, neighbours being correlated."""
+        seen = self._seen.by(values)
+        for number, part in enumerate(self._parts):
+            residual = part.residual(seen)[: part.data.size]
+            slow = part.slow(np.ones(part.data.size))
+            residual -= slow @ (slow.T @ residual)
+            deviation = deviation_of(residual, part.slope, part.freedom + slow.shape[1] / 2.0)
+            whole = np.zeros(self._columns)
+            whole[part.kept] = residual / deviation
+            deviation *= math.sqrt(CORRELATED_COLUMNS * correlated_columns(whole))
+            white = np.full(part.clipped.size, float(np.median(deviation)))
+            self._noise[number] = np.concatenate([deviation, white])
+            self._slow[number] = part.slow(deviation)
+
+    def misfit_of_columns(self, values: FloatArray) -> FloatArray:
+        """Return the mean square of each column's residual over the profiles that show it.
+
+        In grey levels, shape (columns,); NaN for a column that none shows unclipped.
+        """
+        seen, squares, count = (
+            self._seen.by(values),
+            np.zeros(self._columns),
+            np.zeros(self._columns),
+        )
+        for part in self._parts:
+            squares[part.kept] += part.residual(seen)[: part.data.size] ** 2
+            count[part.kept] += 1.0
+        return np.where(count > 0.0, squares / np.maximum(count, 1.0), np.nan)
+
+    def edges_seen(self, values: FloatArray) -> float:
+        """Return the largest unclipped fraction of the edges' columns in a profile."""
+        lit = self._seen.by(values).lit
+        low, high = float(lit.min()), float(lit.max())
+        edges = (lit > low + _EDGE * (high - low)) & (lit < high - _EDGE * (high - low))
+        count = max(1, int(edges.sum()))
+        return max(float(edges[part.kept].sum()) / count for part in self._parts)
+
+    def _gammas(self) -> tuple[float, float]:
+        if not self.is_wide:
+            return _GAMMA_BOUNDS
+        inside = (1.0 + 1e-9, 1.0 - 1e-9)  # of the range, whatever is rounded
+        low, high = np.log(self._allowed * inside / self.gamma).tolist()
+        return low, high
+
+    def _residual(
+        self, values: FloatArray, tails: float = 0.0, shape: BlurShape = "normal"
+    ) -> FloatArray:
+        self._check()
+        seen = self._seen.by(values, tails, shape)
+        unusual = (values[3:] - self._mean) / self._deviation
+        return np.concatenate([*self._whitened([p.residual(seen) for p in self._parts]), unusual])
+
+    def _slopes(self, values: FloatArray, shape: BlurShape, of_tone: bool = True) -> FloatArray:
+        """Return the residual's slopes over all nine parameters, shape (residuals, 9).
+
+        Those over the tone curve's are 0 unless they are wanted.
+        """
+        self._check()
+        seen, rates = self._seen.by(values, 0.0, shape), self._seen.slopes(values, shape, of_tone)
+        found = np.hstack(self._whitened([part.slopes(seen, rates) for part in self._parts]))
+        slopes = np.zeros((9, found.shape[1] + len(USUAL)))
+        slopes[IN_ORDER[: len(found)], : -len(USUAL)] = found
+        slopes[GAMMA] *= self._seen.gamma(values)  # over its logarithm
+        slopes[3:, -len(USUAL) :] = np.diag(1.0 / self._deviation)
+        return slopes.T
+
+    def _whitened(self, parts: Sequence[FloatArray]) -> list[FloatArray]:
+        """Divide residuals, or slopes, by the noise, and take out what is slow."""
+        found = []
+        for values, part, noise, slow in zip(
+            parts, self._parts, self._noise, self._slow, strict=True
+        ):
+            white = values / noise
+            own = white[..., : part.data.size]
+            own -= (own @ slow) @ slow.T
+            found.append(white)
+        return found
+
+
+def _explained(slopes: FloatArray, change: FloatArray) -> FloatArray:
+    """Return the changes of the parameters that best explain a change of the residual."""
+    information = slopes.T @ slopes
+    information[np.diag_indices_from(information)] += 1e-9
+    return np.asarray(np.linalg.solve(information, slopes.T @ change))

@@ -149,13 +149,13 @@ if TYPE_CHECKING:  # for type checkers and editors: the names that _MODULES hold
         Scheme as Scheme,
         scheme_of as scheme_of,
     )
-    from occ_model.video.decode import (
+    from occ_model.video.file.write import write_video as write_video
+    from occ_model.video.load import load_video as load_video
+    from occ_model.video.reader import (
+        VideoReader as VideoReader,
         decode_frames as decode_frames,
         decode_video as decode_video,
     )
-    from occ_model.video.export import write_video as write_video
-    from occ_model.video.load import load_video as load_video
-    from occ_model.video.reader import VideoReader as VideoReader
     from occ_model.video.render import render_video as render_video
 
 # isort: on
@@ -228,8 +228,8 @@ _MODULES = {
     "column_profile": "camera.photometry",
     "compare": "photo.comparison",
     "decode": "receiver.decode",
-    "decode_frames": "video.decode",
-    "decode_video": "video.decode",
+    "decode_frames": "video.reader",
+    "decode_video": "video.reader",
     "decoders": "receiver.decoders",
     "delete_preset": "scene.presets",
     "eye_flicker": "study.bands.eye",
@@ -265,7 +265,7 @@ _MODULES = {
     "sweep": "study.sweep.sweep",
     "transmitter_sketch": "boards.sketch",
     "wilson_interval": "study.confidence",
-    "write_video": "video.export",
+    "write_video": "video.file.write",
 }
 """The module of each public name, imported when the name is first used.
 

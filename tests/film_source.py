@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from time import monotonic, sleep
 
-from occ_gui.video.frame_source import LivePicture
+from occ_gui.video.camera import LivePicture
 from occ_model.results.video import VideoFrame
 
 

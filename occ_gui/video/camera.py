@@ -1,4 +1,4 @@
-"""Cameras of this computer: which there are, and the pictures of one of them."""
+"""Cameras of this computer, and the pictures of a live source such as one of them."""
 
 import platform
 from collections.abc import Iterator
@@ -6,13 +6,17 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from time import monotonic
+from typing import Protocol
 
 import cv2
 import numpy as np
 
-from occ_gui.video.frame_source import LivePicture
+from occ_model.arrays import ByteArray
 from occ_model.errors import VideoError, one_line
 from occ_model.video.file.quiet import quiet_opencv
+
+AXES = ("lines", "columns")
+"""What of a source's pictures the rolling shutter scans, the usual one first."""
 
 _DEVICES = Path("/sys/class/video4linux")
 
@@ -24,6 +28,33 @@ _WIDTH, _HEIGHT = 1920, 1080
 _MANUAL, _AUTOMATIC = 0.25, 0.75
 _V4L_MANUAL, _V4L_AUTOMATIC = 1.0, 3.0
 """Modes of exposure as OpenCV's back ends count them; Video4Linux has its own numbers."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LivePicture:
+    time: float  # seconds since the source was opened
+    # Shape (lines, pixels) or (lines, pixels, 3): Grey, or blue, green and red
+    pixels: ByteArray
+
+
+class FrameSource(Protocol):
+    """What gives pictures one after the other; used by one thread at a time."""
+
+    title: str
+
+    axis: str
+    """What of its pictures the rolling shutter usually scans: ``"lines"`` or ``"columns"``."""
+
+    def open(self) -> None: ...
+
+    def read(self) -> LivePicture | None:
+        """Wait for the next picture; None where there are no more, as of a camera unplugged."""
+
+    def lock_exposure(self, on: bool) -> bool:
+        """Hold the exposure, or let the source choose it; False where it does not know how to."""
+
+    def close(self) -> None:
+        """End filming; a source that is not open stays so."""
 
 
 @dataclass(frozen=True, slots=True)

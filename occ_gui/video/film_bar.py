@@ -1,4 +1,4 @@
-"""Bar of the film: opens a film, chooses a camera, begins to read, and says what is shown."""
+"""Bars of the film: what is opened and read, and buttons that play it and step through it."""
 
 from collections.abc import Sequence
 
@@ -13,13 +13,15 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from occ_gui.video.camera import CameraDevice
-from occ_gui.video.live_video import AXES
+from occ_gui.video.camera import AXES, CameraDevice
 from occ_gui.widgets.elided_label import ElidedLabel
+from occ_gui.widgets.icon_button import IconButton
 from occ_gui.widgets.keyed_combo_box import KeyedComboBox
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import named, push_button
 from occ_gui.widgets.plain_text import in_menu
+
+_ICON = 16
 
 
 class FilmBar(QWidget):
@@ -94,3 +96,60 @@ class FilmBar(QWidget):
         if not devices:
             words = "No camera was found" if devices is not None else "Looking…"
             self.cameras.addAction(words).setEnabled(False)
+
+
+class TransportButton(IconButton):
+    def __init__(self, drawing: str, name: str, meaning: str) -> None:
+        super().__init__(drawing, _ICON)
+        self.rename(drawing, name, meaning)
+
+    def rename(self, drawing: str, name: str, meaning: str) -> None:
+        self.show_drawing(drawing)
+        self.setAccessibleName(name)
+        self.setToolTip(meaning)
+
+
+class Transport(QWidget):
+    """Play, step back, step on, and the frame and time that are shown."""
+
+    play_asked = Signal()  # the user starts or stops the film
+    step_asked = Signal(int)  # how many frames the user goes on; back where it is below zero
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.back = TransportButton("step-back", "Step back", "Show the frame before (Left).")
+        self.play = TransportButton("play", "", "")
+        self.on = TransportButton("step-on", "Step on", "Show the next frame (Right).")
+        self.place = ElidedLabel()
+        self.place.setAccessibleName("Frame and time shown")
+        self.place.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(2)
+        for button in (self.back, self.play, self.on):
+            layout.addWidget(button)
+        layout.addSpacing(6)
+        layout.addWidget(self.place, 1)
+        self.back.clicked.connect(lambda: self.step_asked.emit(-1))
+        self.on.clicked.connect(lambda: self.step_asked.emit(1))
+        self.play.clicked.connect(self.play_asked)
+        self.show_playing(False)
+
+    def show_playing(self, playing: bool) -> None:
+        if playing:
+            self.play.rename("pause", "Pause", "Stop at this frame (Space).")
+        else:
+            self.play.rename("play", "Play", "Play the film at its own speed (Space).")
+
+    def show_place(self, index: int, count: int | None, time: float | None) -> None:
+        """Show which frame is seen, of how many, and its time in seconds."""
+        if time is None:
+            self.place.set_full_text("")
+            return
+        of_all = f" of {count}" if count else ""
+        self.place.set_full_text(f"frame {index + 1}{of_all}, {time:.4f} s")
+
+    def set_usable(self, usable: bool) -> None:
+        """Let the buttons be pressed while there is a film of several frames."""
+        for button in (self.back, self.play, self.on):
+            button.setEnabled(usable)

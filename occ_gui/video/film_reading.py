@@ -1,19 +1,68 @@
 """Reading of a film, ready to be shown: marks of the timeline, text, facts and sentences."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from enum import IntEnum
 
 import numpy as np
 
-from occ_gui.video.marks import Marks
-from occ_model.arrays import ByteArray, FloatArray
+from occ_model.arrays import ByteArray, FloatArray, IndexArray
 from occ_model.results.fact import Fact
+from occ_model.video.frame_times import BREAK
+
+
+class MarkState(IntEnum):
+    """Whether a frame or a packet was read."""
+
+    PENDING = 0
+    READ = 1  # read: a frame whose place in what is sent is known, a packet that is as all others
+    UNCHECKED = 2  # read, but nothing says whether it is right, or where it belongs
+    LOST = 3  # not read, or read wrong
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Marks:
+    """Marks, in order of time but where a film states another one."""
+
+    # Shape (marks,): when each begins and ends, in seconds
+    starts: FloatArray = field(default_factory=lambda: np.zeros(0))
+    ends: FloatArray = field(default_factory=lambda: np.zeros(0))
+    # Shape (marks,): A :class:`MarkState` each
+    states: ByteArray = field(default_factory=lambda: np.zeros(0, dtype=np.uint8))
+
+    def __len__(self) -> int:
+        return len(self.starts)
+
+    def counted(self, edges: FloatArray) -> IndexArray:
+        """Count the marks of each state that begin between rising edges, shape (bins, states)."""
+        counts = [
+            np.histogram(self.starts[self.states == state], bins=edges)[0] for state in MarkState
+        ]
+        return np.stack(counts, axis=1).astype(np.int64)
+
+
+def frame_marks(times: Sequence[float] | FloatArray, states: ByteArray, last: float) -> Marks:
+    """Return a mark for each frame, which lasts until the next one begins, if that is soon.
+
+    ``states``: shape (frames,): whether each was read.
+    ``last``: how long the last one lasts, in seconds.
+    """
+    starts = np.asarray(times, dtype=np.float64)
+    if not len(starts):
+        return Marks()
+    steps = np.append(np.diff(starts), last)
+    ahead = steps[steps > 0.0]
+    usual = float(np.median(ahead)) if ahead.size else last
+    # Where the times jump nobody knows what was between.
+    steps = np.where((steps < 0.0) | (steps > BREAK * usual), usual, steps)
+    return Marks(starts, starts + steps, states)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FilmReading:
     # Shape (frames,): when the frames that were looked at began, in seconds
     times: FloatArray
-    states: ByteArray  # shape (frames,): A :class:`~occ_gui.video.marks.MarkState` each
+    states: ByteArray  # shape (frames,): A :class:`~occ_gui.video.film_reading.MarkState` each
     packets: Marks = field(default_factory=Marks)
     text: str = ""
     facts: tuple[Fact, ...] = ()

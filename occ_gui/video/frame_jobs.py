@@ -7,8 +7,7 @@ import numpy as np
 import occ_model as occ
 from occ_gui.simulation.preview import PictureView, halved
 from occ_gui.simulation.snapshot import ColumnView
-from occ_gui.video.film_pictures import ShownPicture
-from occ_gui.video.frame_rows import FrameStory
+from occ_gui.video.frame_views import FrameStory, ShownPicture
 from occ_model.arrays import ByteArray, FloatArray
 from occ_model.errors import OccError
 from occ_model.receiver.signal import column_means

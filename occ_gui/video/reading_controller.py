@@ -1,12 +1,181 @@
-"""Controller of the reading: reads the film in the background, and knows when that is outdated."""
+"""Reading of a film in the background: its frames one by one, and again and again what is known."""
 
+from collections import deque
+from dataclasses import dataclass
+from time import monotonic
+
+import numpy as np
 from PySide6.QtCore import QObject, Signal
 
-from occ_gui.background.task import Task
-from occ_gui.video.film_reading import FilmReading
-from occ_gui.video.reading_jobs import ReadingRequest, read_film
-from occ_model.results.video import Video
+import occ_model as occ
+from occ_gui.background.task import Report, Task
+from occ_gui.video.film_reading import FilmReading, Marks, MarkState
+from occ_model.results.sent_packets import PacketReading, SentPackets
+from occ_model.results.video import Video, VideoFrame
+from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.scene.scene import Scene
+from occ_model.study.reading_facts import film_facts
+
+_INTERVAL = 0.1  # seconds between two reports, so that the window can draw each of them
+_LIVE_INTERVAL = 0.03  # the same for a camera, whose picture is shown with each
+_LOOK_INTERVAL = 1.0  # seconds between two looks at all frames together
+_LOOK_SHARE = 0.2  # largest fraction of the time that looking at all frames together takes
+MOST_LIVE = 900  # frames of a live film that are remembered: half a minute of 30 a second
+MOST_MARKS = 1_000_000  # packets up to which each has a mark of its own
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReadingRequest:
+    film: Video
+    scene: Scene
+    is_live: bool = False  # whether it has no end, so that only its last frames are remembered
+
+
+def read_film(request: ReadingRequest, report: Report) -> FilmReading:
+    """Read a film from its first frame to its last; reports are FilmReadings."""
+    collected, last = _Collected(request), monotonic()
+    interval = _LIVE_INTERVAL if request.is_live else _INTERVAL
+    for frame in request.film:
+        report(None)
+        collected.add(frame)
+        if monotonic() - last >= interval:
+            report(collected.reading())
+            last = monotonic()
+    collected.look()
+    return collected.reading()
+
+
+class _Collected:
+    def __init__(self, request: ReadingRequest) -> None:
+        most = MOST_LIVE if request.is_live else None
+        self._request = request
+        self._times: deque[float] = deque(maxlen=most)
+        self._states: deque[int] = deque(maxlen=most)
+        self._reader = self._new_reader()
+        self._frames = 0
+        self._known: FilmProgress | None = None
+        self._whole: VideoReading | None = None
+        self._packets = self._before = Marks()
+        self._next_look = monotonic() + _LOOK_INTERVAL
+
+    def _new_reader(self) -> occ.VideoReader:
+        reader = occ.VideoReader(self._request.scene)
+        reader.time_step = self._request.film.time_step or 0.0
+        return reader
+
+    def add(self, frame: VideoFrame) -> None:
+        if self._request.is_live and self._frames == MOST_LIVE:
+            # What it knows grows with every frame.
+            self.look()
+            self._reader, self._frames = self._new_reader(), 0
+            self._before = self._packets
+        self._known = self._reader.add(frame)
+        self._frames += 1
+        self._times.append(frame.time)
+        self._states.append(state_of_frame(self._known.frame))
+        if monotonic() >= self._next_look:
+            self.look()
+
+    def look(self) -> None:
+        """Look at all frames together: later ones tell the places of earlier ones."""
+        if not self._frames:
+            return
+        began = monotonic()
+        self._whole = self._reader.reading()
+        for place, frame in enumerate(reversed(self._whole.frames), 1):
+            if place > len(self._states):
+                break
+            self._states[-place] = state_of_frame(frame)
+        found = marks_of_packets(self._whole.packets)
+        self._packets = _joined(self._before, found, self._times[0])
+        took = monotonic() - began
+        self._next_look = monotonic() + max(_LOOK_INTERVAL, took / _LOOK_SHARE)
+
+    def reading(self) -> FilmReading:
+        known = self._known
+        if known is None:
+            problem = self._request.film.problem
+            return FilmReading(
+                np.zeros(0), np.zeros(0, dtype=np.uint8), sentences=(problem,) if problem else ()
+            )
+        whole = self._whole
+        is_whole = whole is not None and len(whole.frames) == known.frames
+        return FilmReading(
+            times=np.array(self._times, dtype=np.float64),
+            states=np.array(self._states, dtype=np.uint8),
+            packets=self._packets,
+            text=whole.payload
+            if is_whole and whole is not None and whole.payload
+            else known.payload,
+            facts=film_facts(known, whole),
+            sentences=sentences_of(known, whole, self._request.film.problem),
+        )
+
+
+def state_of_frame(frame: FrameReading) -> MarkState:
+    """Return whether a frame was read: its chips, and their place in what is sent."""
+    if frame.place is not None:
+        return MarkState.READ
+    return MarkState.UNCHECKED if frame.chips.size else MarkState.LOST
+
+
+def state_of_packet(packet: PacketReading) -> MarkState:
+    if not packet.is_read or packet.correct is False:
+        return MarkState.LOST
+    return MarkState.UNCHECKED if packet.correct is None else MarkState.READ
+
+
+def marks_of_packets(packets: SentPackets) -> Marks:
+    """Return a mark for each packet; of very many one for all that lie between two in view."""
+    shown = np.array([packet.number for packet in packets.in_view], dtype=np.int64)
+    if len(packets) <= MOST_MARKS:
+        edges = np.arange(len(packets) + 1)
+    else:
+        ends = np.cumsum([0, *(part.count for part in packets.parts)])
+        edges = np.unique(np.concatenate([shown, shown + 1, ends]))
+    states = np.full(len(edges) - 1, MarkState.LOST, dtype=np.uint8)
+    states[np.searchsorted(edges, shown)] = [state_of_packet(one) for one in packets.in_view]
+    starts, last = packets.starts(edges[:-1]), packets.starts(edges[1:] - 1)
+    return Marks(starts, last + packets.steps(edges[:-1]), states)
+
+
+def _joined(before: Marks, after: Marks, first: float) -> Marks:
+    """Return marks of both, one after the other, from a time on."""
+    if not len(before):
+        return after
+    last = float(after.starts[0]) if len(after) else np.inf
+    kept = (before.ends > first) & (before.starts < last)
+    return Marks(
+        np.concatenate([before.starts[kept], after.starts]),
+        np.concatenate([before.ends[kept], after.ends]),
+        np.concatenate([before.states[kept], after.states]),
+    )
+
+
+def sentences_of(
+    known: FilmProgress, whole: VideoReading | None, problem: str | None
+) -> tuple[str, ...]:
+    said = [problem] if problem else []
+    if whole is not None and whole.failure is not None:
+        said.append(whole.failure)
+    if whole is not None:
+        said += whole.problems
+    elif known.clock is not None:
+        said += known.clock.problems
+    if whole is not None and whole.cut_off:
+        said.append(_losses(known, whole))
+    return tuple(dict.fromkeys(said))
+
+
+def _losses(known: FilmProgress, whole: VideoReading) -> str:
+    """Say why packets are lost, and that their bits are not counted as wrong ones."""
+    where = "sent in the gap between two frames, or cut off by a frame's edge"
+    if unplaced := known.frames - known.placed:
+        where += f", or in one of {unplaced} frames that were not placed"
+    text = f"Of {whole.lost} lost packets no frame shows {whole.cut_off} whole: {where}."
+    if misread := whole.lost - whole.cut_off:
+        text += f" {misread} were in view and misread."
+    return text + " The bit error rate counts only bits of packets in view."
 
 
 class ReadingController(QObject):

@@ -18,8 +18,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from occ_gui.video.film_reading import Marks, MarkState
 from occ_gui.video.mark_look import brush_of, draw_mark
-from occ_gui.video.marks import Marks, MarkState
 from occ_gui.widgets.guarded_paint import guarded
 from occ_gui.widgets.round_step import round_step
 

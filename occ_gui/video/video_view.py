@@ -5,15 +5,12 @@ from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
 from occ_gui.video.data_view import DataView
-from occ_gui.video.film_bar import FilmBar
-from occ_gui.video.film_pictures import FilmPictures
-from occ_gui.video.film_reading import FilmReading
-from occ_gui.video.frame_rows import FrameRows
+from occ_gui.video.film_bar import FilmBar, Transport
+from occ_gui.video.film_reading import FilmReading, Marks
+from occ_gui.video.frame_views import FilmPictures, FrameRows
 from occ_gui.video.mark_look import MarkLegend
-from occ_gui.video.marks import Marks
 from occ_gui.video.recording_form import RecordingForm
 from occ_gui.video.timeline import Timeline
-from occ_gui.video.transport import Transport
 from occ_gui.widgets.layouts import filled
 from occ_gui.widgets.named import paragraph
 from occ_gui.widgets.outdated_mark import OutdatedMark

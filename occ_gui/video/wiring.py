@@ -13,17 +13,15 @@ from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.feature import Pane
 from occ_gui.shell.results import Board
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.video.film_controller import FilmController
+from occ_gui.video.film_controller import USUAL_RATE, FilmController
+from occ_gui.video.film_reading import Marks, MarkState, frame_marks
 from occ_gui.video.frame_jobs import ShownFrame
 from occ_gui.video.live_controller import LiveController
-from occ_gui.video.marks import Marks, MarkState, frame_marks
 from occ_gui.video.reading_controller import ReadingController
 from occ_gui.video.video_view import VideoView
 from occ_model.errors import OccError, one_line
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
-
-_USUAL_RATE = 30.0  # frames a second where a film does not say how many
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -285,7 +283,7 @@ class VideoWiring(Pane[FilmChoice]):
         """Return the marks of all frames: of those read, and of those still to come."""
         reading = self.readings.reading
         read = len(reading.times)
-        step = 1.0 / (self.films.rate or _USUAL_RATE)
+        step = 1.0 / (self.films.rate or USUAL_RATE)
         to_come = 0
         if not (self.films.is_live or (self.readings.is_done and self.films.film is not None)):
             to_come = max(self.films.count - read, 0)

@@ -19,8 +19,7 @@ from occ_model.results.video import Video
 from occ_model.scene.parameters import quantity
 from occ_model.scene.recording import DECLARED, MOTIONS, Recording, Waypoint
 from occ_model.scene.units import SECOND
-from occ_model.video.export import write_video
-from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path
+from occ_model.video.file.write import FILM_ENDINGS, LOSSLESS, check_film_path, write_video
 from occ_model.video.load import load_video
 from occ_model.video.render import render_video
 

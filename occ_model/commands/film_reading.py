@@ -12,9 +12,9 @@ from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.scene import Scene
 from occ_model.scene.units import SECOND
 from occ_model.study.reading_facts import clock_facts, error_rate, packet_facts
-from occ_model.video.decode import decode_video
 from occ_model.video.file.source import CHANNELS
 from occ_model.video.load import load_video
+from occ_model.video.reader import decode_video
 
 _RATE_PARTS = 5  # parts of the film in which error rates are reported
 _MIN_RATE_PACKETS = 50  # packets from which the rates of parts are reported

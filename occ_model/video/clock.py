@@ -1,12 +1,34 @@
-"""State the clock of a film: frequency, readout time and gap, and what contradicts them."""
+"""The clock of a film: fit the switching frequency to phases, and state what is measured.
+
+A frame shows the phase of the chips at its time only up to whole periods of what is sent. So
+frequencies that differ by a whole number of periods between frames fit alike (aliases). The rough
+frequency, from the chips a column and a rough readout time, says which of them it is. The phase is
+then counted on over longer and longer parts of the film, each of which foretells the next one.
+"""
+
+import math
 
 import numpy as np
 
+from occ_model.arrays import FloatArray
 from occ_model.results.video_reading import Clock, Measured
 from occ_model.scene.units import HERTZ, SECOND
-from occ_model.video.clock_fit import fit_clock
 from occ_model.video.frame_times import FrameTimes, Part
-from occ_model.video.phases import ClockFit, Phases, mean_step
+from occ_model.video.phase_fit import ClockFit, Phases, fit_parabola, mean_step
+
+_FIRST_FRAMES = 64  # frames of the part of a film in which aliases are searched
+
+_GRID_POINTS_PER_TURN = 8.0  # frequencies tried in a change of the last phase by a period
+_MAX_TRIED = 2**17  # most frequencies that are tried; the part of the film is shortened to it
+
+_MAX_ALIASES = 64  # of more, as with frames far apart, no frequency is stated
+_TRIED_WITHOUT_CHANCE = 64.0  # number of frequencies without one that is coherent by chance
+
+_MIN_RELATIVE_COHERENCE = 0.8  # fraction of the best coherence from which an alias is fitted
+_MIN_COHERENCE = 0.5  # coherence of phases with the frame times below which they do not follow them
+_PART_GROWTH = 1.3  # factor by which the fitted part of the film grows, once its frequency is known
+
+_MAX_CHI_SQUARED_EXCESS = 9.0  # up to which an alias is not excluded: three standard deviations
 
 READOUT_TOLERANCE = 0.01  # maximum relative difference of the readout time from the given rough one
 _MAX_READOUT_EXCESS = 1e-3  # relative error by which the readout may exceed the frame period
@@ -15,6 +37,96 @@ _MAX_OUTLIER_FRACTION = 0.1  # outlier fraction of the phases that triggers a wa
 _MAX_NAMED_FREQUENCIES = 5  # maximum number of other frequencies that a sentence names
 
 _MIN_WANDER_RATIO = 3.0  # of the phases' scatter to that between frames from which they wander
+
+
+def fit_clock(phases: Phases, low: float, high: float) -> tuple[ClockFit, ...]:
+    """Return the frequencies, ``low`` to ``high`` Hz, that fit phases, the likeliest first."""
+    step, _ = mean_step(phases)
+    turned = np.mod(phases.places - step * phases.columns, phases.period)
+    fits = []
+    for frequency in _aliases(phases, turned, low, high):
+        fit = _followed(phases, turned, frequency)
+        if fit is not None and low <= fit.frequency <= high:
+            fits.append(fit)
+    if not fits:
+        return ()
+    fits = _distinct(fits)
+    best = fits[0]
+    free = max(1, int(best.kept.sum()) - 3)
+    # Jitter of the frame times is part of the scatter: the best fit says how much.
+    scale = max(1.0, best.chi_squared / free)
+    return tuple(
+        fit for fit in fits
+        if fit.chi_squared - best.chi_squared <= _MAX_CHI_SQUARED_EXCESS * scale
+        and len(fit.jumps) <= len(best.jumps)
+    )  # fmt: skip
+
+
+def _distinct(fits: list[ClockFit]) -> list[ClockFit]:
+    """Sort fits, those with few jumps and outliers first, and keep each frequency once."""
+    ordered = sorted(
+        fits, key=lambda fit: (len(fit.jumps), int((~fit.kept).sum()) // 2, fit.chi_squared)
+    )
+    kept: list[ClockFit] = []
+    for fit in ordered:
+        apart = 3.0 * fit.frequency_error
+        if all(abs(fit.frequency - other.frequency) > apart for other in kept):
+            kept.append(fit)
+    return kept
+
+
+def _aliases(phases: Phases, turned: FloatArray, low: float, high: float) -> list[float]:
+    """Return the frequencies at which the phases of the first frames are coherent."""
+    count = min(len(turned), _FIRST_FRAMES)
+    while count > 2 and _grid(phases.times[:count], low, high, phases.period) > _MAX_TRIED:
+        count = max(2, count // 2)
+    times = phases.times[:count] - phases.times[0]
+    number = _grid(times, low, high, phases.period)
+    # Of so many random phasors the mean is longer than r in the fraction exp(-count r^2).
+    by_chance = math.sqrt(2.0 * math.log(max(number / _TRIED_WITHOUT_CHANCE, 1.0)) / count)
+    if number > _MAX_TRIED or by_chance >= 1.0:
+        return []
+    tried = np.linspace(low, high, number)
+    coherent = _coherence(turned[:count], times, tried, phases.period)
+    best = float(coherent.max())
+    if best < max(_MIN_COHERENCE, 1.2 / math.sqrt(count), by_chance) and count > 2:
+        return []
+    padded = np.concatenate([[-1.0], coherent, [-1.0]])
+    peaks = (padded[1:-1] >= padded[:-2]) & (padded[1:-1] > padded[2:])
+    chosen = np.flatnonzero(peaks & (coherent >= _MIN_RELATIVE_COHERENCE * best))
+    return [float(tried[place]) for place in chosen] if len(chosen) <= _MAX_ALIASES else []
+
+
+def _grid(times: FloatArray, low: float, high: float, period: float) -> int:
+    return int((high - low) * float(np.ptp(times)) / period * _GRID_POINTS_PER_TURN) + 3
+
+
+def _coherence(
+    turned: FloatArray, times: FloatArray, tried: FloatArray, period: float
+) -> FloatArray:
+    """Return the length of the mean phase factor at each frequency."""
+    coherent = np.empty(len(tried))
+    for start in range(0, len(tried), 4096):
+        part = slice(start, start + 4096)
+        angle = (turned - tried[part, None] * times) * (2.0 * np.pi / period)
+        coherent[part] = np.abs(np.exp(1j * angle).mean(axis=1))
+    return coherent
+
+
+def _followed(phases: Phases, turned: FloatArray, frequency: float) -> ClockFit | None:
+    """Count the phase on over the film from a first frequency, and fit it."""
+    count, total = min(len(turned), _FIRST_FRAMES), len(turned)
+    times = phases.times - phases.times[0]
+    angle = np.exp(2j * np.pi * (turned[:count] - frequency * times[:count]) / phases.period)
+    start = float(np.angle(angle.mean())) / (2.0 * np.pi) * phases.period
+    foretold = start + frequency * times
+    while True:
+        rounds = np.rint((foretold[:count] - turned[:count]) / phases.period)
+        fit = fit_parabola(phases.first(count), turned[:count] + rounds * phases.period)
+        if fit is None or count == total:
+            return fit
+        count = min(total, max(count + 1, int(count * _PART_GROWTH)))
+        foretold = fit.at_start(phases.times)
 
 
 def fits_of(

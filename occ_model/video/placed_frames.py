@@ -16,7 +16,7 @@ from occ_model.video.frame_times import FrameTimes, Part, frame_times
 from occ_model.video.joining import Joined, Place
 from occ_model.video.packets import CountedPart, PlacedFrame, counted_on
 from occ_model.video.period import SentPeriod
-from occ_model.video.phases import ClockFit, Phases
+from occ_model.video.phase_fit import ClockFit, Phases
 from occ_model.video.read_frame import TimedFrame
 
 _REFIT_GROWTH = 1.25  # factor of the number of frames after which the clock is fitted anew

@@ -1,4 +1,6 @@
-"""The reader of a film: it takes frames as they come, and combines their information."""
+"""Read a film: frame by frame as it comes, and as a whole at its end."""
+
+from collections.abc import Callable, Iterable, Iterator
 
 import numpy as np
 
@@ -8,21 +10,91 @@ from occ_model.receiver.decoders import PAPER_DECODER, decoder_named
 from occ_model.receiver.sequence.soft_frame import SoftFrame
 from occ_model.receiver.sequence.soft_frame import read_frame as read_soft_frame
 from occ_model.results.sent_packets import SentPackets
-from occ_model.results.video import LATEST, VideoFrame
+from occ_model.results.video import LATEST, Video, VideoFrame
 from occ_model.results.video_reading import FilmProgress, VideoReading
 from occ_model.scene.argument_checks import check_count, is_number
 from occ_model.scene.payload import form_of, payload_of_bits
 from occ_model.scene.scene import Scene, check_scene
 from occ_model.transmitter.packet import code_of
 from occ_model.video.clock import READOUT_TOLERANCE
-from occ_model.video.failures import NO_CLOCK, certainty_of, why_not_read, why_unplaced
 from occ_model.video.frame_times import FrameTimes
 from occ_model.video.packets import packets_of
-from occ_model.video.partial_payload import known_bits, written
+from occ_model.video.payload_so_far import (
+    NO_CLOCK,
+    certainty_of,
+    known_bits,
+    why_not_read,
+    why_unplaced,
+    written,
+)
 from occ_model.video.period import period_of
 from occ_model.video.placed_frames import FIRST_FIT, PlacedFrames
 from occ_model.video.read_frame import FrameReader
 from occ_model.video.without_packets import WithoutPackets
+
+
+def decode_video(
+    video: Video,
+    scene: Scene,
+    decoder: str = PAPER_DECODER,
+    *,
+    readout_tolerance: float = READOUT_TOLERANCE,
+    progress: Callable[[FilmProgress], object] | None = None,
+) -> VideoReading:
+    """Read a film: its clock, its packets and the payload.
+
+    Parameters
+    ----------
+    scene
+        What the receiver knows: scheme and number of bits, and roughly the switching frequency, the
+        exposure time and the readout time.
+    decoder
+        The decoder that finds the chips in each frame.
+    readout_tolerance
+        The fraction by which the scene's readout time may be wrong: frequencies that need another
+        one are excluded.
+    progress
+        Called after each frame. What it raises ends the reading.
+
+    Raises
+    ------
+    ParameterError
+        There is no such decoder, the tolerance is out of range, or the scheme cannot be used.
+    VideoError
+        The file cannot be read.
+    """
+    reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
+    reader.time_step = video.time_step or 0.0
+    for frame in video:
+        known = reader.add(frame)
+        if progress is not None:
+            progress(known)
+    return reader.reading()
+
+
+def decode_frames(
+    frames: Iterable[VideoFrame],
+    scene: Scene,
+    decoder: str = PAPER_DECODER,
+    *,
+    readout_tolerance: float = READOUT_TOLERANCE,
+) -> Iterator[FilmProgress]:
+    """Read frames as they come; give what is known after each.
+
+    Parameters
+    ----------
+    frames
+        A film, or frames from a camera.
+    scene, decoder, readout_tolerance
+        As for :func:`decode_video`.
+
+    Raises
+    ------
+    ParameterError
+        As :func:`decode_video`, at once.
+    """
+    reader = VideoReader(scene, decoder, readout_tolerance=readout_tolerance)
+    return (reader.add(frame) for frame in frames)
 
 
 class VideoReader:

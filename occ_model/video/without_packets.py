@@ -16,7 +16,7 @@ from occ_model.scene.square_wave import CHIPS_OF_A_CYCLE
 from occ_model.scene.units import HERTZ, SECOND, Unit
 from occ_model.video.clock import fits_of, state
 from occ_model.video.frame_times import FrameTimes
-from occ_model.video.phases import Phases
+from occ_model.video.phase_fit import Phases
 
 _MIN_PERIODS = 3.0  # in a frame from which stripes repeat, and are not by chance alike twice
 _MAX_UNREPEATED = 0.1  # maximum fraction of the stripes' variance that no repeated wave explains

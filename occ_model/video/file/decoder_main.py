@@ -64,9 +64,7 @@ def main() -> None:
     with Path(os.devnull).open("r+b") as nowhere:
         os.dup2(nowhere.fileno(), 1)
         os.dup2(nowhere.fileno(), 2)
-    from occ_model.video.file.opencv_source import OpenCvSource
-    from occ_model.video.file.pillow_source import PillowSource
-    from occ_model.video.file.source import FrameSource
+    from occ_model.video.file.source import FrameSource, OpenCvSource, PillowSource
 
     _limit_memory()
     kinds: dict[str, type[FrameSource]] = {"opencv": OpenCvSource, "pillow": PillowSource}

@@ -1,5 +1,7 @@
 """What a film's file gives, whatever reads it: pictures with their times, in order."""
 
+import math
+import warnings
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,9 +10,16 @@ import cv2
 import numpy as np
 
 from occ_model.arrays import ByteArray
+from occ_model.errors import VideoError
 
 CHANNELS = ("luma", "red", "green", "blue")  # most files keep luma in each pixel, colours in 2 x 2
 MAX_PIXELS = 36_000_000  # largest frame that is read: 8K, if its codec's memory suffices
+
+_MILLISECONDS = 1e3
+_MAX_FRAMES, _FASTEST = 1e9, 1e6
+_THREADS = 2
+"""Threads of FFmpeg. With one for each of many processors, each keeping frames, films of 4K would
+take more memory than the process may have."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,3 +74,108 @@ def too_large(width: float, height: float) -> str | None:
         f"its frames have {width:,.0f} x {height:,.0f} pixels; allowed: from 1 to "
         f"{MAX_PIXELS / 1e6:g} million of them."
     )
+
+
+class OpenCvSource(FrameSource):
+    """The frames of a film as OpenCV's FFmpeg decodes them, turned upright."""
+
+    def __init__(self, path: Path, channel: str) -> None:
+        self._channel = channel
+        # FFmpeg takes what begins with "/" or a drive's letter for a file, never for an address.
+        self._capture = cv2.VideoCapture(
+            str(path.resolve()), cv2.CAP_FFMPEG, (cv2.CAP_PROP_N_THREADS, _THREADS)
+        )
+        if not self._capture.isOpened():
+            raise VideoError("no film was found in it.")
+        width = self._capture.get(cv2.CAP_PROP_FRAME_WIDTH)
+        height = self._capture.get(cv2.CAP_PROP_FRAME_HEIGHT)
+        problem = too_large(width, height)
+        if problem:
+            raise VideoError(problem)
+        self.pixels = int(width * height)
+        rate = self._capture.get(cv2.CAP_PROP_FPS)
+        count = self._capture.get(cv2.CAP_PROP_FRAME_COUNT)
+        self.frame_rate = rate if 0.0 < rate < _FASTEST else None
+        self.frame_count = round(count) if 0.0 < count < _MAX_FRAMES else None
+
+    def read(self) -> StoredFrame | None:
+        found, pixels = self._capture.read()
+        if not found or pixels is None:
+            return None
+        return StoredFrame(self._time(), one_channel(np.asarray(pixels, np.uint8), self._channel))
+
+    def skip(self) -> bool:
+        """Pass over the next frame; tell whether there was one."""
+        return bool(self._capture.grab())
+
+    def seek(self, index: int, time: float, within: float) -> StoredFrame | None:
+        """Return a frame anywhere in the film, None where it has another time than was stated."""
+        # OpenCV counts frames by their times, which fails where they are not equally far apart.
+        if not self._capture.set(cv2.CAP_PROP_POS_FRAMES, index):
+            return None
+        frame = self.read()
+        return frame if frame is not None and abs(frame.time - time) < within else None
+
+    def close(self) -> None:
+        self._capture.release()
+
+    def _time(self) -> float:
+        time = self._capture.get(cv2.CAP_PROP_POS_MSEC) / _MILLISECONDS
+        return time if math.isfinite(time) else 0.0
+
+
+class PillowSource(FrameSource):
+    """The frames of an animated picture as Pillow decodes them, transparent parts black."""
+
+    def __init__(self, path: Path, channel: str) -> None:
+        from PIL import Image
+
+        warnings.simplefilter("ignore")  # about sizes, which are checked here
+        Image.MAX_IMAGE_PIXELS = None
+        self._channel = channel
+        try:
+            self._picture = Image.open(path, formats=("GIF", "PNG"))
+            width, height = self._picture.size
+            problem, self.pixels = too_large(width, height), width * height
+            if problem is None:
+                self.frame_count = int(getattr(self._picture, "n_frames", 1))
+        except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files
+            raise VideoError("no film was found in it.") from None
+        if problem:
+            raise VideoError(problem)
+        duration = float(self._picture.info.get("duration", 0.0))
+        self.frame_rate = _MILLISECONDS / duration if duration > 0.0 else None
+        self._next, self._time = 0, 0.0
+
+    def read(self) -> StoredFrame | None:
+        try:
+            self._picture.seek(self._next)
+            shown = self._picture.convert("RGBA") if self._has_colours() else self._picture
+            pixels = np.asarray(shown.convert("L") if shown is self._picture else shown)
+        except Exception:  # noqa: BLE001 - Pillow raises anything on damaged files, EOFError at the end
+            return None
+        if pixels.ndim == 3:
+            lit = pixels[..., 2::-1].astype(np.uint16) * pixels[..., 3:]
+            pixels = np.asarray((lit + 127) // 255, np.uint8)
+        frame = StoredFrame(self._time, one_channel(pixels, self._channel))
+        self._passed()
+        return frame
+
+    def skip(self) -> bool:
+        """Pass over the next frame; tell whether there was one."""
+        try:
+            self._picture.seek(self._next)
+        except Exception:  # noqa: BLE001 - as above
+            return False
+        self._passed()
+        return True
+
+    def close(self) -> None:
+        self._picture.close()
+
+    def _has_colours(self) -> bool:
+        return self._picture.mode not in ("1", "L")
+
+    def _passed(self) -> None:
+        self._time += float(self._picture.info.get("duration", 0.0)) / _MILLISECONDS
+        self._next += 1

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_gui.video.frame_source import LivePicture
+from occ_gui.video.camera import LivePicture
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene
 

@@ -3,7 +3,7 @@
 import pytest
 from gui.kinds import collect
 
-from occ_gui.video.player import FilmPlayer
+from occ_gui.video.film_controller import FilmPlayer
 
 
 class Clock:

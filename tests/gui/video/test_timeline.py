@@ -9,8 +9,8 @@ from PySide6.QtCore import QPoint, QRectF, Qt
 from PySide6.QtGui import QColor, QImage, QPainter
 from pytestqt.qtbot import QtBot
 
+from occ_gui.video.film_reading import Marks, MarkState, frame_marks
 from occ_gui.video.mark_look import draw_mark
-from occ_gui.video.marks import Marks, MarkState, frame_marks
 from occ_gui.video.timeline import Timeline, TimelineScale, tick_step
 from occ_gui.window.theme import palette_of
 

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from occ_gui.app.application import Application
 from occ_gui.files.session_file import SessionFile
 from occ_gui.values.film_choice import FilmChoice
-from occ_gui.video.marks import MarkState
+from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene

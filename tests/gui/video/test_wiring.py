@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 import occ_model as occ
 from occ_gui.scene.scene_store import SceneStore
 from occ_gui.shell.results import Board
-from occ_gui.video.marks import MarkState
+from occ_gui.video.film_reading import MarkState
 from occ_gui.video.wiring import VideoWiring
 from occ_model.results.video import Video
 from occ_model.scene.scene import Scene

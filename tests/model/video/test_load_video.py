@@ -32,14 +32,20 @@ from occ_model.video.file.decoder_process import DecoderProcess
 from occ_model.video.file.source import MAX_PIXELS
 from occ_model.video.load import VideoFile
 
-_BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-_MEMORY, _DAMAGED_FILMS = _BENCHMARKS / "film_memory.py", _BENCHMARKS / "damaged_films.py"
+_MEMORY = Path(__file__).parents[2] / "benchmarks" / "memory.py"
 
 
 def saved(folder: Path, content: bytes, ending: str = "mp4") -> Path:
     path = folder / f"film.{ending}"
     path.write_bytes(content)
     return path
+
+
+def memory_of(*work: str) -> list[int]:
+    """Do some work in a process of its own: this one has run other tests, and made the film."""
+    command = [sys.executable, str(_MEMORY), *work]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    return [int(number) for number in ran.stdout.split()]
 
 
 def error_of(image: ByteArray, number: int) -> float:
@@ -149,16 +155,26 @@ def test_animated_pictures_are_films_too(tmp_path: Path, ending: str) -> None:
     np.testing.assert_array_equal(film.frame(1).image, shown[1])
 
 
-def test_a_channel_can_be_chosen(tmp_path: Path) -> None:
+def test_an_animated_picture_has_colours_to_choose_and_its_transparent_parts_are_black(
+    tmp_path: Path,
+) -> None:
+    first = np.full((20, 30, 4), (200, 100, 50, 255), np.uint8)
+    second = first.copy()
+    second[:10, :, 3] = 0
+    second[10, 0, 3] = 128
+    opaque, other = (Image.fromarray(pixels) for pixels in (first, second))
     path = tmp_path / "a.png"
-    colours = np.zeros((20, 30, 4), np.uint8)
-    colours[...] = (200, 100, 50, 255)
-    colours[:10, :, 3] = 0  # transparent: black
-    Image.fromarray(colours).save(path)
+    opaque.save(path, save_all=True, append_images=[other], duration=[40, 60], blend=0)
     for channel, level in [("red", 200), ("green", 100), ("blue", 50), ("luma", 124)]:
-        image = occ.load_video(path, "columns", channel=channel).frame(0).image
-        assert {*image[:10].flat} == {0}
-        assert {*image[10:].flat} == {level}
+        film = occ.load_video(path, "columns", channel=channel)
+        assert (film.frame_count, film.frame_rate) == (2, 25.0)
+        assert (film.frame(0).image == level).all()
+        assert list(film.frames(2)) == []
+        (seen,) = film.frames(1)  # the first one is passed over
+        assert seen.time == pytest.approx(0.04)
+        assert {*seen.image[:10].flat} == {0}
+        assert {*seen.image[11:].flat} == {level}
+        assert seen.image[10, 0] == pytest.approx(level * 128 / 255, abs=1)
 
 
 @pytest.mark.parametrize(("ending", "codec"), [KINDS[1], KINDS[3], KINDS[7]])
@@ -300,15 +316,15 @@ def test_a_decoder_that_dies_ends_the_film_with_a_sentence_and_the_next_one_begi
 _BUSY = """
 import sys
 sys.path.insert(0, sys.argv[1])
-from occ_model.video.file import decoder_main, opencv_source
+from occ_model.video.file import decoder_main, source
 decoder_main.LONGEST = 0.3
-usual = opencv_source.OpenCvSource.read
+usual = source.OpenCvSource.read
 def read(self):
     frame = usual(self)
     while frame is not None and frame.time > 0.3:
         pass
     return frame
-opencv_source.OpenCvSource.read = read
+source.OpenCvSource.read = read
 decoder_main.main()
 """
 
@@ -382,11 +398,7 @@ def test_films_that_nobody_holds_leave_one_process_for_the_next(tmp_path: Path) 
 @pytest.mark.whole
 @pytest.mark.skipif(sys.platform != "linux", reason="reads the memory from Linux's /proc")
 def test_hundreds_of_damaged_films_take_little_memory() -> None:
-    # In a process of its own: this one has run other tests.
-    ran = subprocess.run(
-        [sys.executable, str(_DAMAGED_FILMS), "300"], capture_output=True, text=True, check=True
-    )
-    sentences, most_bytes = map(int, ran.stdout.split())
+    sentences, most_bytes = memory_of("damaged", "300")
     assert sentences > 0
     # The largest frame that is read, as its codec holds it, in colour and in grey.
     assert most_bytes < 100e6 + 16 * MAX_PIXELS
@@ -411,12 +423,7 @@ def test_ten_minutes_of_4k_stay_within_400_megabytes(
     write_film(path, codec, (stripes(n, 2160, 3840) for n in range(8)), size=(2160, 3840))
     if codec == "MJPG":
         path.write_bytes(lasting(path.read_bytes(), 18_000))
-    # In a process of its own: this one has made the film.
-    ran = subprocess.run(
-        [sys.executable, str(_MEMORY), str(path)],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    frames, early, late = map(int, ran.stdout.split())
+    frames, early, late = memory_of("film", str(path))
     assert frames == (60 if codec == "MJPG" else 8)
     assert late < 400_000_000
     assert late < 1.1 * early

@@ -8,7 +8,7 @@ import pytest
 
 import occ_model as occ
 from occ_model.transmitter.packet import sent_chips
-from occ_model.video.partial_payload import known_bits, written
+from occ_model.video.payload_so_far import known_bits, written
 from occ_model.video.period import period_of
 
 

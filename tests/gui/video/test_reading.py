@@ -1,4 +1,4 @@
-"""Jobs of the reading: what is shown is what the model says, and a live film is bounded."""
+"""Reading of a film: what is shown is what the model says, in words that name what they count."""
 
 from typing import Any
 
@@ -6,25 +6,28 @@ import numpy as np
 import pytest
 
 import occ_model as occ
-from occ_gui.video import reading_jobs
-from occ_gui.video.film_reading import FilmReading
-from occ_gui.video.marks import MarkState
-from occ_gui.video.reading_jobs import (
+from occ_gui.video import reading_controller
+from occ_gui.video.film_reading import FilmReading, MarkState
+from occ_gui.video.reading_controller import (
     ReadingRequest,
     marks_of_packets,
     read_film,
+    sentences_of,
     state_of_frame,
     state_of_packet,
 )
 from occ_model.results.sent_packets import FilmPart, PacketReading, SentPackets
 from occ_model.results.video import Video
-from occ_model.results.video_reading import FrameReading
+from occ_model.results.video_reading import FilmProgress, FrameReading, VideoReading
 from occ_model.scene.scene import Scene
+from occ_model.study.reading_facts import error_rate, film_facts
 
 
-def packet(number: int, bits: list[int] | None, wrong: int | None) -> PacketReading:
+def packet(
+    number: int, bits: list[int] | None, wrong: int | None, frame: int | None = 0
+) -> PacketReading:
     read = None if bits is None else np.array(bits, dtype=np.uint8)
-    return PacketReading(number, 0, 0.002 * number, 0, 1.0, read, wrong)
+    return PacketReading(number, 0, 0.002 * number, frame, 1.0, read, wrong)
 
 
 def test_a_packet_is_read_only_if_it_is_as_the_others_and_a_frame_where_its_place_is_known() -> (
@@ -81,7 +84,7 @@ def test_the_end_is_what_the_model_reads_of_the_whole_film(film: Video, film_sce
 def test_a_live_film_keeps_the_last_frames_only(
     film: Video, film_scene: Scene, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(reading_jobs, "MOST_LIVE", 4)
+    monkeypatch.setattr(reading_controller, "MOST_LIVE", 4)
     found = read_film(ReadingRequest(film, film_scene, is_live=True), lambda _: None)
     assert found.times.tolist() == [frame.time for frame in film][-4:]
     assert len(found.states) == 4
@@ -104,3 +107,73 @@ def test_nothing_is_known_of_a_film_without_frames(film_scene: Scene) -> None:
     assert isinstance(found, FilmReading)
     assert not len(found.times)
     assert found.facts == ()
+
+
+def reading(right: int, unread: int, unseen: int, wrong: int = 0) -> VideoReading:
+    kinds = [(0, 0)] * right + [(0, None)] * unread + [(None, None)] * unseen + [(0, 1)] * wrong
+    packets = tuple(
+        packet(number, None if errors is None else [0] * 10, errors, frame)
+        for number, (frame, errors) in enumerate(kinds)
+    )
+    return VideoReading(
+        frames=(FrameReading(0, 0.0), FrameReading(1, 0.03)), clock=None, certainty=1.0,
+        packets=SentPackets((FilmPart(0.0, 0.06, len(packets)),), packets),
+        bits=np.zeros(10, dtype=np.uint8), known=np.ones(24, dtype=bool), payload="0",
+        complete_at=0.0, duration=0.06, failure=None,
+    )  # fmt: skip
+
+
+def known(whole: VideoReading, placed: int = 2) -> FilmProgress:
+    return FilmProgress(whole.frames[-1], 2, placed, "0", 1.0, True, None)
+
+
+def said(whole: VideoReading) -> dict[str, str]:
+    return {fact.label: fact.text for fact in film_facts(known(whole), whole)}
+
+
+@pytest.mark.parametrize(
+    ("whole", "packets", "bits"),
+    [
+        (reading(6, 0, 11), "65 % of 17 packets", "0 % of 60 bits"),
+        (reading(374, 0, 458), "55 % of 832 packets", "0 % of 3740 bits"),
+        (reading(996, 0, 0, wrong=4), "0.4 % of 1000 packets", "0.04 % of 10000 bits"),
+        (reading(0, 3, 2), "100 % of 5 packets", None),
+        (reading(999, 0, 1), "0.10 % of 1000 packets", "0 % of 9990 bits"),
+        (reading(1, 0, 999), "99.90 % of 1000 packets", "0 % of 10 bits"),
+    ],
+)
+def test_rates_name_what_they_count_and_have_no_digit_that_chance_has_made(
+    whole: VideoReading, packets: str, bits: str | None
+) -> None:
+    figures = said(whole)
+    assert figures["Packet error rate"] == packets
+    assert figures.get("Bit error rate") == bits
+
+
+@pytest.mark.parametrize(
+    ("count", "total", "interval"),
+    [
+        (0, 10, "0 to 28 %"),
+        (10, 10, "72 to 100 %"),
+        (9, 10, "60 to 98.2 %"),
+        (999, 1000, "99.44 to 99.982 %"),
+        (1, 1_000_000, "0.000018 to 0.00057 %"),
+    ],
+)
+def test_an_interval_is_written_without_exponents_and_tells_nearly_all_from_all(
+    count: int, total: int, interval: str
+) -> None:
+    assert error_rate(count, total, "packets")[1] == f"{interval} at 95 %"
+
+
+def test_lost_packets_are_told_from_wrong_bits() -> None:
+    whole = reading(6, 1, 11, wrong=2)
+    (sentence,) = sentences_of(known(whole), whole, None)
+    assert sentence.startswith("Of 14 lost packets no frame shows 11 whole")
+    assert "3 were in view and misread" in sentence
+    assert "not placed" not in sentence
+    assert "1 frames that were not placed" in sentences_of(known(whole, 1), whole, None)[0]
+    whole = reading(6, 0, 11)
+    assert "misread" not in sentences_of(known(whole), whole, None)[0]
+    whole = reading(6, 0, 0)
+    assert sentences_of(known(whole), whole, None) == ()

@@ -1,0 +1,138 @@
+"""Write animated GIF and PNG files frame by frame.
+
+Pillow keeps all frames in memory until it has them all. The formats: CompuServe, Graphics
+Interchange Format, version 89a; W3C, Portable Network Graphics (PNG) Specification (Third Edition),
+2025, chunks acTL, fcTL and fdAT.
+"""
+
+import struct
+import zlib
+from collections.abc import Iterator
+from fractions import Fraction
+from io import BytesIO
+from pathlib import Path
+
+import cv2
+
+from occ_model.arrays import ByteArray
+from occ_model.errors import OutputError
+
+_LARGEST_SIDE = 65_535
+_BLOCK = 255  # bytes of a block of data
+
+_LOOP_EXTENSION = b"\x21\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00"  # begin again at the end
+_HEAD, _DESCRIPTION = 13, 10
+"""Bytes before the first table of colours, and those that describe a picture."""
+
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_MAX_DELAY_PART = 65_535  # largest numerator or denominator of a frame's delay
+
+
+def write_gif(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
+    """Write grey or coloured pictures with a note as the comment; count them.
+
+    Each frame's time is rounded to 1/100 s, not each step, so that the film does not run away.
+    """
+    count = 0
+    with path.open("wb") as file:
+        for picture in pictures:
+            lines, columns = picture.shape[:2]
+            if max(lines, columns) > _LARGEST_SIDE:
+                raise OutputError(
+                    f"A GIF film cannot have {columns:,} x {lines:,} pixels; allowed: up to "
+                    f"{_LARGEST_SIDE:,} a side."
+                )
+            if count == 0:
+                file.write(b"GIF89a" + struct.pack("<HHBBB", columns, lines, 0, 0, 0))
+                file.write(_LOOP_EXTENSION + b"\x21\xfe" + _blocks(note.encode()))
+            step = round((count + 1) * 100 / rate) - round(count * 100 / rate)
+            file.write(struct.pack("<BBBBHBB", 0x21, 0xF9, 4, 4, step, 0, 0))
+            file.write(_gif_of(picture))
+            count += 1
+        file.write(b"\x3b")
+    return count
+
+
+def _blocks(content: bytes) -> bytes:
+    parts = [content[place : place + _BLOCK] for place in range(0, len(content), _BLOCK)]
+    return b"".join(bytes((len(part),)) + part for part in parts) + b"\0"
+
+
+def _gif_of(picture: ByteArray) -> bytes:
+    from PIL import Image
+
+    buffer = BytesIO()
+    shown = Image.fromarray(picture)
+    (shown if picture.ndim == 2 else shown.quantize()).save(buffer, "GIF")
+    content = buffer.getvalue()
+    colours = 3 * 2 ** ((content[10] & 7) + 1) if content[10] & 0x80 else 0
+    table, place = content[_HEAD : _HEAD + colours], _HEAD + colours
+    while content[place] == 0x21:  # extensions
+        place = _after_blocks(content, place + 2)
+    description = bytearray(content[place : place + _DESCRIPTION])
+    if not description[9] & 0x80:
+        description[9] |= 0x80 | (content[10] & 7)
+    else:
+        table = b""
+    # What follows is the picture's own table, if it has one, and its compressed pixels.
+    return bytes(description) + table + content[place + _DESCRIPTION : -1]
+
+
+def _after_blocks(content: bytes, place: int) -> int:
+    while content[place]:
+        place += content[place] + 1
+    return place + 1
+
+
+def write_png(path: Path, pictures: Iterator[ByteArray], rate: float, note: str) -> int:
+    """Write grey or coloured pictures with a note as the text ``Description``; count them."""
+    delay = (1 / Fraction(rate)).limit_denominator(_MAX_DELAY_PART)
+    count = sequence = place = 0
+    with path.open("wb") as file:
+        for picture in pictures:
+            header, data = _png_of(picture)
+            if count == 0:
+                file.write(_SIGNATURE + _chunk(b"IHDR", header))
+                place = file.tell()
+                file.write(_count_of_frames(1))
+                file.write(_chunk(b"iTXt", b"Description\0\0\0\0\0" + note.encode()))
+            size = header[:8]
+            times = struct.pack(">HH", delay.numerator, delay.denominator)
+            control = struct.pack(">I", sequence) + size + bytes(8) + times + bytes(2)
+            file.write(_chunk(b"fcTL", control))
+            sequence += 1
+            if count == 0:
+                file.write(_chunk(b"IDAT", data))
+            else:
+                file.write(_chunk(b"fdAT", struct.pack(">I", sequence) + data))
+                sequence += 1
+            count += 1
+        file.write(_chunk(b"IEND", b""))
+        file.seek(place)
+        file.write(_count_of_frames(count))
+    return count
+
+
+def _count_of_frames(count: int) -> bytes:
+    return _chunk(b"acTL", struct.pack(">II", count, 0))  # 0: played again and again
+
+
+def _chunk(name: bytes, content: bytes) -> bytes:
+    check = zlib.crc32(content, zlib.crc32(name))
+    return struct.pack(">I4s", len(content), name) + content + struct.pack(">I", check)
+
+
+def _png_of(picture: ByteArray) -> tuple[bytes, bytes]:
+    """Encode one picture: its header's content, and its compressed pixels."""
+    bgr = cv2.cvtColor(picture, cv2.COLOR_RGB2BGR) if picture.ndim == 3 else picture
+    encoded = cv2.imencode(".png", bgr)[1].tobytes()
+    place, header, data = len(_SIGNATURE), b"", b""
+    while place < len(encoded):
+        size, name = struct.unpack_from(">I4s", encoded, place)
+        content = encoded[place + 8 : place + 8 + size]
+        if name == b"IHDR":
+            header = content
+        elif name == b"IDAT":
+            data += content
+        place += 12 + size
+    return header, data

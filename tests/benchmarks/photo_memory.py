@@ -4,11 +4,9 @@ import argparse
 import math
 import os
 import re
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -37,117 +35,81 @@ for line in open("/proc/self/status"):
 def pixels_of(count: int, bands: int, depth: type, noisy: bool) -> np.ndarray:
     """Make stripes, or the noise of a camera, which no encoder shrinks much."""
     side = math.isqrt(count)
-    white = 255 if depth is np.float32 else np.iinfo(depth).max
     shape = (side, side, bands) if bands > 1 else (side, side)
+    white = 255 if depth is np.float32 else np.iinfo(depth).max
     if noisy:
-        block = np.random.default_rng(0).integers(40, 72, (509, *shape[1:]))
-        if np.dtype(depth).itemsize == 2:
-            block = block * 256 + np.random.default_rng(1).integers(0, 256, block.shape)
-        block = block.astype(depth)
-        return np.concatenate([block] * (side // 509 + 1))[:side]
-    stripe = (np.arange(side) // 40 % 2 * 0.6 + 0.2) * white
-    row = np.repeat(stripe[:, None], bands, axis=1) * (1 - np.arange(bands) / 10)
-    row = row.astype(depth) if bands > 1 else row[:, 0].astype(depth)
+        rows = np.random.default_rng(0).uniform(0.16, 0.28, (min(509, side), *shape[1:]))
+        block = (white * rows).astype(depth)
+        return np.concatenate([block] * (side // len(block) + 1))[:side]
+    stripe = ((np.arange(side) // 40 % 2 * 0.6 + 0.2) * white).astype(depth)
+    row = np.repeat(stripe[:, None], bands, axis=1).reshape(shape[1:])
     if bands in (2, 4):
         row[:, -1] = white
-    return np.broadcast_to(row, shape)
+    return np.ascontiguousarray(np.broadcast_to(row, shape))
 
 
-def with_opencv(bands: int, depth: type, *how: int) -> Callable[[Path, int, bool], None]:
+Write = Callable[[Path, int, bool], object]
+
+
+def with_opencv(bands: int, depth: type, *how: int) -> Write:
+    return lambda path, count, noisy: cv2.imwrite(
+        str(path), pixels_of(count, bands, depth, noisy), list(how)
+    )
+
+
+def with_pillow(mode: str, file_format: str, **how: object) -> Write:
+    depth = np.uint16 if mode == "I;16" else np.uint8
+    bands = len(mode) if mode in ("LA", "RGB", "RGBA", "CMYK") else 1
+
     def write(path: Path, count: int, noisy: bool) -> None:
-        pixels = np.ascontiguousarray(pixels_of(count, bands, depth, noisy))
-        assert cv2.imwrite(str(path), pixels, list(how))
-
-    return write
-
-
-def with_pillow(mode: str, file_format: str, **how: object) -> Callable[[Path, int, bool], None]:
-    def write(path: Path, count: int, noisy: bool) -> None:
-        bands = {"L": 1, "P": 1, "1": 1, "F": 1, "I;16": 1}.get(mode, len(mode))
-        depth = {"F": np.float32, "I;16": np.uint16}.get(mode, np.uint8)
         pixels = pixels_of(count, bands, depth, noisy)
-        if mode == "1":
-            pixels = pixels > 127
-        picture = Image.fromarray(np.ascontiguousarray(pixels), "CMYK" if mode == "CMYK" else None)
-        if mode == "P":
-            picture.putpalette(bytes(n for level in range(256) for n in (level, level // 2, 9)))
-            picture = picture if picture.mode == "P" else picture.convert("P")
+        picture = Image.fromarray(pixels, "CMYK" if mode == "CMYK" else None)
+        if mode in ("P", "1"):
+            picture = picture.convert(mode)
         picture.save(path, file_format, **how)
 
     return write
 
 
-def with_tifffile(bands: int, depth: type, **how: Any) -> Callable[[Path, int, bool], None]:
-    def write(path: Path, count: int, noisy: bool) -> None:
-        pixels = pixels_of(count, bands, depth, noisy)
-        kind = "rgb" if bands > 2 else "minisblack"
-        extra: dict[str, Any] = {"extrasamples": ["unassalpha"]} if bands in (2, 4) else {}
-        tifffile.imwrite(path, np.ascontiguousarray(pixels), photometric=kind, **extra, **how)
-
-    return write
+def with_tifffile(bands: int, depth: type, **how: Any) -> Write:
+    how["photometric"] = "rgb" if bands > 2 else "minisblack"
+    if bands in (2, 4):
+        how["extrasamples"] = ["unassalpha"]
+    return lambda path, count, noisy: tifffile.imwrite(
+        path, pixels_of(count, bands, depth, noisy), **how
+    )
 
 
 def _heic(path: Path, count: int, noisy: bool) -> None:
     from pillow_heif import from_pillow
 
-    pixels = np.ascontiguousarray(pixels_of(count, 3, np.uint8, noisy))
-    from_pillow(Image.fromarray(pixels)).save(path, quality=90)
+    from_pillow(Image.fromarray(pixels_of(count, 3, np.uint8, noisy))).save(path, quality=90)
 
 
 _MOST_WRITTEN = {"WebP": 60.0, "AVIF": 65.0, "HEIC": 65.0, "QOI": 50.0}
 """Megapixels, of formats that are slow to write: a little more than what is read."""
 
 _FAST = (cv2.IMWRITE_PNG_COMPRESSION, 1)
-
-
-_PASSES = (
-    (0, 0, 8, 8), (4, 0, 8, 8), (0, 4, 4, 8), (2, 0, 4, 4),
-    (0, 2, 2, 4), (1, 0, 2, 2), (0, 1, 1, 2),
-)  # fmt: skip
-"""First column and row, and steps to the next, of what an interlaced PNG gives one by one."""
-
-
-def _interlaced(path: Path, count: int, noisy: bool) -> None:
-    """Write what no library here does."""
-    pixels = np.ascontiguousarray(pixels_of(count, 3, np.uint8, noisy))
-    height, width = pixels.shape[:2]
-    shrink = zlib.compressobj(1)
-    data = [
-        shrink.compress(b"\0" + row.tobytes())
-        for column, line, across, down in _PASSES
-        for row in pixels[line::down, column::across]
-    ]
-    header = struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 1)
-    chunks = ((b"IHDR", header), (b"IDAT", b"".join(data) + shrink.flush()), (b"IEND", b""))
-    with path.open("wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n")
-        for name, content in chunks:
-            check = zlib.crc32(name + content)
-            file.write(struct.pack(">I", len(content)) + name + content + struct.pack(">I", check))
-
-
+_PNG = {"compress_level": 1}
+_FULL = {"subsampling": 0, "quality": 95}
 _SHRUNK = {"compression": "zlib"}
 
-KINDS: dict[str, tuple[str, Callable[[Path, int, bool], None]]] = {
+KINDS: dict[str, tuple[str, Write]] = {
     "PNG 16-bit RGBA": ("png", with_opencv(4, np.uint16, *_FAST)),
     "PNG 16-bit RGB": ("png", with_opencv(3, np.uint16, *_FAST)),
     "PNG 16-bit grey": ("png", with_opencv(1, np.uint16, *_FAST)),
     "PNG RGBA": ("png", with_opencv(4, np.uint8, *_FAST)),
     "PNG RGB": ("png", with_opencv(3, np.uint8, *_FAST)),
-    "PNG grey+alpha": ("png", with_pillow("LA", "PNG", compress_level=1)),
+    "PNG grey+alpha": ("png", with_pillow("LA", "PNG", **_PNG)),
     "PNG grey": ("png", with_opencv(1, np.uint8, *_FAST)),
-    "PNG palette": ("png", with_pillow("P", "PNG", compress_level=1)),
-    "PNG palette transparent": ("png", with_pillow("P", "PNG", compress_level=1, transparency=3)),
-    "PNG 1-bit": ("png", with_pillow("1", "PNG", compress_level=1)),
-    "PNG interlaced": ("png", _interlaced),
+    "PNG palette": ("png", with_pillow("P", "PNG", **_PNG)),
+    "PNG palette transparent": ("png", with_pillow("P", "PNG", transparency=3, **_PNG)),
+    "PNG 1-bit": ("png", with_pillow("1", "PNG", **_PNG)),
     "JPEG": ("jpg", with_opencv(3, np.uint8)),
     "JPEG grey": ("jpg", with_opencv(1, np.uint8)),
-    "JPEG 4:4:4": ("jpg", with_pillow("RGB", "JPEG", subsampling=0, quality=95)),
+    "JPEG 4:4:4": ("jpg", with_pillow("RGB", "JPEG", **_FULL)),
     "JPEG progressive": ("jpg", with_opencv(3, np.uint8, cv2.IMWRITE_JPEG_PROGRESSIVE, 1)),
-    "JPEG progressive 4:4:4": (
-        "jpg",
-        with_pillow("RGB", "JPEG", progressive=True, subsampling=0, quality=95),
-    ),
+    "JPEG progressive 4:4:4": ("jpg", with_pillow("RGB", "JPEG", progressive=True, **_FULL)),
     "JPEG CMYK": ("jpg", with_pillow("CMYK", "JPEG")),
     "JPEG 2000": ("jp2", with_pillow("RGB", "JPEG2000")),
     "JPEG 2000 grey": ("jp2", with_pillow("L", "JPEG2000")),
@@ -162,24 +124,21 @@ KINDS: dict[str, tuple[str, Callable[[Path, int, bool], None]]] = {
     "GIF transparent": ("gif", with_pillow("P", "GIF", transparency=3)),
     "QOI": ("qoi", with_pillow("RGB", "QOI")),
     "QOI alpha": ("qoi", with_pillow("RGBA", "QOI")),
-    "TIFF 8-bit RGB": ("tif", with_tifffile(3, np.uint8)),
-    "TIFF 8-bit RGB deflate strips": (
+    "TIFF RGB": ("tif", with_tifffile(3, np.uint8)),
+    "TIFF RGB deflate strips": ("tif", with_tifffile(3, np.uint8, rowsperstrip=16, **_SHRUNK)),
+    "TIFF RGB deflate tiles": ("tif", with_tifffile(3, np.uint8, tile=(256, 256), **_SHRUNK)),
+    "TIFF RGB deflate one strip": (
         "tif",
-        with_tifffile(3, np.uint8, **_SHRUNK, rowsperstrip=16),
+        with_tifffile(3, np.uint8, rowsperstrip=1 << 30, **_SHRUNK),
     ),
-    "TIFF 8-bit RGB deflate tiles": ("tif", with_tifffile(3, np.uint8, **_SHRUNK, tile=(256, 256))),
-    "TIFF 8-bit RGB deflate one strip": (
-        "tif",
-        with_tifffile(3, np.uint8, **_SHRUNK, rowsperstrip=1 << 30),
-    ),
-    "TIFF 8-bit RGBA": ("tif", with_tifffile(4, np.uint8)),
-    "TIFF 8-bit planes": ("tif", with_pillow("RGB", "TIFF")),
+    "TIFF RGBA": ("tif", with_tifffile(4, np.uint8)),
+    "TIFF planes": ("tif", with_pillow("RGB", "TIFF")),
     "TIFF 16-bit grey": ("tif", with_tifffile(1, np.uint16)),
     "TIFF 16-bit grey deflate": ("tif", with_tifffile(1, np.uint16, **_SHRUNK)),
     "TIFF 16-bit RGB": ("tif", with_tifffile(3, np.uint16)),
     "TIFF 16-bit RGB deflate tiles": (
         "tif",
-        with_tifffile(3, np.uint16, **_SHRUNK, tile=(256, 256)),
+        with_tifffile(3, np.uint16, tile=(256, 256), **_SHRUNK),
     ),
     "TIFF 16-bit RGBA": ("tif", with_tifffile(4, np.uint16)),
     "TIFF 32-bit": ("tif", with_tifffile(1, np.int32)),

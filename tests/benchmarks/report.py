@@ -15,9 +15,16 @@ from itertools import count
 from math import inf
 from pathlib import Path
 
-from film_costs import film_decoding_cost, film_frame_cost, film_memory
-from measuring import Row, side_by_side
-from photos import match_cost, reading_cost
+from costs import (
+    MEMORY,
+    Row,
+    film_decoding_cost,
+    film_frame_cost,
+    film_memory,
+    match_cost,
+    reading_cost,
+    side_by_side,
+)
 
 import occ_model as occ
 from occ_model.arrays import FloatArray
@@ -29,7 +36,6 @@ from occ_model.scene.scene import Scene
 
 _COLD_STARTS = 7
 _FIRST_FRAME = Path(__file__).with_name("first_frame.py")
-_PEAK_MEMORY = Path(__file__).with_name("peak_memory.py")
 
 
 def _new_profile(scene: Scene) -> FloatArray:
@@ -131,7 +137,7 @@ def draft_cost() -> Row:
 
 def complete_memory() -> Row:
     """Measure the peak memory of a full phone frame with all effects, in frames."""
-    command = [sys.executable, str(_PEAK_MEMORY), "phone-136us-real"]
+    command = [sys.executable, str(MEMORY), "picture", "phone-136us-real"]
     frames = float(subprocess.run(command, check=True, capture_output=True).stdout)
     return Row("its peak memory, in bytes of the frame", f"{frames:.1f}", "at most 7")
 

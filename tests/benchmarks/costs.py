@@ -1,0 +1,146 @@
+"""What films and a photo's match cost, beside a single picture: rows of ``report.py``."""
+
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from itertools import count, islice
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+from time import perf_counter
+
+import cv2
+
+import occ_model as occ
+from occ_model.files.writing import write_image
+from occ_model.scene.scene import Scene
+
+MEMORY = Path(__file__).with_name("memory.py")
+
+_RUN, _RUNS = 8, 7
+"""Frames decoded in a row: a single one would be decoded ahead, while another thing is timed."""
+
+
+@dataclass(frozen=True)
+class Row:
+    what: str
+    measured: str
+    wanted: str
+
+
+def side_by_side(*things: Callable[[], object], rounds: int = 41) -> list[float]:
+    """Time things in turn, round after round; return the median seconds of each."""
+    times: list[list[float]] = [[] for _ in things]
+    for thing in things:
+        thing()
+    for _ in range(rounds):
+        for thing, seconds in zip(things, times, strict=True):
+            start = perf_counter()
+            thing()
+            seconds.append(perf_counter() - start)
+    return [median(seconds) for seconds in times]
+
+
+def film_scene() -> occ.Scene:
+    """A film's usual size: 1080 lines that are read out, 1920 pixels each."""
+    return occ.load_preset("phone-136us").replace(rows=1920, columns=1080, readout_time=25e-6)
+
+
+def film_frame_cost() -> Row:
+    """Compare a frame of a simulated film with a picture of the same scene."""
+    scene, number, start = film_scene(), count(), count()
+    film = occ.render_video(scene)
+    frame, picture = side_by_side(
+        lambda: film.frame(next(number)),
+        lambda: occ.render(scene.replace(start_time=1e-7 * next(start))).camera_image,
+        rounds=21,
+    )
+    return Row(
+        "a frame of a simulated film of 1920 x 1080 against one picture",
+        f"{frame / picture:.2f} ({1e3 * frame:.0f} ms)",
+        "about 1",
+    )
+
+
+def film_decoding_cost() -> Row:
+    """Compare the next frame of a film with opening a picture of its size, noise and all."""
+    with TemporaryDirectory() as folder:
+        film, photo = Path(folder, "film.mp4"), Path(folder, "photo.jpg")
+        count_of_frames = _RUN * (_RUNS + 2)
+        made = occ.render_video(
+            film_scene(), count_of_frames, settings=occ.SimulationSettings(noise="reused")
+        )
+        occ.write_video(made, film)
+        write_image(photo, made.frame(0).image)
+        opened = occ.load_video(film)
+        frames = iter(opened)
+        run, picture, opening = side_by_side(
+            lambda: list(islice(frames, _RUN)),
+            lambda: occ.load_photo(photo),
+            lambda: occ.load_video(film),
+            rounds=_RUNS,
+        )
+    frame = run / _RUN
+    return Row(
+        "the next frame of an MP4 film of that size against opening a JPEG photo",
+        f"{frame / picture:.2f} ({1e3 * frame:.1f} ms; opening a film {1e3 * opening:.0f} ms)",
+        "",
+    )
+
+
+def film_memory() -> Row:
+    """Compare the most memory after 10,000 frames with that after 1,000, simulated and decoded."""
+    command = [sys.executable, str(MEMORY), "growth"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=True)
+    simulated, decoded = map(float, ran.stdout.split())
+    return Row(
+        "the most memory after 10,000 frames against after 1,000, simulated; decoded",
+        f"{simulated:.3f}; {decoded:.3f}",
+        "at most 1.02",
+    )
+
+
+@cache
+def _photo() -> tuple[occ.Photo, Scene]:
+    """Take a photo of 12 million pixels, and say what is known of it."""
+    scene = occ.load_preset("phone-136us-real").replace(
+        rows=3024, columns=4032, switching_frequency=6e3, enhancement="none"
+    )
+    image = occ.render(scene, tolerance=0.0).image
+    photo = occ.Photo(
+        path=Path("simulated.png"), samples=image, white=255, image=image,
+        profile=image.mean(axis=0), turned=False, channel="grey",
+    )  # fmt: skip
+    return photo, scene.replace(readout_time=1e-6, exposure_time=1e-3)
+
+
+def match_cost() -> Row:
+    """Compare matching a photo with a mean of its columns."""
+    photo, scene = _photo()
+    a, b, stripes = side_by_side(
+        lambda: occ.match_photo(photo, scene),
+        lambda: cv2.reduce(photo.image, 0, cv2.REDUCE_AVG, dtype=cv2.CV_32F),
+        lambda: occ.find_stripes(photo),
+        rounds=5,
+    )
+    return Row(
+        "matching a photo of 12 million pixels, against one mean of its columns",
+        f"{a / b:.0f} ({1e3 * a:.0f} ms; finding its stripes {1e3 * stripes:.0f} ms)",
+        "under 1 s",
+    )
+
+
+def reading_cost() -> Row:
+    """Compare matching a photo of unknown chips with one of known chips."""
+    photo, scene = _photo()
+    other = scene.replace(code=(scene.transmitter.code + 1) % 1024)
+    a, b = side_by_side(
+        lambda: occ.match_photo(photo, other), lambda: occ.match_photo(photo, scene), rounds=5
+    )
+    return Row(
+        "the same with another code in the scene, so that its chips are read, against known chips",
+        f"{a / b:.1f} ({1e3 * a:.0f} ms)",
+        "under 1 s",
+    )

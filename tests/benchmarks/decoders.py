@@ -1,0 +1,209 @@
+"""How many codes each decoder reads: the numbers and tables of ``resources/docs/decoders.md``.
+
+``python tests/benchmarks/decoders.py PART``, or all parts in turn:
+
+* ``frequency``: codes read over the switching frequency, of the presets phone-136us and
+  phone-136us-real, without histogram equalization and with it;
+* ``timing``: the same with an exposure time or a readout time that the receiver has wrong by 0.1,
+  0.3 and 1 %;
+* ``pose``: of all codes, those read from tilted, cut-off and noisy pictures. Each code gets one
+  picture a cell, with a random start time, which is made whole and decoded from its pixels;
+* ``confidence``: how often the matched decoder reads a wrong code, and how sure it is then, in
+  trials of other codes, start times, 4 to 60 kHz, 300 to 1800 columns, noise of 0.01 to 32 grey
+  levels on the column means, 136 us.
+"""
+
+import argparse
+import math
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
+
+import numpy as np
+
+import occ_model as occ
+from occ_model.arrays import ByteArray, FloatArray
+from occ_model.camera.enhancement import Enhancement, to_bytes
+from occ_model.camera.photometry import level_values
+from occ_model.camera.projection import row_spans
+from occ_model.effects.paper_view import paper_view_of
+from occ_model.effects.plan import plan_of
+from occ_model.effects.registry import NAMES
+from occ_model.receiver.decoders import DECODERS
+from occ_model.scene.scene import Scene
+from occ_model.scene.simulation_settings import SimulationSettings
+from occ_model.simulation.row_sample import sample_picture
+from occ_model.study.observation import observe_profile, observe_sample, panel_span
+
+PRESETS = ("phone-136us", "phone-136us-real")
+ENHANCEMENTS = ("none", "equalization")
+WRONG_BY = (0.0, 0.001, 0.003, 0.01)
+POSES: dict[str, dict[str, float]] = {
+    "level": {},
+    "roll 30°": {"roll": math.radians(30)},
+    "yaw 30°": {"yaw": math.radians(30)},
+    "pitch 30°": {"pitch": math.radians(30)},
+    "two thirds outside": {"offset_x": 0.6},
+}
+NOISES = (1.0, 3.0, 10.0)
+
+
+def signal_of(scene: Scene, random: np.random.Generator) -> FloatArray:
+    """Give the column means that a decoder reads of one picture."""
+    view = paper_view_of(scene)
+    chosen = plan_of(view, SimulationSettings(observable="signal").checked(NAMES))
+    span = panel_span(scene)
+    if span is not None and "image" not in chosen.kinds:
+        return np.asarray(observe_profile(view, span, chosen, random).signal, dtype=np.float64)
+    sample = sample_picture(view, chosen, int(random.integers(2**32)))
+    seen = None if sample is None else observe_sample(sample, scene, chosen, random)
+    assert seen is not None
+    return np.asarray(seen.signal, dtype=np.float64)
+
+
+def counts(
+    base: Scene, codes: int, wrong: dict[str, float] | None = None
+) -> dict[str, tuple[int, int]]:
+    """Count the codes that each decoder reads rightly and wrongly.
+
+    The receiver has the parameters in ``wrong`` off by these shares.
+    """
+    frequency = base.transmitter.switching_frequency
+    random = np.random.default_rng(int(frequency))
+    found = dict.fromkeys(DECODERS, (0, 0))
+    for code in random.integers(0, 1024, codes).tolist():
+        scene = base.replace(code=code, start_time=float(random.uniform(0.0, 24.0 / frequency)))
+        signal = signal_of(scene, random)
+        off = {name: getattr(scene.camera, name) * (1 + by) for name, by in (wrong or {}).items()}
+        for name, (right, other) in found.items():
+            read = occ.decode(signal, scene.replace(**off), name).code
+            found[name] = (right + (read == code), other + (read not in (code, None)))
+    return found
+
+
+def written(found: dict[str, tuple[int, int]]) -> str:
+    """Write the counts as cells: right ones, and wrong ones behind a plus."""
+    cells = (
+        f"{right}" + (f" (+{wrong} wrong)" if wrong else "") for right, wrong in found.values()
+    )
+    return " | ".join(cells)
+
+
+def print_frequencies(options: argparse.Namespace) -> None:
+    frequencies = 1e3 * np.arange(2.0, 40.0 + 0.5 * options.step, options.step)
+    for preset in PRESETS:
+        for enhancement in ENHANCEMENTS:
+            print(f"\n{preset}, enhancement {enhancement}, of {options.codes} codes\n")
+            print(f"| frequency | {' | '.join(DECODERS)} |\n|---|{'---|' * len(DECODERS)}")
+            base = occ.load_preset(preset).replace(enhancement=enhancement)
+            for frequency in frequencies.tolist():
+                found = counts(base.replace(switching_frequency=frequency), options.codes)
+                print(f"| {frequency / 1e3:g} kHz | {written(found)} |", flush=True)
+
+
+def print_wrong_timings(options: argparse.Namespace) -> None:
+    base = occ.load_preset("phone-136us").replace(enhancement="none")
+    for parameter in ("readout_time", "exposure_time"):
+        print(f"\n{parameter} wrong, phone-136us, enhancement none, of {options.codes} codes\n")
+        head = f"| wrong by | frequency | {' | '.join(DECODERS)} |"
+        print(f"{head}\n|---|---|{'---|' * len(DECODERS)}")
+        for by in WRONG_BY:
+            for frequency in (10e3, 20e3, 30e3):
+                at = base.replace(switching_frequency=frequency)
+                cells = written(counts(at, options.codes, {parameter: by}))
+                print(f"| {100 * by:g} % | {frequency / 1e3:g} kHz | {cells} |", flush=True)
+
+
+def noisy_image(scene: Scene, noise: float, random: np.random.Generator) -> ByteArray:
+    """Make the image with this many grey levels of noise in each pixel, whatever its light."""
+    profile = occ.column_profile(scene)
+    enhancement = Enhancement(profile, scene.model.enhancement)
+    rows = scene.camera.rows
+    values = float(level_values(scene)[0]) + noise * random.standard_normal((rows, len(profile)))
+    image = to_bytes(values)
+    first, last = row_spans(occ.panel_corners(scene), rows, len(profile))
+    for row in range(rows):
+        panel = slice(int(first[row]), int(last[row]))
+        deviations = noise * random.standard_normal(panel.stop - panel.start)
+        image[row, panel] = enhancement(profile[panel] + deviations)
+    return image
+
+
+def codes_read(pose: str, noise: float, codes: int) -> list[int]:
+    """Count the codes that each decoder reads in one pose at one noise."""
+    base = occ.load_preset("phone-136us").replace(
+        switching_frequency=10e3, distance=1.0, rows=480, panel_height=0.1, **POSES[pose]
+    )
+    # The same angle of view as the whole sensor, of which only the middle rows are read.
+    whole = occ.load_preset("phone-136us").camera
+    base = base.replace(
+        equivalent_focal_length=whole.equivalent_focal_length
+        * whole.focal_length_pixels
+        / base.camera.focal_length_pixels
+    )
+    random = np.random.default_rng((int(noise), *pose.encode()))
+    read = [0] * len(DECODERS)
+    for code in np.linspace(0, 1023, codes).astype(int).tolist():
+        scene = base.replace(code=code, start_time=float(random.uniform(0.0, 2.4e-3)))
+        image = noisy_image(scene, noise, random)
+        for place, name in enumerate(DECODERS):
+            read[place] += occ.decode(image, scene, name).code == code
+    return read
+
+
+def print_poses(options: argparse.Namespace) -> None:
+    names = [f"{name}, noise {noise:.0f}" for noise in NOISES for name in DECODERS]
+    print(f"| pose | {' | '.join(names)} |\n|---{'|---' * len(names)}|", flush=True)
+    with ProcessPoolExecutor(options.jobs) as pool:
+        for pose in POSES:
+            cells = pool.map(partial(codes_read, pose, codes=options.all_codes), NOISES)
+            shares = [100.0 * read / options.all_codes for cell in cells for read in cell]
+            print(f"| {pose} | {' | '.join(f'{share:.1f} %' for share in shares)} |", flush=True)
+
+
+def print_confidences(options: argparse.Namespace) -> None:
+    random = np.random.default_rng(2026)
+    base = occ.load_preset("phone-136us").replace(enhancement="none")
+    right: list[float] = []
+    wrong: list[float] = []
+    for _ in range(options.trials):
+        scene = base.replace(
+            code=int(random.integers(1024)),
+            switching_frequency=float(random.uniform(4e3, 60e3)),
+            start_time=float(random.uniform(0.0, 0.02)),
+            columns=int(random.integers(300, 1800)),
+        )
+        profile = occ.column_profile(scene)
+        noise = float(10 ** random.uniform(-2.0, 1.5))
+        result = occ.decode(profile + random.normal(0.0, noise, len(profile)), scene, "matched")
+        if result.code is not None and result.confidence is not None:
+            kept = right if result.code == scene.transmitter.code else wrong
+            kept.append(result.confidence)
+    print(f"{options.trials} trials: {len(right)} read rightly, {len(wrong)} wrongly")
+    print(f"largest confidence of a wrong one {max(wrong, default=0.0):.3f}")
+    print(f"read rightly with a confidence of 0.5 or more: {sum(c >= 0.5 for c in right)}")
+
+
+PARTS = {
+    "frequency": print_frequencies,
+    "timing": print_wrong_timings,
+    "pose": print_poses,
+    "confidence": print_confidences,
+}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    add = parser.add_argument
+    add("parts", nargs="*", metavar="part", help=f"{', '.join(PARTS)}; default: all")
+    add("--codes", type=int, default=20, help="at a frequency, default: %(default)s")
+    add("--step", type=float, default=1.0, help="of the frequencies in kHz, default: %(default)s")
+    add("--all-codes", type=int, default=1024, help="how many of the 1024 codes in a pose")
+    add("--trials", type=int, default=10_000, help="of the confidence, default: %(default)s")
+    add("--jobs", type=int, default=2)
+    options = parser.parse_args()
+    for part in options.parts or PARTS:
+        PARTS[part](options)
+
+
+if __name__ == "__main__":
+    main()

@@ -14,10 +14,9 @@ import occ_model as occ
 from occ_model.arrays import FloatArray
 from occ_model.results.video import VideoFrame
 from occ_model.scene.recording import Recording
-from occ_model.video.read_frame import read_by_itself
+from occ_model.video.read_frame import FrameReader, TimedFrame, read_by_itself
 
 _VALUES = ("switching_frequency", "readout_time", "gap")
-_EVERYDAY = (3,)
 _WHOLE = range(0, 24, 6)
 """Some of each frame rate, framing and line code; tests/benchmarks/film_reading.py reads all."""
 
@@ -59,10 +58,32 @@ def recorded(scene: occ.Scene, count: int, recording: Recording | None = None) -
     return list(occ.render_video(scene, count, recording))
 
 
+_READ: dict[tuple[object, ...], tuple[VideoFrame, TimedFrame]] = {}
+
+
+@pytest.fixture(autouse=True)
+def chips_are_read_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Read each picture for one scene once: most tests differ in what is stated of its time."""
+    usual = FrameReader.read
+
+    def remembered(reader: FrameReader, frame: VideoFrame) -> TimedFrame:
+        key = (id(frame.image), frame.exposure_time, reader._enhanced, reader._decoder)
+        if key not in _READ:
+            _READ[key] = frame, usual(reader, frame)
+        _, timed = _READ[key]
+        reading = replace(timed.reading, index=frame.index, time=frame.time)
+        return replace(timed, reading=reading)
+
+    monkeypatch.setattr(FrameReader, "read", remembered)
+
+
 @cache
 def film_of_scene() -> list[VideoFrame]:
-    """Forty frames and one of the scene, for all who only look at them."""
-    return recorded(SCENE, 41)
+    """Forty frames and one of the scene, for all who only look at them.
+
+    A reader is not told the scene and the start that simulated frames have.
+    """
+    return [replace(frame, scene=None, start=None) for frame in recorded(SCENE, 41)]
 
 
 @cache
@@ -89,10 +110,8 @@ def assert_as_demanded(judged: Judged) -> None:
         assert judged.is_right, judged.reading.failure
 
 
-@pytest.mark.parametrize("number", _EVERYDAY)
-def test_a_film_gives_its_clock_and_the_payload(number: int) -> None:
-    short = film(number, seconds=2.5)
-    assert_as_demanded(judge(short))
+def test_a_film_gives_its_clock_and_the_payload() -> None:
+    assert_as_demanded(judge(film(2, seconds=1.5)))
 
 
 @pytest.mark.whole
@@ -144,7 +163,7 @@ def test_what_is_known_grows_frame_by_frame_and_ends_as_the_reading() -> None:
 
 def test_sub_packets_are_joined_by_their_numbers() -> None:
     scene = SCENE.replace(framing="c-ook", payload="text:sub-packets join")
-    reading = reading_of(recorded(scene, 45), scene)
+    reading = reading_of(recorded(scene, 36), scene)
     assert reading.payload == "sub-packets join"
     assert {packet.part for packet in reading.packets if packet.is_read} <= set(range(8))
     assert reading.doubled == reading.read - len(
@@ -162,6 +181,7 @@ def test_packets_read_and_lost_are_those_that_counting_gives() -> None:
     seen = [packet for packet in reading.packets if packet.seen == 1.0 and packet.frame is not None]
     assert reading.read == len(seen)
     assert all(packet.correct for packet in seen)
+    assert reading.rates(5)[0].start == reading.frames[0].time
 
 
 SHORT = SCENE.replace(payload="", bits=8, code=0b10110010, framing="paper",
@@ -300,7 +320,7 @@ def test_a_frame_that_cannot_be_read_is_refused_and_those_before_are_kept(
 
 def test_a_square_wave_leaves_aliases_and_they_are_said() -> None:
     scene = SCENE.replace(payload="", pattern="10", switching_frequency=4e3, exposure_time=1e-4)
-    frames = Frames(recorded(scene, 30), scene.camera.columns)
+    frames = Frames(recorded(scene, 16), scene.camera.columns)
     reading = occ.decode_video(frames, scene, readout_tolerance=0.03)
     assert not reading.clock.is_sure
     stated = [reading.clock.switching_frequency.value]
@@ -363,21 +383,6 @@ def test_a_film_that_is_not_read_fails_with_the_words_of_a_single_picture() -> N
 def test_too_short_a_film_says_how_much_was_not_in_view() -> None:
     reading = reading_of(film_of_scene()[:2], SCENE)
     assert "of 134 chips were in no frame" in reading.failure or "header" in reading.failure
-
-
-def test_rates_over_time_add_up_to_those_of_the_film() -> None:
-    scene = SCENE.replace(payload="text:abc", framing="preamble")
-    reading = reading_of(recorded(scene, 30), scene)
-    windows = reading.rates(5)
-    assert sum(window.packets for window in windows) == len(reading.packets)
-    assert sum(window.packets_lost for window in windows) == reading.lost
-    assert windows[0].start == reading.frames[0].time
-
-
-def test_stated_truth_is_not_looked_at() -> None:
-    """A reader takes frames without the scene and the start that simulated ones have."""
-    frames = [replace(frame, scene=None, start=None) for frame in film_of_scene()[:40]]
-    assert reading_of(frames, SCENE).payload == "HELLO"
 
 
 def test_the_films_differ_as_demanded() -> None:

@@ -46,7 +46,7 @@ def read(pictures: list[np.ndarray]) -> VideoReading:
     ("chips", "chip_rate"), [("10", 2345.0), ("1110000000", 6000.0), ("1111111100", 5123.0)]
 )
 def test_a_square_wave_or_pulse_tells_its_clock(chips: str, chip_rate: float) -> None:
-    found = read([stripes(number, chips, chip_rate) for number in range(20)])
+    found = read([stripes(number, chips, chip_rate) for number in range(12)])
     assert found.failure.startswith("The lamp sends a plain square wave or pulse: its stripes")
     assert "header" not in found.failure
     frequency, readout = found.clock.switching_frequency, found.clock.readout_time
@@ -60,20 +60,20 @@ def test_a_square_wave_or_pulse_tells_its_clock(chips: str, chip_rate: float) ->
 
 def test_stripes_in_some_frames_are_bursts() -> None:
     square, dark = stripes(0, "10", 2345.0), np.full(COLUMNS, 30.0)
-    found = read([square if number // 5 % 2 else dark for number in range(20)])
-    assert "They are in 10 of 20 frames only: it is sent in bursts." in found.failure
+    found = read([square if number // 3 % 2 else dark for number in range(12)])
+    assert "They are in 6 of 12 frames only: it is sent in bursts." in found.failure
     assert found.clock is None
 
 
 def test_whole_frames_that_blink_are_described() -> None:
-    found = read([np.full(COLUMNS, 200.0 if number // 4 % 2 else 30.0) for number in range(20)])
+    found = read([np.full(COLUMNS, 200.0 if number // 2 % 2 else 30.0) for number in range(10)])
     assert found.failure.startswith(
-        "Whole frames are bright or dark: 8 of 20 are bright, and that changes 4 times"
+        "Whole frames are bright or dark: 4 of 10 are bright, and that changes 4 times"
     )
 
 
 def test_a_pattern_that_repeats_is_no_square_wave() -> None:
-    found = read([stripes(number, "1101000", 5000.0) for number in range(12)])
+    found = read([stripes(number, "1101000", 5000.0) for number in range(6)])
     assert found.failure.startswith("The stripes repeat after 56.")
     assert found.clock is None
 

@@ -43,12 +43,6 @@ def states(pane: VideoWiring) -> list[int]:
     return pane.view.timeline.frames.states.tolist()
 
 
-@pytest.mark.own_window
-def test_nothing_of_films_is_loaded_before_the_mode_is_shown(application: Application) -> None:
-    assert application.shell.made_pane("video") is None
-    assert application.shell.is_idle
-
-
 def test_a_film_is_opened_read_and_seen_beside_the_simulation_along_either_axis(
     application: Application, user: User, film_file: Path
 ) -> None:
@@ -93,6 +87,8 @@ def test_a_film_that_was_never_seen_can_be_closed(
     application: Application, user: User, film_file: Path
 ) -> None:
     """As one of the last session, whose pane is not in front."""
+    assert application.shell.made_pane("video") is None
+    assert application.shell.is_idle
     store = application.store.store
     store.put(replace(store.workspace, film=FilmChoice().opened(film_file)))
     user.choose("C&lose film")
@@ -100,17 +96,22 @@ def test_a_film_that_was_never_seen_can_be_closed(
     assert not application.window.actions_by_name["close_film"].isEnabled()
 
 
-def test_what_is_no_film_is_a_sentence_and_the_film_stays(
-    pane: VideoWiring, application: Application, user: User, film_file: Path, tmp_path: Path
+@pytest.mark.own_window
+def test_what_is_no_film_is_a_sentence_and_what_was_open_stays(
+    application: Application, user: User, film_file: Path, tmp_path: Path
 ) -> None:
-    application.video.open(film_file)
-    user.wait_until_idle()
     damaged = tmp_path / "damaged.mp4"
     damaged.write_bytes(b"no film")
-    application.files.open_film(damaged)
-    user.wait_until_idle()
-    assert "damaged.mp4 is not a film that can be read" in user.message
-    assert application.video.path == film_file
+    for before in (None, film_file):
+        if before is not None:
+            application.video.open(before)
+            user.wait_until_idle()
+        application.files.open_film(damaged)
+        user.wait_until_idle()
+        assert "damaged.mp4 is not a film that can be read" in user.message
+        assert application.video.path == before
+        close = application.window.actions_by_name["close_film"]
+        assert close.isEnabled() == (before is not None)
 
 
 def test_the_session_keeps_the_film(
@@ -139,19 +140,6 @@ def test_a_kept_film_is_opened_when_the_mode_is_first_shown(
     application.window.modes.switch("video")
     user.wait_until_idle()
     assert application.video.wiring.path == film_file
-
-
-@pytest.mark.own_window
-def test_a_kept_film_that_cannot_be_opened_is_kept_no_longer(
-    application: Application, user: User, tmp_path: Path
-) -> None:
-    damaged = tmp_path / "damaged.mp4"
-    damaged.write_bytes(b"no film")
-    application.files.open_film(damaged)
-    user.wait_until_idle()
-    assert "damaged.mp4 is not a film that can be read" in user.message
-    assert application.video.path is None
-    assert not application.window.actions_by_name["close_film"].isEnabled()
 
 
 def test_the_window_closes_while_a_film_plays_and_is_read(

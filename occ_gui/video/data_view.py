@@ -36,9 +36,7 @@ class DataView(QWidget):
         self.text.setTabChangesFocus(True)
         self.sentences = paragraph(name="What is not sure")
         self.sentences.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
-        self.labels: dict[str, QLabel] = {}
-        self._names: dict[str, QLabel] = {}
-        self._present: list[str] = []
+        self.rows: list[tuple[QLabel, QLabel]] = []
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(12)
         self._grid.setVerticalSpacing(2)
@@ -68,30 +66,23 @@ class DataView(QWidget):
         bar.setValue(bar.maximum() if follows else place)
 
     def _show_facts(self, facts: tuple[Fact, ...]) -> None:
-        for fact in facts:
-            if fact.label not in self.labels:
-                self._add(fact.label)
-            self.labels[fact.label].setText(fact.text)
+        while len(self.rows) < len(facts):
+            self._add_row()
+        for fact, (name, value) in zip(facts, self.rows, strict=False):
+            name.setText(fact.label)
+            value.setText(fact.text)
+            value.setAccessibleName(fact.label)
             meaning = f"{fact.meaning} ({fact.note})" if fact.note else fact.meaning
-            for part in (self.labels[fact.label], self._names[fact.label]):
+            for part in (name, value):
                 part.setToolTip(in_tool_tip(meaning))
-        present = [fact.label for fact in facts]
-        if present != self._present:
-            self._present = present
-            self._arrange()
+        for place, row in enumerate(self.rows):
+            for part in row:
+                part.setVisible(place < len(facts))
 
-    def _arrange(self) -> None:
-        for label, value in self.labels.items():
-            for part in (self._names[label], value):
-                self._grid.removeWidget(part)
-                part.setVisible(label in self._present)
-        for row, label in enumerate(self._present):
-            self._grid.addWidget(self._names[label], row, 0)
-            self._grid.addWidget(self.labels[label], row, 1)
-
-    def _add(self, label: str) -> None:
-        name, value = QLabel(label), QLabel()
+    def _add_row(self) -> None:
+        name, value = QLabel(), QLabel()
         value.setTextFormat(Qt.TextFormat.PlainText)
         value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        value.setAccessibleName(label)
-        self.labels[label], self._names[label] = value, name
+        for column, part in enumerate((name, value)):
+            self._grid.addWidget(part, len(self.rows), column)
+        self.rows.append((name, value))

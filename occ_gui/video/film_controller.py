@@ -242,7 +242,6 @@ class FilmController(QObject):
                 scene=self._scenes.scene,
                 settings=self._scenes.settings.settings,
                 recording=self.choice.recording,
-                frames=self.choice.frames,
                 draft_step=_DRAFT_STEP if is_fast else 1,
             )
         )

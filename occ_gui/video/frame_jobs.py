@@ -30,7 +30,6 @@ class FrameRequest:
     scene: Scene
     settings: SimulationSettings
     recording: Recording
-    frames: int
     # A draft of the simulated frame shows one of so many rows; 1 for the exact picture
     draft_step: int = 1
 

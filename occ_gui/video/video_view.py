@@ -1,6 +1,6 @@
 """Pane of the films: the film beside its simulation, what is read of it, and its timeline."""
 
-from PySide6.QtCore import QSize, Qt, Signal
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QHBoxLayout, QSizePolicy, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
@@ -24,8 +24,6 @@ _LEAST_FORM = QSize(240, 80)
 
 class VideoView(QWidget):
     """Pictures above, rows, data and recording in pages below them, and the timeline."""
-
-    step_asked = Signal(int)  # how many frames the user goes on by a key
 
     def __init__(self) -> None:
         super().__init__()

@@ -39,11 +39,11 @@ def pixels_of(count: int, bands: int, depth: type, noisy: bool) -> np.ndarray:
     white = 255 if depth is np.float32 else np.iinfo(depth).max
     if noisy:
         rows = np.random.default_rng(0).uniform(0.16, 0.28, (min(509, side), *shape[1:]))
-        block = (white * rows).astype(depth)
+        block: np.ndarray = (white * rows).astype(depth)
         return np.concatenate([block] * (side // len(block) + 1))[:side]
     stripe = (np.arange(side) // 40 % 2 * 0.6 + 0.2) * white
     colours = 1.0 - np.arange(bands) / 10.0
-    row = (stripe[:, None] * colours).reshape(shape[1:]).astype(depth)
+    row: np.ndarray = (stripe[:, None] * colours).reshape((side, *shape[2:])).astype(depth)
     if bands in (2, 4):
         row[:, -1] = white
     return np.ascontiguousarray(np.broadcast_to(row, shape))

@@ -52,18 +52,22 @@ def test_text_that_grows_keeps_what_is_selected_and_is_followed_where_its_end_is
 
 
 def test_figures_stand_in_their_order_above_what_is_not_sure(view: DataView, qtbot: QtBot) -> None:
+    def shown() -> list[str]:
+        return [name.text() for name, value in view.rows if value.isVisible()]
+
     view.show_reading(reading("", "b", "d"))
     view.show_reading(reading("", "a", "b", "c", "d"))
+    assert shown() == list("abcd")
 
     def check() -> None:
-        tops = [view.labels[name].y() for name in "abcd"]
+        tops = [value.y() for _, value in view.rows]
         assert tops == sorted(set(tops))
 
     qtbot.waitUntil(check)
-    assert view.labels["c"].accessibleName() == "c"
-    assert view.labels["c"].toolTip() == "What c is."
+    _, value = view.rows[2]
+    assert (value.text(), value.accessibleName(), value.toolTip()) == ("c 1", "c", "What c is.")
     view.show_reading(reading("", "d", "a"))
-    assert [view.labels[name].isVisible() for name in "abcd"] == [True, False, False, True]
+    assert shown() == ["d", "a"]
     view.show_reading(reading(sentences=("One.", "Two.")))
     assert view.sentences.text() == "One.\nTwo."
     view.show_reading(reading())

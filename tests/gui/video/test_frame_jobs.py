@@ -18,7 +18,7 @@ from occ_model.scene.simulation_settings import SimulationSettings
 def request_of(film_scene: Scene) -> FrameRequest:
     return FrameRequest(
         film=None, live=None, index=3, scene=film_scene, settings=SimulationSettings(),
-        recording=occ.Recording(frame_rate=30.0), frames=6,
+        recording=occ.Recording(frame_rate=30.0),
     )  # fmt: skip
 
 

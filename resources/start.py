@@ -137,6 +137,14 @@ def root_prefix() -> list[str] | None:
     return ["sudo"] if free.returncode == 0 or os.isatty(0) else None
 
 
+def install_packages(prefix: Iterable[str], packages: Iterable[str]) -> bool:
+    """Install Debian packages; return whether that succeeded."""
+    as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
+    # An update that fails is no reason to stop: an old list often knows the packages too.
+    run_visibly([*as_root, "apt-get", "update"])
+    return run_visibly([*as_root, *APT_INSTALL, *packages])
+
+
 def provide_system_parts(platform: str, making_venv: bool) -> None:
     """See that the system has what Qt and pip need, by installing it where that is allowed."""
     missing = missing_parts(platform, making_venv) if sys.platform == "linux" else {}
@@ -151,10 +159,7 @@ def provide_system_parts(platform: str, making_venv: bool) -> None:
     if prefix is None:
         raise SetUpError(f"{lacks}. {remedy}")
     say(f"{lacks}. Installing {', '.join(missing.values())} ...")
-    as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
-    # An update that fails is no reason to stop: an old list often knows the packages too.
-    run_visibly([*as_root, "apt-get", "update"])
-    if not run_visibly([*as_root, *APT_INSTALL, *missing.values()]):
+    if not install_packages(prefix, missing.values()):
         raise SetUpError(f"apt-get could not install what is missing; see above. {remedy}")
     still = missing_parts(platform, making_venv)
     if still:
@@ -177,9 +182,7 @@ def offer_test_tools() -> None:
     if prefix is None:
         return
     say(f"Installing {', '.join(packages)} for the tests of boards ...")
-    as_root = [*prefix, "env", "DEBIAN_FRONTEND=noninteractive"]
-    run_visibly([*as_root, "apt-get", "update"])
-    if not run_visibly([*as_root, *APT_INSTALL, *packages]):
+    if not install_packages(prefix, packages):
         say("apt-get could not; the tests that need them are skipped.")
 
 

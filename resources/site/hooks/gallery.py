@@ -28,33 +28,15 @@ DOTS_PER_INCH = 120
 
 @dataclass
 class Example:
-    """An example that has been run.
+    """An example that has been run."""
 
-    Parameters
-    ----------
-    name
-        The file's name without its number and suffix.
-    title
-        The title.
-    source
-        The text of the file.
-    page
-        The page in Markdown.
-    notebook
-        The notebook, as the text of its file.
-    figures
-        PNG files by name.
-    names
-        The variables at its end.
-    """
-
-    name: str
+    name: str  # the file's, without its number and suffix
     source: str
     title: str = ""
-    page: str = ""
-    notebook: str = ""
-    figures: dict[str, bytes] = field(default_factory=dict)
-    names: dict[str, object] = field(default_factory=dict)
+    page: str = ""  # in Markdown
+    notebook: str = ""  # the text of its file
+    figures: dict[str, bytes] = field(default_factory=dict)  # PNG files by name
+    names: dict[str, object] = field(default_factory=dict)  # the variables at its end
 
 
 def paths() -> list[Path]:
@@ -68,13 +50,7 @@ def _name(path: Path) -> str:
 
 @cache
 def run(path: Path) -> Example:
-    """Run an example in the project's folder, once however often the site is built.
-
-    Raises
-    ------
-    Exception
-        Whatever the example raises.
-    """
+    """Run an example in the project's folder, once however often the site is built."""
     example = Example(_name(path), path.read_text(encoding="utf-8"))
     cells = jupytext.reads(example.source, fmt="py:percent")
     example.notebook = jupytext.writes(cells, fmt="ipynb")

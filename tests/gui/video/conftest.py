@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-import cv2
 import numpy as np
 import pytest
+from films import write_film
 
 import occ_model as occ
 from occ_gui.video.camera import LivePicture
@@ -54,10 +54,5 @@ def film(film_scene: Scene) -> Video:
 @pytest.fixture
 def film_file(film: Video, tmp_path: Path) -> Path:
     path = tmp_path / "stripes.avi"
-    rows, columns = film.shape
-    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), 30.0, (columns, rows))
-    assert writer.isOpened()
-    for frame in film:
-        writer.write(cv2.cvtColor(frame.image, cv2.COLOR_GRAY2BGR))
-    writer.release()
+    write_film(path, "MJPG", (frame.image for frame in film), size=film.shape)
     return path

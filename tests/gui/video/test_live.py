@@ -1,13 +1,11 @@
 """Live camera: those there are, the newest picture wins, and the device is always released."""
 
-from collections.abc import Callable
 from pathlib import Path
 from threading import Event
 
 import cv2
 import numpy as np
 import pytest
-from film_source import FilmSource
 from gui.kinds import not_none
 from gui.video.conftest import ListedSource
 
@@ -15,7 +13,6 @@ from occ_gui.video import camera
 from occ_gui.video.camera import CameraDevice, CameraSource, LivePicture, find_cameras
 from occ_gui.video.live_controller import LiveVideo
 from occ_model.errors import VideoError
-from occ_model.results.video import Video
 
 
 class FakeCapture:
@@ -260,20 +257,3 @@ def test_what_has_passed_is_not_kept() -> None:
     with pytest.raises(VideoError, match="is not kept"):
         video.frame(0)
     assert not video.simulated
-
-
-def test_a_film_stands_in_for_a_camera(film: Video, monkeypatch: pytest.MonkeyPatch) -> None:
-    slept: list[float] = []
-    naps: Callable[[float], None] = slept.append
-    monkeypatch.setattr("film_source.sleep", naps)
-    monkeypatch.setattr("film_source.monotonic", lambda: 7.0)
-    source = FilmSource(film, "A film")
-    source.open()
-    pictures = []
-    while (picture := source.read()) is not None:
-        pictures.append(picture)
-    assert [p.time for p in pictures] == [f.time for f in film]
-    assert slept == pytest.approx([f.time for f in film])
-    assert source.lock_exposure(True)
-    source.close()
-    assert source.read() is None

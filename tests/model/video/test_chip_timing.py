@@ -110,26 +110,6 @@ def test_a_chip_that_was_misread_is_set_right() -> None:
     assert ((fitted.ratios > 0.0) == (lattice.values == 1))[inside].all()
 
 
-def test_a_ratio_is_that_of_the_likelihoods_by_the_definition() -> None:
-    lattice = _lattice(0.6, 12)
-    noise = 0.6
-    light = _light(lattice, 1200, noise, 12)
-    fitted = fit_timing(light, lattice)
-    # Flip one chip, and compare both squared distances at the fitted levels.
-    swing = 1.0 + 0.3 * np.linspace(-1.0, 1.0, 1200) - 0.2 * np.linspace(-1.0, 1.0, 1200) ** 2
-    shares = []
-    for value in (0, 1):
-        values = lattice.values.copy()
-        values[40] = value
-        shares.append(
-            ChipLattice(lattice.step, lattice.phase, lattice.exposure, 0, values).lit(1200)[0]
-        )
-    dark = 0.1 + 0.05 * np.linspace(-1.0, 1.0, 1200)
-    distances = [float(((light - dark - swing * share) ** 2).sum()) for share in shares]
-    expected = (distances[0] - distances[1]) / (2.0 * noise**2)
-    assert fitted.ratios[40] == pytest.approx(expected, rel=0.25, abs=1.0)
-
-
 def test_chips_that_never_change_have_no_timing() -> None:
     lattice = ChipLattice(0.07, 0.2, 0.5, 0, np.ones(80, dtype=np.uint8))
     assert fit_timing(np.ones(1000), lattice) is None

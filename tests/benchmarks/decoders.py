@@ -1,4 +1,4 @@
-"""How many codes each decoder reads: the numbers and tables of ``resources/docs/decoders.md``.
+"""How many codes each decoder reads: the tables of ``resources/docs``, decoders.md and codes.md.
 
 ``python tests/benchmarks/decoders.py PART``, or all parts in turn:
 
@@ -10,7 +10,10 @@
   picture a cell, with a random start time, which is made whole and decoded from its pixels;
 * ``confidence``: how often the matched decoder reads a wrong code, and how sure it is then, in
   trials of other codes, start times, 4 to 60 kHz, 300 to 1800 columns, noise of 0.01 to 32 grey
-  levels on the column means, 136 us.
+  levels on the column means, 136 us;
+* ``scheme``: random payloads of 10 bits read of every scheme, at 4 kHz and 68 us;
+* ``line-code``: the highest frequency up to which all of them are read, at 136 us. In both the
+  panel is 0.6 m away, the enhancement off; the columns' means have noise of one grey level.
 """
 
 import argparse
@@ -32,6 +35,7 @@ from occ_model.receiver.decoders import DECODERS
 from occ_model.scene.scene import Scene
 from occ_model.scene.simulation_settings import SimulationSettings
 from occ_model.simulation.row_sample import sample_picture
+from occ_model.study.bit_error_rate import with_payload
 from occ_model.study.observation import observe_profile, observe_sample, panel_span
 
 PRESETS = ("phone-136us", "phone-136us-real")
@@ -45,6 +49,8 @@ POSES: dict[str, dict[str, float]] = {
     "two thirds outside": {"offset_x": 0.6},
 }
 NOISES = (1.0, 3.0, 10.0)
+BITS = 10
+FREQUENCIES = tuple(np.arange(4e3, 61e3, 2e3).tolist())
 
 
 def signal_of(scene: Scene, random: np.random.Generator) -> FloatArray:
@@ -183,11 +189,85 @@ def print_confidences(options: argparse.Namespace) -> None:
     print(f"read rightly with a confidence of 0.5 or more: {sum(c >= 0.5 for c in right)}")
 
 
+def scene_of(line_code: str, framing: str, preset: str, **changes: float) -> Scene | str:
+    """Give the scene that sends a scheme, or the sentence that refuses it."""
+    try:
+        scene = occ.load_preset(preset).replace(
+            enhancement="none", distance=0.6, line_code=line_code, framing=framing,
+            payload="bits:" + "0" * BITS, **changes,
+        )  # fmt: skip
+        occ.scheme_of(scene.transmitter)
+        occ.packet(scene)
+    except occ.OccError as refusal:
+        return str(refusal)
+    return scene
+
+
+def payloads_read(scene: Scene, decoder: str, pictures: int) -> tuple[int, int, str]:
+    """Count the payloads that are read rightly and wrongly, and say why the first one is not."""
+    random = np.random.default_rng(1)
+    right, wrong, why = 0, 0, ""
+    period = len(occ.packet(scene)) * scene.transmitter.switching_period
+    for _ in range(pictures):
+        bits = random.integers(0, 2, BITS)
+        sent = with_payload(scene, bits.tolist()).replace(start_time=random.uniform(0.0, period))
+        signal = occ.column_profile(sent) + random.standard_normal(sent.camera.columns)
+        found = occ.decode(signal, sent, decoder)
+        is_right = found.failure is None and np.array_equal(found.bits, bits)
+        right += is_right
+        wrong += found.failure is None and not is_right
+        why = why or found.failure or ""
+    return right, wrong, why
+
+
+def print_schemes(options: argparse.Namespace) -> None:
+    print(f"| line code | framing | {' | '.join(DECODERS)} |\n|---|---|{'---|' * len(DECODERS)}")
+    reasons: dict[str, None] = {}
+    for line_code in occ.line_codes():
+        for framing in occ.framings():
+            scene = scene_of(line_code, framing, "phone-68us", switching_frequency=4e3)
+            if isinstance(scene, str):
+                reasons[f"{line_code}, {framing}: {scene}"] = None
+                continue
+            found = {}
+            for decoder in DECODERS:
+                right, wrong, why = payloads_read(scene, decoder, options.codes)
+                found[decoder] = right, wrong
+                if right + wrong < options.codes:
+                    reasons[f"{line_code}, {framing}, {decoder}: {why}"] = None
+            print(f"| `{line_code}` | `{framing}` | {written(found)} |", flush=True)
+    print("\n" + "\n".join(reasons))
+
+
+def print_line_codes(options: argparse.Namespace) -> None:
+    """Print the highest frequency at which every payload is read, and all below it from 4 kHz."""
+    print(f"| line code | {' | '.join(DECODERS)} |\n|---|{'---|' * len(DECODERS)}")
+    for line_code in occ.line_codes():
+        cells = []
+        for decoder in DECODERS:
+            highest = "none"
+            for frequency in FREQUENCIES:
+                scene = scene_of(
+                    line_code, "preamble", "phone-136us", switching_frequency=frequency
+                )
+                if (
+                    isinstance(scene, str)
+                    or payloads_read(scene, decoder, options.codes)[0] < options.codes
+                ):
+                    break
+                highest = f"{frequency / 1e3:g} kHz"
+                highest += " or more" if frequency == FREQUENCIES[-1] else ""
+            cells.append(highest)
+        print(f"| `{line_code}` | {' | '.join(cells)} |", flush=True)
+
+
 PARTS = {
     "frequency": print_frequencies,
     "timing": print_wrong_timings,
     "pose": print_poses,
     "confidence": print_confidences,
+    "scheme": print_schemes,
+    "line-code": print_line_codes,
 }
 
 
@@ -195,7 +275,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add = parser.add_argument
     add("parts", nargs="*", metavar="part", help=f"{', '.join(PARTS)}; default: all")
-    add("--codes", type=int, default=20, help="at a frequency, default: %(default)s")
+    add("--codes", type=int, default=20, help="or payloads of a row, default: %(default)s")
     add("--step", type=float, default=1.0, help="of the frequencies in kHz, default: %(default)s")
     add("--all-codes", type=int, default=1024, help="how many of the 1024 codes in a pose")
     add("--trials", type=int, default=10_000, help="of the confidence, default: %(default)s")
